@@ -157,6 +157,10 @@ class Cluster(unittest.TestCase):
             with self.assertRaises(kerrd.Problem) as caught:
                 hole.stitched({"image": {"width": 90, "height": 61}})
             self.assertEqual((caught.exception.pointer, caught.exception.allowed is None), ("/style/exposure", False))
+            with self.assertRaises(kerrd.Problem) as caught:
+                kerrd.dask.stitched({"image": {"width": 90, "height": 61}}, self.dask, retries=0, binary=KERRD)
+            for field in "style.exposure", "style.bloom":
+                self.assertIn(field, caught.exception.detail)
 
     def test_6_a_film_by_all_one_of_whom_dies(self):
         document = {

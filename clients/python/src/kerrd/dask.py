@@ -131,7 +131,12 @@ def _render(plugin_name: str, document: Document, preset: str | None, layers: Se
 def _ask(
     hole: local, document: Document, preset: str | None, layers: Sequence[str]
 ) -> bytes | dict[str, NDArray[np.float32]]:
-    return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
+    try:
+        return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
+    except Problem:
+        if (document.get("image") or {}).get("tile"):
+            hole._may_be_tiled(document, preset)  # it raises a Problem that names all that a tile cannot have
+        raise
 
 
 def _gather(cluster: Cluster, futures: Any) -> Any:
