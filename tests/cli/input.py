@@ -326,8 +326,8 @@ class Files(Case):
         self.assertEqual(list(place), sorted(place, key=place.get))
 
     def test_not_pictures(self):
-        self.bad(2, "not a PNG file", "scene", "--from", self.write("a.png", "{}"))
-        self.bad(2, "not a PNG file", "scene", "--from", self.write("a.png", ""))
+        for content in "{}", "", b"\x89HDF\r\n\x1a\n":
+            self.bad(2, "wrote as png, npz, fits or exr", "scene", "--from", self.write("a.h5", content))
         self.bad(2, "use --from", "scene", self.write("a.png", b"\x89PNG\r\n\x1a\n"))
 
     def test_full_disk(self):

@@ -1,5 +1,6 @@
 #include "render/output/format.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const struct kd_format *kd_format_named(const char *name)
@@ -60,11 +61,25 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }
 
+/* The refusal names the formats that hold a scene. */
+static enum kd_status refuse_file(struct kd_error *error)
+{
+    char names[64] = "";
+    size_t end = 0, left = 0;
+    for (size_t i = 0; i < kd_n_formats; i++)
+        left += kd_formats[i]->scene != NULL;
+    for (size_t i = 0; i < kd_n_formats && end < sizeof names; i++)
+        if (kd_formats[i]->scene)
+            end += (size_t)snprintf(names + end, sizeof names - end, "%s%s", kd_formats[i]->name,
+                                    --left > 1 ? ", " : left ? " or " : "");
+    return kd_error_set(error, KD_EINVAL, "the file must be one that kerrd wrote as %s, which hold their scene", names);
+}
+
 enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error)
 {
     const struct kd_format *format = kd_format_of_bytes(data, size);
     if (!format)
-        format = kd_formats[0]; /* which says what is wrong with it */
+        return refuse_file(error);
     if (!format->scene)
         return kd_error_set(error, KD_EINVAL, "files of the format %s hold no scene", format->name);
     return format->scene(data, size, out, error);
