@@ -433,7 +433,14 @@ class Outputs(Case):
     def test_interrupt(self):
         big = ["--set", "image.width=8000", "--set", "image.height=6000", "--set", "image.samples=2"]
         process = subprocess.Popen([KERRD, "render", *big, "-o", self.path("a.png")], stderr=subprocess.PIPE)
-        time.sleep(1)
+
+        def handled():
+            with open(f"/proc/{process.pid}/status", encoding="utf-8") as status:
+                caught = next(line for line in status if line.startswith("SigCgt:"))
+            return int(caught.split()[1], 16) >> (signal.SIGINT - 1) & 1
+
+        while not handled():
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, -signal.SIGINT, errors)

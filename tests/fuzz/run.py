@@ -4,7 +4,7 @@ scripts/fuzz calls it; its arguments are that script's.
 
     run.py BUILD LIMIT SEED JOBS RESULT TARGET...  LIMIT: libFuzzer's option, -max_total_time=S or -runs=N; SEED: 0 for
                                                    a new one each time; RESULT: FILE.json, or nothing
-    run.py --replay BUILD                          each input that has failed, once more: exit 1 if one still does
+    run.py --replay BUILD                          each input that has failed, once more: exit 1 if one still does, or there is none
 
 An input that takes longer than 25 s, or a gigabyte and a half of memory, fails as well. Exit 1: a target has failed;
 what it said and how to see it again is printed.
@@ -43,9 +43,12 @@ def sanitized():
 
 
 def replay(build):
-    """Exit code: 1 if an input in BUILD/crash still fails."""
-    found = 0
-    for path in sorted(path for path in (build / "crash").glob("*-*") if path.suffix != ".log"):
+    """Exit code: 1 if an input in BUILD/crash still fails, or if there is none: the run failed otherwise then."""
+    paths = sorted(path for path in (build / "crash").glob("*-*") if path.suffix != ".log")
+    found = not paths
+    if not paths:
+        print(f"{build / 'crash'} holds no input that has failed")
+    for path in paths:
         program = build / "tests/fuzz" / f"fuzz_{path.name.partition('-')[0]}"
         code = subprocess.run([program, *OPTIONS[:3], path], stdin=subprocess.DEVNULL, env=sanitized()).returncode
         print(f"{path}: {'fails again' if code else 'passes'}", flush=True)

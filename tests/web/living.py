@@ -231,7 +231,7 @@ class Living(Browser):
 
         self.assertTrue(daemon.eventually(turned))
         page.click("#play")
-        page.wait_for_timeout(500)  # the last frame is drawn
+        self.quiet(page)
         # The line through the dot: half the angle that the dot is seen under, from upwards to the left
         # (docs/physics/polarization.md).
         line, x, y = loop.evaluate(
