@@ -71,7 +71,9 @@ static enum kd_status refuse_file(struct kd_error *error)
     for (size_t i = 0; i < kd_n_formats && end < sizeof names; i++)
         if (kd_formats[i]->scene)
             end += (size_t)snprintf(names + end, sizeof names - end, "%s%s", kd_formats[i]->name,
-                                    --left > 1 ? ", " : left ? " or " : "");
+                                    --left > 1 ? ", "
+                                    : left     ? " or "
+                                               : "");
     return kd_error_set(error, KD_EINVAL, "the file must be one that kerrd wrote as %s, which hold their scene", names);
 }
 
