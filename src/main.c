@@ -97,7 +97,6 @@ int main(int argc, char **argv)
 
     hold_standard_streams();
     argp_err_exit_status = KD_EXIT_USAGE;
-    signal(SIGXFSZ, SIG_IGN); /* a file that may not become as large is an error of write, EFBIG, for every command */
     signal(SIGPIPE, SIG_IGN); /* a reader that left is no end for a server; other commands: kd_cli_stdout_failed */
     signal(SIGXFSZ, SIG_IGN); /* a file that grows past `ulimit -f` is an error of write, and half a file is removed */
     atexit(kd_cli_close_stdout);

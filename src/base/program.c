@@ -132,8 +132,8 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* The beginning of what it says is kept: there is the reason. Closes the pipe where nobody has its other end any
- * more. */
+/* The beginning of what it says is kept, where the reason mostly is, and the end, where a full disk is told. Closes the
+ * pipe where nobody has its other end any more. */
 static void listen_to(struct kd_program *p)
 {
     char part[256];
@@ -143,6 +143,14 @@ static void listen_to(struct kd_program *p)
         memcpy(p->said + p->n_said, part, keep);
         p->n_said += keep;
         p->said[p->n_said] = 0;
+        if (p->n_last + (size_t)n >= sizeof p->last) { /* its older half makes way */
+            const size_t kept = sizeof p->last / 2;
+            memmove(p->last, p->last + p->n_last - kept, kept);
+            p->n_last = kept;
+        }
+        memcpy(p->last + p->n_last, part, (size_t)n);
+        p->n_last += (size_t)n;
+        p->last[p->n_last] = 0;
     }
     if (p->told >= 0 && n == 0)
         shut(&p->told);
@@ -159,6 +167,9 @@ bool kd_program_over(struct kd_program *p, int *code)
 {
     siginfo_t about = { 0 };
     int status;
+    *code = -1;
+    if (p->pid <= 0) /* it is over already */
+        return true;
     listen_to(p);
     if (!waitid(P_PID, (id_t)p->pid, &about, WEXITED | WNOHANG | WNOWAIT) && !about.si_pid)
         return false;
@@ -200,7 +211,7 @@ static bool begins_path(const char *at)
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
         if (!strncmp(at, ways[i], strlen(ways[i])))
             return true;
-    return *at == '/' && at[1] > ' ';
+    return *at == '/' && (unsigned char)at[1] > ' ';
 }
 
 /* Behind a control character, or a whole escape sequence (ECMA-48, 5.4). */

@@ -18,8 +18,9 @@
 struct kd_program {
     pid_t pid;    /* 0: it was not started, or is over */
     int in, told; /* ends of pipes: its standard input, and its standard error; -1: closed */
-    size_t n_said;
+    size_t n_said, n_last;
     char said[1000];                    /* the first that it said on its standard error, ends with 0 */
+    char last[1000];                    /* the last that it said there, likewise */
     double idle_ms, looked_ms, used_ms; /* of kd_program_idle_ms */
 };
 #define KD_PROGRAM_NONE { .in = -1, .told = -1 }

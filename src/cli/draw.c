@@ -4,12 +4,13 @@
 #include "cli/ending.h"
 #include "cli/progress.h"
 
-const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path)
+const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path,
+                                              bool required)
 {
 #define NAME(name) #name,
     static const char *const names[] = { KD_FORMATS(NAME) NULL };
 #undef NAME
-    return kd_format_named(kd_cli_ending(state, option, path, names));
+    return kd_format_named((required ? kd_cli_ending_required : kd_cli_ending)(state, option, path, names));
 }
 
 enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,

@@ -8,8 +8,10 @@
 
 #include <argp.h>
 
-/* The format that the name of a picture's file ends as (cli/ending.h); NULL: the name says nothing. */
-const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path);
+/* The format that the name of a picture's file ends as (cli/ending.h); NULL: the name says nothing, and is not required
+ * to. */
+const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path,
+                                              bool required);
 
 /* Plans and renders what the format needs of a scene; Ctrl-C stops it. *ms: what rendering took. The program ends
  * where the device is lost. *frame is the caller's to finish, also on error. */

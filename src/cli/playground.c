@@ -81,7 +81,7 @@ static void check_names(struct arguments *a, const struct argp_state *state)
     if (a->events)
         kd_cli_ending(state, "--events", a->events, KD_ENDINGS("ndjson"));
     if (a->pictures.path)
-        a->pictures.format = kd_cli_picture_format(state, "--picture", a->pictures.path);
+        a->pictures.format = kd_cli_picture_format(state, "--picture", a->pictures.path, true);
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -240,13 +240,18 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
 }
 
 /* Why time stands before t; the first reason is told when all is written. */
-static void tell_short(const struct kd_playground *p, double t, struct kd_error *short_of)
+static void tell_short(const struct kd_playground *p, double t, bool bounded, struct kd_error *short_of)
 {
     if (short_of->status)
         return;
     if (!(p->t < KD_PLAYGROUND_TIME))
         kd_error_set(short_of, KD_EIO, "time ends at %g M: it stands at %.9g M of the %.9g M asked for",
                      KD_PLAYGROUND_TIME, p->t, t);
+    else if (!bounded)
+        kd_error_set(short_of, KD_EIO,
+                     "time stands at %.9g M of the %.9g M asked for: a sub-step is shorter than a double "
+                     "can tell from there",
+                     p->t, t);
     else
         kd_error_set(short_of, KD_EIO,
                      "time stands at %.9g M of the %.9g M asked for: the budget of %u sub-steps is "
@@ -277,7 +282,7 @@ static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, 
 done:
     p->params.budget = budget;
     if (p->t < t)
-        tell_short(p, t, &story->short_of);
+        tell_short(p, t, a->bounded, &story->short_of);
     return status;
 }
 

@@ -36,9 +36,6 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
                                                : NULL;
     if (!asked->path)
         return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
-    if (!asked->format)
-        return kd_error_set(error, KD_EINVAL,
-                            "--picture is \"%s\": the name must end in .png, .fits, .exr, .npz or .npy", asked->path);
     if (asked->every > 0 && !number_in(asked->path, &length))
         return kd_error_set(error, KD_EINVAL,
                             "--picture is \"%s\", allowed with --every is a name with one %%d in it, as film/%%05d.png",

@@ -11,7 +11,7 @@
 
 /* What is asked for. */
 struct kd_pictures_asked {
-    const struct kd_format *format; /* NULL: the name does not say */
+    const struct kd_format *format; /* NULL without a path */
     const char *path; /* of one picture at the end, or with `every` a pattern with one %d, such as film/%05d.png; NULL:
                          none are asked for */
     double every;     /* M between pictures, from the begin on; 0: there is one */

@@ -42,7 +42,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the picture go?");
         else
-            arguments->format = kd_cli_picture_format(state, "--output", arguments->output);
+            arguments->format = kd_cli_picture_format(state, "--output", arguments->output, false);
         if (arguments->output && !arguments->format)
             arguments->format = kd_formats[0];
         return 0;

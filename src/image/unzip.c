@@ -187,7 +187,8 @@ enum kd_status kd_unzip_take(const struct kd_unzip *zip, const struct kd_unzip_m
     if (m->method != STORED && m->method != DEFLATED)
         return kd_error_set(error, KD_EINVAL, "is packed by method %u: a member must be stored or deflated", m->method);
     if (m->size > most)
-        return kd_error_set(error, KD_EINVAL, "is longer than %zu bytes", most);
+        return kd_error_set(error, KD_EINVAL, "has %llu bytes, it must have at most %zu", (unsigned long long)m->size,
+                            most);
     const uint8_t *from = bytes_of(zip, m);
     if (!from || (m->method == STORED ? m->packed != m->size : m->size / DENSEST > m->packed))
         return kd_error_set(error, KD_EINVAL, "is damaged: its length is not what the directory says");

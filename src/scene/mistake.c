@@ -30,6 +30,12 @@ static size_t span(const char *text, size_t length)
     return n;
 }
 
+static bool is_json(const char *word, size_t length)
+{
+    return (length == 4 && (!memcmp(word, "true", 4) || !memcmp(word, "null", 4))) ||
+           (length == 5 && !memcmp(word, "false", 5));
+}
+
 static const char *about_word(const char *text, size_t length, char before)
 {
     const size_t n = span(text, length);
@@ -39,7 +45,7 @@ static const char *about_word(const char *text, size_t length, char before)
     if (n && next < length && text[next] == ':' && (before == '{' || before == ','))
         return "a name without double quotes, which it needs";
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (n == strlen(words[i].word) && !strncasecmp(text, words[i].word, n))
+        if (n == strlen(words[i].word) && !strncasecmp(text, words[i].word, n) && !is_json(text, n))
             return words[i].says;
     return NULL;
 }

@@ -4,6 +4,7 @@ zlib alone."""
 import hashlib
 import io
 import json
+import math
 import os
 import shutil
 import struct
@@ -471,6 +472,31 @@ class State(Case):
         found = [server.get(self.at(k)).status for k in kept]
         self.assertEqual((found[0], sorted(found)), (200, [200, 200, 404]), "what was asked for stays")
         self.assertEqual(len(os.listdir(self.assets)), 6)
+        self.assertEqual(server.stop(), 0)
+
+    def test_nothing_gives_way_to_what_is_no_grid(self):
+        """Its arrays would take 84 MB, more than may be kept here; one of them is missing."""
+        options = ("--assets-kib", 40, "--asset-keep-s", 1)
+        server = self.start(*options)
+        kept = self.made(png(), server)
+        self.assertEqual(server.stop(), 0)
+        server = self.start(*options)
+        threading.Event().wait(1.2)  # from now on the picture may give way
+        row = lambda numbers: npy("<f8", (len(numbers),), struct.pack(f"<{len(numbers)}d", *numbers))
+        with zipfile.ZipFile(io.BytesIO(grid(0.5))) as archive:
+            header = archive.read("header.npy")
+        out = io.BytesIO()
+        with zipfile.ZipFile(out, "w") as archive:
+            for name, data in (
+                ("header", header),
+                ("r", row([2 * 1.02**i for i in range(256)])),
+                ("theta", row([math.pi * (i + 0.5) / 128 for i in range(128)])),
+                ("phi", row([math.tau * i / 64 for i in range(64)])),
+            ):
+                archive.writestr(zipfile.ZipInfo(name + ".npy"), data)
+        told = self.assertProblem(self.put(out.getvalue(), "application/x-npz", server), 422, "invalid-asset")["detail"]
+        self.assertRegex(told, "is missing")
+        self.assertEqual(server.get(self.at(kept)).status, 200)
         self.assertEqual(server.stop(), 0)
 
     def test_a_folder_that_cannot_be(self):

@@ -58,6 +58,19 @@ static void test_a_child_that_stays(void **state)
     assert_memory_equal(reason, "oops ", 5);
     expect_gone(&p);
     assert_true(p.told < 0 && p.in < 0 && !p.pid);
+    int code;
+    assert_true(kd_program_over(&p, &code) && code == -1); /* asked again it ends nobody, least of all our own group */
+}
+
+/* Of much that it says the beginning is kept, and the end. */
+static void test_a_long_story(void **state)
+{
+    (void)state;
+    struct kd_program p = start("for i in $(seq 500); do echo warning $i >&2; done; echo No space left >&2; exit 1");
+    assert_int_equal(end_of(&p), 1);
+    assert_memory_equal(p.said, "warning 1\nwarning 2\n", 20);
+    assert_true(strlen(p.last) < sizeof p.last && strlen(p.last) >= sizeof p.last / 2);
+    assert_string_equal(p.last + strlen(p.last) - 26, "warning 500\nNo space left\n");
 }
 
 static void test_its_group_ends_with_it(void **state)
@@ -125,9 +138,8 @@ static void test_what_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_child_that_stays),
-        cmocka_unit_test(test_its_group_ends_with_it),
-        cmocka_unit_test(test_one_that_does_nothing),
+        cmocka_unit_test(test_a_child_that_stays),     cmocka_unit_test(test_a_long_story),
+        cmocka_unit_test(test_its_group_ends_with_it), cmocka_unit_test(test_one_that_does_nothing),
         cmocka_unit_test(test_what_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -63,6 +63,8 @@ static const struct bad syntax[] = {
     { "{\"time\":0x10}", "", "a value right behind another" },
     { "{\"time\":1.2.3}", "", "malformed number" },
     { "{\"time\":True}", "", "a word in capitals, which JSON has as true" },
+    { "{\"time\" true}", "", "a value right behind another" },
+    { "[1 null]", "", "a value right behind another" },
     { "{\"time\":1.0000000000000000000000000000000000000000000000000000000000001}", "", "more than 60 characters" },
     { "{\"time\":\v1}", "", "unexpected character" },
     { "\xef\xbb\xbf{,}", "",

@@ -45,8 +45,13 @@ enum kd_status kd_matter_array_take(const struct kd_unzip *zip, const char *name
     KD_TRY(kd_matter_member(zip, name, 8 * most + KD_NPY_HEADER_MAX + 12, &out->file, error));
     if (kd_npy_read(out->file.data, out->file.size, &npy, &why))
         KD_TRY(kd_matter_refuse(name, why.message, error));
-    if (npy.n_fields != 1 || npy.fields[0].name[0] || npy.fields[0].type > KD_NPY_F4 || !npy.items || npy.items > most)
-        KD_TRY(kd_matter_refuse(name, "has no plain numbers <f8 or <f4, or has none, or too many of them", error));
+    if (npy.n_fields != 1 || npy.fields[0].name[0] || npy.fields[0].type > KD_NPY_F4)
+        KD_TRY(kd_matter_refuse(name, "the element type must be <f8 or <f4", error));
+    if (!npy.items || npy.items > most) {
+        char told[100];
+        snprintf(told, sizeof told, "has %llu numbers, it must have 1 to %zu", (unsigned long long)npy.items, most);
+        KD_TRY(kd_matter_refuse(name, told, error));
+    }
     out->numbers = out->file.data + npy.header_size;
     out->single = npy.fields[0].type == KD_NPY_F4;
     out->n = (size_t)npy.items;

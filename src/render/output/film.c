@@ -229,8 +229,9 @@ static enum kd_status feed(struct film *f, struct kd_error *error)
         return KD_OK;
     char reason[300];
     kd_program_reason(&f->program, reason);
-    return kd_error_set(error, strstr(f->program.said, "No space left") ? KD_EFULL : KD_EIO,
-                        "ffmpeg failed at frame %u: %s", f->next, *reason ? reason : "it did not say why");
+    return kd_error_set(
+        error, strstr(f->program.said, "No space left") || strstr(f->program.last, "No space left") ? KD_EFULL : KD_EIO,
+        "ffmpeg failed at frame %u: %s", f->next, *reason ? reason : "it did not say why");
 }
 
 static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, struct kd_error *error)

@@ -265,7 +265,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
 {
     const struct removing *r = (const struct removing *)request->task;
     if (r->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (r->task.status) {
         struct kd_problem problem = kd_problem_from(&r->task.error);
         return kd_reply_problem(request, &problem);

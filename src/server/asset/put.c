@@ -1,5 +1,6 @@
 /* How bytes become an asset, a piece each turn: hashed, compared with what is here, checked, given a place, written.
- * Nothing is checked twice, and what a check unpacks counts to the limit of bytes while it lasts. */
+ * Nothing is checked twice. What a check unpacks counts to the limit of bytes while it lasts; a check that is alone may
+ * go beyond it, for no asset gives way to bytes that may turn out to be no grid. */
 #include "server/asset/internal.h"
 
 #include "base/clock.h"
@@ -51,16 +52,15 @@ static bool is_anyone_leaving(const struct kd_asset_store *store)
 /* What a step finds where it wants room. */
 enum room { ROOM, ROOM_LATER, ROOM_NONE };
 
-/* Looks for room for one more asset, or without `asset` for bytes alone. *leaves: the caller removes this one first,
- * without the lock. With the lock. */
-static enum room find_room(struct kd_asset_store *store, uint64_t bytes, bool asset, struct kd_asset **leaves)
+/* Looks for room for one more asset. *leaves: the caller removes this one first, without the lock. With the lock. */
+static enum room find_room(struct kd_asset_store *store, uint64_t bytes, struct kd_asset **leaves)
 {
-    if ((!asset || store->count < store->limits.most) && store->bytes + store->checking + bytes <= store->limits.bytes)
+    if (store->count < store->limits.most && store->bytes + bytes <= store->limits.bytes)
         return ROOM;
     *leaves = oldest(store);
     if (*leaves)
         (*leaves)->state = KD_ASSET_LEAVING;
-    return *leaves || store->checking || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
+    return *leaves || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
 }
 
 /* Says whether the client has its share already, or would have more with these bytes. With the lock. */
@@ -80,10 +80,8 @@ static enum kd_status is_full(struct kd_asset_put *put, struct kd_error *error)
 {
     const struct kd_asset_limits *limits = &put->own->store->limits;
     put->full = true;
-    return kd_error_set(
-        error, KD_EFULL,
-        "as many assets are kept as may: %u, of %llu bytes in all, with what a grid takes while it is checked",
-        limits->most, (unsigned long long)limits->bytes);
+    return kd_error_set(error, KD_EFULL, "as many assets are kept as may: %u, of %llu bytes in all", limits->most,
+                        (unsigned long long)limits->bytes);
 }
 
 /* After a look for room: removes what gives way, and says how to go on. Without the lock. */
@@ -138,25 +136,50 @@ static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asse
     return status;
 }
 
-/* Finds a place, and writes. */
+/* Says whether there is room for the asset, and gives it its place if it has been made. With the lock. */
+static enum room take_place(struct kd_asset_put *put, struct kd_asset *fresh, struct kd_asset **leaves,
+                            enum kd_asset_progress *how, bool *here)
+{
+    struct kd_asset_putting *p = put->own;
+    *here = is_here(put, how);
+    put->quota = !*here && has_share(p->store, p->size, p->client);
+    if (*here || put->quota)
+        return ROOM_NONE;
+    const enum room room = find_room(p->store, p->size, leaves);
+    if (room == ROOM && fresh) {
+        fresh->references = 2;
+        kd_asset_insert(p->store, fresh);
+    }
+    return room;
+}
+
+static enum kd_status is_beyond_share(const struct kd_asset_store *store, struct kd_error *error)
+{
+    return kd_error_set(error, KD_EBUSY,
+                        "as many assets of yours are kept as may of one client: %u, of %llu bytes in all",
+                        store->limits.client_most, (unsigned long long)store->limits.client_bytes);
+}
+
+/* Finds a place, and writes. The bytes are copied once there is room, without the lock; the room may be gone then. */
 static enum kd_status place(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                             struct kd_error *error)
 {
     struct kd_asset_putting *p = put->own;
     struct kd_asset_store *store = p->store;
-    struct kd_asset *fresh = kd_asset_make(store, &p->about, p->data, p->size, p->client), *leaves = NULL;
-    enum room room = ROOM_LATER;
+    struct kd_asset *fresh = NULL, *leaves = NULL;
+    enum room room;
+    bool here;
     (void)until_ms;
-    if (!fresh)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for an asset of %zu bytes", p->size);
     pthread_mutex_lock(&store->lock);
-    bool here = is_here(put, how);
-    put->quota = !here && has_share(store, p->size, p->client);
-    if (!here && !put->quota && (room = find_room(store, p->size, true, &leaves)) == ROOM) {
-        fresh->references = 2;
-        kd_asset_insert(store, fresh);
-    }
+    room = take_place(put, NULL, &leaves, how, &here);
     pthread_mutex_unlock(&store->lock);
+    if (room == ROOM) {
+        if (!(fresh = kd_asset_make(store, &p->about, p->data, p->size, p->client)))
+            return kd_error_set(error, KD_ENOMEM, "out of memory for an asset of %zu bytes", p->size);
+        pthread_mutex_lock(&store->lock);
+        room = take_place(put, fresh, &leaves, how, &here);
+        pthread_mutex_unlock(&store->lock);
+    }
     if (room == ROOM) {
         enum kd_status status = settle(store, fresh, error);
         put->asset = status ? NULL : fresh;
@@ -166,9 +189,7 @@ static enum kd_status place(struct kd_asset_put *put, double until_ms, enum kd_a
     }
     free(fresh);
     if (put->quota)
-        return kd_error_set(error, KD_EBUSY,
-                            "as many assets of yours are kept as may of one client: %u, of %llu bytes in all",
-                            store->limits.client_most, (unsigned long long)store->limits.client_bytes);
+        return is_beyond_share(store, error);
     return here ? KD_OK : after_room(put, room, leaves, how, error);
 }
 
@@ -191,17 +212,18 @@ static enum kd_status reserve(struct kd_asset_put *put, double until_ms, enum kd
                               struct kd_error *error)
 {
     struct kd_asset_putting *p = put->own;
-    struct kd_asset *leaves = NULL;
+    struct kd_asset_store *store = p->store;
     const uint64_t bytes = kd_matter_reader_bytes(p->grid);
-    (void)until_ms;
-    pthread_mutex_lock(&p->store->lock);
-    enum room room = find_room(p->store, bytes, false, &leaves);
-    if (room == ROOM)
-        p->store->checking += p->reserved = bytes;
-    pthread_mutex_unlock(&p->store->lock);
-    if (room == ROOM)
+    (void)until_ms, (void)error;
+    pthread_mutex_lock(&store->lock);
+    if (!store->checking || store->bytes + store->checking + bytes <= store->limits.bytes) {
+        store->checking += p->reserved = bytes;
         p->step = check_grid;
-    return after_room(put, room, leaves, how, error);
+    } else {
+        *how = KD_ASSET_WAIT;
+    }
+    pthread_mutex_unlock(&store->lock);
+    return KD_OK;
 }
 
 static enum kd_status open_bytes(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,

@@ -127,8 +127,11 @@ void kd_asset_store_close(struct kd_asset_store *store)
 {
     if (!store)
         return;
-    while (store->first)
+    while (store->first) {
+        if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0) /* its turn did not come any more */
+            kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
+    }
     if (store->folder >= 0)
         close(store->folder);
     pthread_mutex_destroy(&store->lock);

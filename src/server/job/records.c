@@ -72,7 +72,7 @@ static void done(struct kd_turns_job *writer)
 
 void kd_jobs_begin_writing(struct kd_jobs *all)
 {
-    if (all->writes || !all->begun || !first_unwritten(all))
+    if (all->writes || !all->begun || all->closed || !first_unwritten(all)) /* the end writes what is left */
         return;
     all->writes = true;
     all->writer = (struct kd_turns_job) { .turn = turn, .done = done };

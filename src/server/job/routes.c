@@ -199,7 +199,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
 {
     const struct kd_task *task = request->task;
     if (task->status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (task->status) {
         struct kd_problem problem = kd_problem_from(&task->error);
         return kd_reply_problem(request, &problem);
