@@ -29,14 +29,14 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
 
-const float EPSILON = 6e-8; /* unit roundoff */
 const uint MORE =
     12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
 
 /* Where a ray is between two crossings. */
 struct kd_leg {
     kd_centre last; /* the last crossing, or the start        */
-    kd_state next;  /* where the plane is crossed next, if it */
+    kd_centre to;   /* and where the plane is crossed next,   */
+    kd_state next;  /* if it                                  */
     bool alive;     /* still is outside then                  */
     float psi, chi; /* azimuth there, but for the drag since `last`; the drag up to `last`, */
     float drag;     /* and since                                      */
@@ -63,6 +63,28 @@ float time_limit(kd_barrier b, kd_state start, float e, bool falls)
 bool goes_on(kd_leg leg, bool falls, float limit)
 {
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
+}
+
+/* Whether rounding may have made, or missed, its next crossing. The drag costs half of the kernel's time: it is not
+ * asked for where nothing else needs it. */
+bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
+{
+    return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
+}
+
+/* A half period further. nodes, arc, z: of its time. */
+void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_arc arc, float z, float psi, float tau,
+           float edge, float limit)
+{
+    leg.last = leg.to;
+    leg.chi += leg.drag;
+    leg.side = -leg.side;
+    leg.next = kd_ahead(a, leg.last, arc);
+    leg.to = kd_centre_of(a, leg.next);
+    leg.drag = kd_drag_between(drag, leg.last, leg.to, nodes, z);
+    leg.tau += tau;
+    leg.psi += psi;
+    leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
 /* Whether polar.first is a time at all. Where A > 0 it is none if Q < 0, and rounding has its way where Q nearly
@@ -135,7 +157,7 @@ void main()
     kd_state start;
     start.w = ray.w;
     start.dw = ray.dw;
-    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
+    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root, kd_camera_rounding());
     kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_flies_out(barrier, start));
     float edge = cam.horizon * a.scale, limit = time_limit(barrier, start, ray.e, drag.falls);
 
@@ -150,41 +172,45 @@ void main()
     scaled.w *= a.scale;
     leg.last = kd_centre_of(a, scaled);
     leg.next = kd_ahead(a, leg.last, end1);
-    kd_centre next = kd_centre_of(a, leg.next);
+    leg.to = kd_centre_of(a, leg.next);
     leg.tau = polar.first;
     leg.psi = azimuth.first;
     leg.chi = FINITE ? -kd_drag_fallen(drag, ray.w) - cam.twist : 0.0;
-    leg.drag = kd_drag_between(drag, leg.last, next, n1, z1);
+    leg.drag = kd_drag_between(drag, leg.last, leg.to, n1, z1);
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    const float far = a.scale * ray.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
-    const float off = kd_open_within(barrier, EPSILON);
-    bool open =
-        !kd_is_decided(barrier, start, EPSILON) || (polar.crosses && kd_crossing_is_open(leg.next.w, far, edge, off));
-    open = open || !kd_is_finite(leg.next.w + leg.drag);
+    /* The scale of w far out is E over the larger of E and |(l, p)|, which a.scale is at most sqrt(3) times, or 1; and
+     * at most that of the horizon. */
+    const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
+    bool open = !kd_is_decided(barrier, start) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
+    const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    for (; n < ORDERS + (SKY ? MORE : 0); n++) {
-        if (!leg.alive || (n >= ORDERS && drag.falls))
-            break;
-        leg.last = next;
-        leg.chi += leg.drag;
-        leg.side = -leg.side;
-        leg.next = kd_ahead(a, leg.last, endh);
-        next = kd_centre_of(a, leg.next);
-        leg.drag = kd_drag_between(drag, leg.last, next, nh, zh);
-        leg.tau += polar.half_;
-        leg.psi += azimuth.half_;
-        leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
-        if (n < ORDERS) {
+    if (!PHI && !SKY) { /* a half period costs as much as keeping that there is none */
+        for (; n < ORDERS; n++) {
+            bool before = leg.alive;
+            go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);
+            open = open || (before && is_open(leg, polar, margins));
             keep(at, n, leg.alive && polar.crosses, leg, drag);
-            open = open || (polar.crosses && kd_crossing_is_open(leg.next.w, far, edge, off)) ||
-                   !kd_is_finite(leg.next.w + leg.drag);
         }
     }
-    for (; n < ORDERS; n++)
-        keep(at, n, false, leg, drag);
+    /* These loops ask at their ends whether they go on: of those that ask at their heads lavapipe goes through the
+     * body once more. */
+    if ((PHI || SKY) && leg.alive && n < legs) {
+        do {
+            go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);
+            if (n < ORDERS) {
+                open = open || is_open(leg, polar, margins);
+                keep(at, n, leg.alive && polar.crosses, leg, drag);
+            }
+        } while (++n < legs && leg.alive);
+    }
+    if ((PHI || SKY) && n < ORDERS) {
+        do {
+            keep(at, n, false, leg, drag);
+        } while (++n < ORDERS);
+    }
     if (SKY) {
         kd_arc middle = nh.middle;
         float z = zh, before = 0.0;

@@ -30,8 +30,6 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/place.glsl"
 #include "ray/escape.glsl"
 
-const float EPSILON = 6e-8; /* unit roundoff */
-
 /* Boole's weights of five places. */
 float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 
@@ -84,12 +82,13 @@ void main()
     y.w = ray.w;
     y.dw = ray.dw;
     bool dark = INGOING && !kd_from_outside(m, ray.w, ray.e, cam.spin, cam.horizon);
-    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
+    const kd_rounding rounding = kd_camera_rounding();
+    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
     kd_state start = y;
     float way = 0.0, fallen = 0.0;
     bool returns = false;
     if (INGOING)
-        barrier = kd_barrier_beside(m, barrier, y, ray.size_e, cam.horizon);
+        barrier = kd_barrier_beside(m, barrier, y, cam.horizon, rounding);
     if (INGOING && (PHI || SKY)) {
         returns = !kd_flies_out(barrier, y);
         way = returns && y.dw > 0.0 ? 1.0 : -1.0;
@@ -98,9 +97,9 @@ void main()
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses && !dark;
-    const float off = kd_open_within(barrier, EPSILON);
-    bool open = !dark && !kd_is_decided(barrier, start, EPSILON);
-    const float far = ray.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
+    bool open = !dark && !kd_is_decided(barrier, start);
+    const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
+    float lost = kd_start_noise(m, start, rounding); /* of R; what steps lose shows at each crossing */
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
     for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0);
@@ -156,9 +155,11 @@ void main()
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
-        open = open || kd_crossing_is_open(y.w, far, cam.horizon, off) || !kd_is_finite(y.w + sum);
+        kd_margins margins = kd_margins_of(barrier, barrier.noise + lost, min(far, cam.horizon), cam.horizon);
+        open = open || kd_crossing_is_open(y.w, margins) || !kd_is_finite(y.w + sum);
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {
+            lost = max(lost, abs(y.dw * y.dw - kd_fall_squared(m, y.w, ray.e, cam.spin, cam.root)));
             chi += sum * h * (2.0 / 45.0);
             float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
             lens[at + n * slice.stride] = y.w;

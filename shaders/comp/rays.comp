@@ -114,9 +114,6 @@ void main()
     ray.l = -cam.list[3 * i];
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
-    ray.size_e = 1.0;
-    ray.size_l = abs(ray.l);
-    ray.size_p = abs(ray.p);
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
@@ -132,7 +129,8 @@ void main()
     kd_state half_, start;
     half_.w = start.w = ray.w;
     half_.dw = start.dw = ray.dw;
-    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, cam.epsilon);
+    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root,
+                                       kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
     /* The start is rounded: w is, and so is R, of which w' is the root. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
@@ -217,7 +215,7 @@ void main()
     kd_escape end = kd_path_escape(m, ray, last);
     if (error == 0.0) /* no crossing: nothing amplifies */
         error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
-    if (!kd_is_decided(barrier, start, cam.epsilon) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+    if (!kd_is_decided(barrier, start) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
         end.fate = KD_FATE_UNDECIDED;
     at = o + 3 * ORDERS;
     ends[at] = end.u;

@@ -209,8 +209,9 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
         kd_state y;
         y.w = ray.w;
         y.dw = ray.dw;
-        kd_barrier b = kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, 6e-8), y,
-                                         ray.size_e, cam.horizon);
+        kd_rounding off = kd_camera_rounding();
+        kd_barrier b =
+            kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root, off), y, cam.horizon, off);
         drag.returns = !kd_flies_out(b, y);
         drag.way = drag.returns && y.dw > 0.0 ? 1.0 : -1.0;
         drag.fallen = drag.way > 0.0 ? -2.0 * cam.twist : 0.0;

@@ -46,6 +46,13 @@ float kd_camera_ahead(inout float x, inout float y)
     return 1.0;
 }
 
+/* What rounding does to its rays. */
+kd_rounding kd_camera_rounding()
+{
+    return kd_rounding(cam.size_e, cam.noise_w, cam.noise_wl, cam.noise_p, cam.noise_l, cam.noise_k, cam.noise_0,
+                       16.0 * KD_ROUNDOFF);
+}
+
 kd_ray kd_camera_ray(uint px, uint py)
 {
     float x = float(px) - cam.middle_x, y = cam.middle_y - float(py), ahead = kd_camera_ahead(x, y);
@@ -58,9 +65,6 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.p = ky;
         ray.w = 0.0;
         ray.dw = 1.0;
-        ray.size_e = 1.0;
-        ray.size_l = abs(ahead * cam.c0x) + abs(x * cam.cxx) + abs(y * cam.cyx);
-        ray.size_p = abs(ahead * cam.c0y) + abs(x * cam.cxy) + abs(y * cam.cyy);
     } else { /* (k_r, k_theta, k_phi); the photon flies along -k */
         float kz = ahead * cam.c0z + x * cam.cxz + y * cam.cyz;
         float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
@@ -68,12 +72,6 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
         ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
                               n; /* not by m: what is one product is rounded twice */
-        float size_r = n * (abs(ahead * cam.c0x) + abs(x * cam.cxx) + abs(y * cam.cyx)),
-              size_theta = n * (abs(ahead * cam.c0y) + abs(x * cam.cxy) + abs(y * cam.cyy));
-        float size_phi = n * (abs(ahead * cam.c0z) + abs(x * cam.cxz) + abs(y * cam.cyz));
-        ray.size_e = abs(cam.e_t) + abs(cam.e_r) * size_r + abs(cam.e_theta) * size_theta + abs(cam.e_phi) * size_phi;
-        ray.size_l = abs(cam.l_t) + abs(cam.l_r) * size_r + abs(cam.l_theta) * size_theta + abs(cam.l_phi) * size_phi;
-        ray.size_p = abs(cam.p_t) + abs(cam.p_r) * size_r + abs(cam.p_theta) * size_theta + abs(cam.p_phi) * size_phi;
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }

@@ -10,10 +10,28 @@
 #define KD_KERR_RAY_GLSL
 
 struct kd_ray {
-    float e, l, p;                /* E, L / sin(theta_o), p_theta of the arriving photon         */
-    float w, dw;                  /* M/r of the observer, and dw/dtau there along the traced path */
-    float size_e, size_l, size_p; /* of the terms that e, l and p are sums of: by so many roundoffs they may be off */
+    float e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
+    float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
+
+/* What rounding may do to R = W^2 - D K w^2, by bounds for all rays of an observer. E, L and p_theta are sums of
+ * terms: they are off by some roundoffs of the terms' sizes, which are at most size_e, |L| + d_l and |p| + d_p. With
+ * j = |a| size_e, and h for the horizon's w, W is off by w + wl |l| and K by l^2 + p^2 + p |p| + l |l| + k:
+ *   w = size_e + |a| h^2 (j + s d_l),  wl = |a| s h^2,  p = d_p,  l = d_l + 2 s j,  k = j ((1 + u^2) j + s d_l),
+ * and `least` is of second order (kd_camera_exact of src/render/view/camera.c). */
+struct kd_rounding {
+    float size_e, w, wl, p, l, k, least;
+    float unit; /* a number of roundoffs */
+};
+
+/* Of a ray by its labels, which are exact. */
+kd_rounding kd_rounding_of_labels(kd_ray ray, float a, float u, float s, float horizon, float epsilon)
+{
+    float j = abs(a) * ray.e, wl = abs(a) * s * horizon * horizon, w = ray.e + abs(a) * j * horizon * horizon,
+          all = w + wl * abs(ray.l);
+    return kd_rounding(ray.e, w, wl, 0.0, 2.0 * s * j, (1.0 + u * u + 4.0 * epsilon) * j * j, 4.0 * epsilon * all * all,
+                       16.0 * epsilon);
+}
 
 /* A ray is its constants of motion and the coefficients of R(w) and U(u). */
 struct kd_geodesic {
@@ -36,9 +54,10 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     return m;
 }
 
-/* A factor that A, K and Q are taken times where they are squared, and divided by after: 1, but where a float does
- * not hold their squares, as those of a fast observer far away are. A power of two: no digit changes. */
-float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.6736174e-19 : 1.0; }
+/* A factor that A, K and Q are taken times where they are squared, and its inverse for what comes of it: 1, but where
+ * a float does not hold their squares, as those of a fast observer far away are. Powers of two: no digit changes. */
+float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
+float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
 
 /* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole,
  * and the two factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may,

@@ -5,29 +5,29 @@
 
 layout(set = 0, binding = 1) buffer Given { uint undecided, given[]; };
 
-/* at: of the ray in a plane of the lens map. A loop, for lavapipe skips work only by leaving one, and counts for
- * each lane by itself. */
+/* at: of the ray in a plane of the lens map. */
 void kd_leave_open(bool open, uint at)
 {
-    for (; open; open = false) {
+    if (open) {
         uint n = atomicAdd(undecided, 1u);
         if (n < KD_GIVEN_MOST)
             given[n] = at;
     }
 }
 
-/* Of the scale of w: what rounding may do to a ray's crossings. It grows as the ray comes closer to the critical
- * curve, where R at the barrier vanishes. */
-float kd_open_within(kd_barrier b, float epsilon)
+/* How far a crossing must be from infinity and from the horizon, in units of w, for rounding not to have made it, or
+ * missed it. */
+struct kd_margins { float far, horizon, edge; };
+
+/* far, horizon: the scales of w there; noise: what rounding does to R at the barrier. The margin grows as the ray comes
+ * closer to the critical curve, where R vanishes there. */
+kd_margins kd_margins_of(kd_barrier b, float noise, float far, float horizon)
 {
-    return min(epsilon * (32.0 + b.noise / max(abs(b.r), 1e-30)), 0.05);
+    float part = 32.0 * KD_ROUNDOFF + noise / max(abs(b.r), 1e-30);
+    return kd_margins(part * far, part * horizon, horizon);
 }
 
-/* Says whether rounding may have made, or missed, a crossing of the plane that a ray finds at w: next to infinity or
- * to the horizon. `far`: the scale of w far out, the sine of the angle to the hole; off: as above. */
-bool kd_crossing_is_open(float w, float far, float horizon, float off)
-{
-    return min(abs(w) - off * min(far, horizon), abs(w - horizon) - off * horizon) < 0.0;
-}
+/* Says so of a ray that finds the plane at w; true of what is no number. */
+bool kd_crossing_is_open(float w, kd_margins off) { return !(abs(w) >= off.far && abs(w - off.edge) >= off.horizon); }
 
 #endif

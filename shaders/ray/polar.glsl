@@ -26,7 +26,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
 {
     kd_polar o;
     float by = kd_squared_by(m), a2 = by * m.a2,
-          root = sqrt(max(a2 * a2 + 4.0 * (by * m.energy2) * (by * m.q), 0.0)) / by;
+          root = sqrt(max(a2 * a2 + 4.0 * (by * m.energy2) * (by * m.q), 0.0)) * kd_squared_back(by);
     o.s = root;
     o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may be too small for a float */
     /* This is (s - A)/2, without cancellation for either sign of A. */

@@ -87,47 +87,50 @@ float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); 
 
 /* A ray ends there by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon
  * region, and at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R =
- * W^2 - D K w^2 holds its digits next to the horizon too. `noise`: what rounding may have done to it, in units of
- * the roundoff. */
+ * W^2 - D K w^2 holds its digits next to the horizon too. */
 struct kd_barrier {
-    float w, r, noise; /* the place, the horizon if it lies behind; R there */
-    bool open;         /* it lies clearly behind the horizon: nothing to pass */
+    float w, r;  /* the place, the horizon if it lies behind; R there, */
+    float noise; /* and what rounding may have done to it */
+    bool open;   /* it lies clearly behind the horizon: nothing to pass */
 };
 
-/* u: cosine of the observer's polar angle. */
-kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float horizon, float root, float epsilon)
+kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float horizon, float root, kd_rounding off)
 {
     kd_barrier o;
-    float by = kd_squared_by(m), k = by * m.k, disc = sqrt(max(9.0 * k * k + 8.0 * (by * m.d) * (by * m.a2), 0.0)) / by;
+    float by = kd_squared_by(m), k = by * m.k,
+          disc = sqrt(max(9.0 * k * k + 8.0 * (by * m.d) * (by * m.a2), 0.0)) * kd_squared_back(by);
     float w = m.a2 < 0.0 ? -2.0 * m.a2 / (3.0 * m.k + disc) : 2.0;
     o.open = w > 1.01 * horizon;
     o.w = min(w, horizon);
-    float w2 = o.w * o.w, ae = a * ray.e, d = max(kd_delta(o.w, root), 0.0);
-    precise float fall = ray.e + a * (ae - m.momentum) * w2;
-    precise float r = fall * fall - d * m.k * w2; /* rounded as `noise` counts it */
-    float size_ae = abs(a) * ray.size_e, size_j = size_ae + sqrt(max(1.0 - u * u, 0.0)) * ray.size_l,
-          size = ray.size_e + abs(a) * size_j * w2;
-    float size_k = abs(ray.p) * ray.size_p + u * u * (abs(ray.l) * ray.size_l + abs(ae) * size_ae) +
-                   (abs(ae) + abs(m.momentum)) * size_j;
-    float size_k2 = ray.size_p * ray.size_p + u * u * ray.size_l * ray.size_l + size_j * size_j;
+    float w2 = o.w * o.w, dw2 = max(kd_delta(o.w, root), 0.0) * w2, l = abs(ray.l), p = abs(ray.p);
+    precise float fall = ray.e + a * (a * ray.e - m.momentum) * w2;
+    precise float r = fall * fall - dw2 * m.k;
     o.r = r;
-    o.noise = 16.0 * (abs(fall) * size + d * size_k * w2) + 64.0 * epsilon * (size * size + d * size_k2 * w2);
+    o.noise =
+        off.unit * (abs(fall) * (off.w + off.wl * l) + dw2 * (l * (l + off.l) + p * (p + off.p) + off.k) + off.least);
     return o;
 }
 
 /* The same from a place beside it, for an observer next to the orbits of light: R is w'^2 there, and between the two
  * places it changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), x being the way, since R' vanishes at the
  * barrier. Of w' next to 0 its square has more digits than R. */
-kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float size_e, float horizon)
+kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
           hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
-    float noise = 16.0 * (abs(y.dw) * (size_e + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
+    float noise = off.unit * (abs(y.dw) * (off.size_e + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
     if (b.w < horizon && noise < b.noise) {
         b.r = y.dw * y.dw - hump;
         b.noise = noise;
     }
     return b;
+}
+
+/* What rounding the start does to R on the way of a ray that is followed from there by steps: w is rounded, and w',
+ * whose square is R. */
+float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
+{
+    return off.unit * (abs(y.dw) * (off.size_e + sqrt(max(m.k, 0.0)) * y.w) + abs(y.w * kd_pull(m, y.w)));
 }
 
 /* Says whether a ray goes into the horizon from where it is now, without turning. */
@@ -146,11 +149,10 @@ bool kd_flies_out(kd_barrier b, kd_state y)
 }
 
 /* Says whether either can be told. */
-bool kd_is_decided(kd_barrier b, kd_state y, float epsilon)
+bool kd_is_decided(kd_barrier b, kd_state y)
 {
-    float noise = epsilon * b.noise;
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;
-    return (!b.open && abs(b.r) > noise) || ((b.open || !ahead) && y.dw * y.dw > noise);
+    return (!b.open && abs(b.r) > b.noise) || ((b.open || !ahead) && y.dw * y.dw > b.noise);
 }
 
 #endif

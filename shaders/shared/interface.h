@@ -13,6 +13,9 @@
 #define KD_SIGHT_SPHERE 2
 #define KD_SIGHT_DOME 3
 
+/* Unit roundoff of the kernels' numbers. */
+#define KD_ROUNDOFF 6e-8
+
 /* The camera and constants of the hole are a uniform block of the tracing and transfer kernels.
  * A ray at (x, y), in steps from the middle of the picture, y upwards, has the direction c0 + x cx + y cy; at
  * infinity its first two components are alpha and beta, at a finite radius it is normalised to the look direction k
@@ -34,6 +37,9 @@
     F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi) \
     F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi) \
     F(turn_x) F(turn_y)     /* quarter turns a step, on a sphere and a dome */ \
+    F(size_e)               /* |E| of any of its rays is at most this, */ \
+    /* and rounding changes R by no more than these say (kd_rounding of shaders/ray/kerr_ray.glsl) */ \
+    F(noise_w) F(noise_wl) F(noise_p) F(noise_l) F(noise_k) F(noise_0) \
     U(width)                /* rays a row */ \
     U(sight)                /* KD_SIGHT_, which kernels have as a constant */
 /* clang-format on */

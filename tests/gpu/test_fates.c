@@ -278,7 +278,13 @@ static void pictures_that_were_wrong_once(void **state)
         scene.sky.model = KD_SKY_GRID;
         judge(&scene, i, &t);
     }
-    tell_tally(&t, sizeof once / sizeof *once);
+    /* Of the run with the seed 7: steps in a near extremal hole lost the second crossing of a ray that circles. */
+    const unsigned circles = 998;
+    struct kd_random random = { 7 + circles * UINT64_C(0x100000001) };
+    struct kd_scene scene;
+    random_camera(&random, &scene);
+    judge(&scene, circles, &t);
+    tell_tally(&t, sizeof once / sizeof *once + 1);
 }
 
 static void fates_are_those_of_double_precision(void **state)

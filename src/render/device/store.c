@@ -165,7 +165,8 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     enum kd_status status =
         once(store->vk, &store->undecided, 4 * (1 + KD_GIVEN_MOST), KD_VK_DEVICE, "undecided rays", error);
     if (!status)
-        status = once(store->vk, &store->undecided_host, 4, KD_VK_READBACK, "undecided rays on the host", error);
+        status = once(store->vk, &store->undecided_host, 4 * (1 + KD_GIVEN_MOST), KD_VK_READBACK,
+                      "undecided rays on the host", error);
     return status ? status : find_or_make(store, plan, out, reused, error);
 }
 

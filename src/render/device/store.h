@@ -76,7 +76,7 @@ struct kd_store {
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, part by part: nothing is kept in it */
     struct kd_vk_buffer
         *undecided; /* rays that the kernels leave open: a counter, then the places of KD_GIVEN_MOST of them; and */
-    struct kd_vk_buffer *undecided_host; /* the counter on the host */
+    struct kd_vk_buffer *undecided_host; /* both on the host */
 };
 
 /* The lens map of the plan: *reused says that it is complete. Otherwise its buffers are there to be written, and

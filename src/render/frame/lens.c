@@ -265,14 +265,18 @@ static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice
     return kd_frame_footprint(j, &area);
 }
 
-/* Trace a slice, and finish what then can be. */
+/* Trace a slice, settle what that leaves open, and finish what then can be. */
 static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *traced, const struct slice *whole)
 {
     const struct kd_vk_pipeline *trace;
-    enum kd_status status = kd_frame_trace_kernel(j, &on_grid, &trace);
-    if (!status)
-        status = trace_slice(j, traced, trace);
-    return status ? status : footprint_slice(j, whole);
+    enum kd_status status;
+    KD_TRY(kd_frame_trace_kernel(j, &on_grid, &trace));
+    KD_TRY(kd_frame_forget_open(j, NULL));
+    KD_TRY(trace_slice(j, traced, trace));
+    KD_TRY(kd_frame_settle(j, NULL, traced->band));
+    KD_TRY(footprint_slice(j, whole));
+done:
+    return status;
 }
 
 /* Make those pixels dark. */
@@ -334,49 +338,13 @@ done:
     return status;
 }
 
-/* Settles the rays of a band that were left open; of the rows round them footprints are made anew, and light, if
- * they are lit. */
-static enum kd_status settle_band(struct kd_frame_job *j, uint32_t band, bool lit)
-{
-    const struct kd_plan *p = j->plan;
-    const uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band),
-                   reach = kd_plan_has_footprints(p) ? 2 : 0;
-    struct kd_open_rays open;
-    bool *touched = calloc(rows, sizeof *touched);
-    enum kd_status status = touched ? kd_frame_settle(j, NULL, band, &open)
-                                    : kd_error_set(j->error, KD_ENOMEM, "out of memory for %u rows", rows);
-    if (status) {
-        free(touched);
-        return status;
-    }
-    for (uint32_t i = 0; i < open.n; i++) {
-        const uint32_t row = open.places[i] / (p->width * p->side) / p->side, from = row > reach ? row - reach : 0;
-        for (uint32_t y = from; y < rows && y <= row + reach; y++)
-            touched[y] = true;
-    }
-    for (uint32_t y = 0, end; y < rows && open.n; y = end + 1) {
-        for (end = y; end < rows && touched[end];)
-            end++;
-        const struct slice s = { band, first + y, end - y };
-        if (s.count)
-            KD_TRY(footprint_slice(j, &s));
-        if (s.count && lit)
-            KD_TRY(light_slice(j, &s));
-    }
-    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
-done:
-    kd_open_rays_finish(&open);
-    free(touched);
-    return status;
-}
-
 /* Lights a band slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     uint32_t step = kd_frame_slice(ns * p->width * p->side * p->side, rows);
-    enum kd_status status = needed ? kd_frame_forget_open(j, NULL) : KD_OK;
+    enum kd_status status = KD_OK;
     for (uint32_t row = 0; row < rows && !status; row += step) {
         const struct slice s = { band, first + row, rows - row < step ? rows - row : step };
         const struct slice whole = needed ? complete(j, &s) : s;
@@ -386,8 +354,6 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
         j->lit = whole.first + whole.count;
         KD_TRY(kd_frame_report(j, needed ? 2 * whole.count : whole.count));
     }
-    if (needed && !status)
-        KD_TRY(settle_band(j, band, true));
 done:
     return status;
 }
@@ -417,15 +383,13 @@ static enum kd_status map_band(struct kd_frame_job *j, uint32_t band, double ns)
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     uint32_t step = kd_frame_slice(ns * p->width * p->side * p->side, rows);
-    enum kd_status status = kd_frame_forget_open(j, NULL);
+    enum kd_status status = KD_OK;
     for (uint32_t row = 0; row < rows && !status; row += step) {
         const struct slice s = { band, first + row, rows - row < step ? rows - row : step }, whole = complete(j, &s);
         KD_TRY(map_slice(j, &s, &whole));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, s.count));
     }
-    if (!status)
-        KD_TRY(settle_band(j, band, false));
 done:
     return status;
 }
@@ -504,7 +468,6 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
                                KD_VK_READBACK, "lens map on the host", &host, error));
     KD_TRY(kd_frame_send_cameras(&job));
     for (uint32_t band = 0; band < plan->bands; band++) {
-        KD_TRY(kd_frame_forget_open(&job, NULL));
         uint32_t rows = kd_frame_band_rows(&job, band);
         uint32_t step = kd_frame_slice(plan->trace_ns * plan->width * plan->side * plan->side, rows);
         for (uint32_t done = 0; done < rows && !status; done += step) {
@@ -515,7 +478,6 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
             KD_TRY(kd_vk_submit(renderer->vk, NULL, error));
         }
         KD_TRY(status);
-        KD_TRY(settle_band(&job, band, false));
         KD_TRY(read_band(&job, band, host, planes));
     }
 done:

@@ -47,20 +47,12 @@ enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_
 /* Tells the light of the plan's pixel anew, if it is one of a part that has just been lit. */
 enum kd_status kd_frame_tell_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
 
-/* Rays that the kernels left open, in a band of the grid or a part of a list, which has just been traced: once all
- * that is recorded is done they are followed again (settle.c), and what is written to the map is recorded, not
- * submitted. What is still open then is counted in job->undecided. Which rays they were is for whoever has made
- * anything of the map. kd_frame_forget_open: before one is traced. part: NULL for the band. */
-struct kd_open_rays {
-    struct kd_vk_buffer *lens;
-    uint32_t n, stride; /* none: 0 */
-    uint32_t *places;   /* in a plane of the map */
-    struct kd_camera_label *labels;
-};
-enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band,
-                               struct kd_open_rays *open);
-void kd_open_rays_finish(struct kd_open_rays *open);
+/* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band). The list of
+ * open rays is emptied before rays are traced. Once they are, those on the list are followed again (settle.c): this
+ * submits what is recorded and waits for it, and records what is written to the map. What is still open then is counted
+ * in job->undecided. */
 enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_frame_part *part);
+enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 
 /* Rays of pixels on a square grid, by interpolation in the lens map of the picture's grid (comp/between.comp).
  * kd_frame_has_between: that has one ray a pixel, and all of it is there. kd_frame_mark_between: of which pixels

@@ -120,14 +120,11 @@ done:
 static enum kd_status trace_and_settle(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);
-    struct kd_open_rays open;
     enum kd_status status;
     d.pass = pass_of(part, KD_PASS_TRACE);
     KD_TRY(kd_frame_forget_open(j, part));
     KD_TRY(run_part(j, part, 0, part->n, &d, KD_MAKES_RAYS, j->plan->trace_ns));
-    KD_TRY(kd_frame_settle(j, part, 0, &open));
-    kd_open_rays_finish(&open);
-    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+    KD_TRY(kd_frame_settle(j, part, 0));
 done:
     return status;
 }

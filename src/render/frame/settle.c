@@ -1,6 +1,6 @@
 /* This settles rays that the kernels leave open: whose end, or number of crossings, single precision cannot tell.
  * They are few, are followed again in closed form, in double on the host, and take their places in the lens map
- * before anything reads it, or what has read it is made anew. */
+ * before anything reads it. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
@@ -8,6 +8,16 @@
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Rays that were left open in a band of the grid, or in a part of a list. */
+struct open_rays {
+    struct kd_vk_buffer *lens;
+    uint32_t n, stride;
+    uint32_t *places; /* in a plane of the map */
+    struct kd_camera_label *labels;
+};
+
+enum { READ_AT_ONCE = 255 }; /* places; most maps have fewer */
 
 static const char *pass_of(const struct kd_frame_part *part)
 {
@@ -20,11 +30,12 @@ enum kd_status kd_frame_forget_open(struct kd_frame_job *j, const struct kd_fram
                                            : KD_OK;
 }
 
-/* Reads so many words of what the kernels left, from the first on. */
-static enum kd_status read_words(struct kd_frame_job *j, struct kd_vk_buffer *host, uint64_t words)
+/* Reads the list of open rays: its counter, and the first places, of which most maps need no more. */
+static enum kd_status read_list(struct kd_frame_job *j, uint32_t places)
 {
     enum kd_status status;
-    KD_TRY(kd_vk_copy(j->r->vk, "readback", host, 0, j->store->undecided, 0, 4 * words, j->error));
+    KD_TRY(kd_vk_copy(j->r->vk, "readback", j->store->undecided_host, 0, j->store->undecided, 0, 4ull * (1 + places),
+                      j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
 done:
@@ -32,7 +43,7 @@ done:
 }
 
 /* Follows them, and sends them to their places. words: those places, before the planes. */
-static enum kd_status follow(struct kd_frame_job *j, const struct kd_open_rays *open, const char *pass,
+static enum kd_status follow(struct kd_frame_job *j, const struct open_rays *open, const char *pass,
                              struct kd_vk_buffer *host, struct kd_vk_buffer *device)
 {
     const struct kd_plan *p = j->plan;
@@ -51,7 +62,7 @@ done:
     return status;
 }
 
-static enum kd_status send(struct kd_frame_job *j, const struct kd_open_rays *open, const char *pass)
+static enum kd_status send(struct kd_frame_job *j, const struct open_rays *open, const char *pass)
 {
     const uint64_t bytes = 4ull * open->n * (1 + j->plan->planes);
     struct kd_vk_buffer *host = NULL, *device = NULL;
@@ -68,8 +79,7 @@ done:
 }
 
 /* The labels of those whose places are known. */
-static void label(const struct kd_frame_job *j, struct kd_open_rays *open, const struct kd_frame_part *part,
-                  uint32_t band)
+static void label(const struct kd_frame_job *j, struct open_rays *open, const struct kd_frame_part *part, uint32_t band)
 {
     const struct kd_critical_lattice *l = part ? &part->list->lattice : NULL;
     const struct kd_scene camera = part ? kd_critical_camera(j->scene, kd_critical_steps(l)) : *j->scene;
@@ -84,54 +94,37 @@ static void label(const struct kd_frame_job *j, struct kd_open_rays *open, const
     }
 }
 
-static enum kd_status settle(struct kd_frame_job *j, struct kd_open_rays *open, const struct kd_frame_part *part,
-                             uint32_t band, uint32_t found)
-{
-    struct kd_vk_buffer *host = NULL;
-    enum kd_status status;
-    KD_TRY(
-        kd_vk_buffer_create(j->r->vk, 4ull * (1 + open->n), KD_VK_READBACK, "open rays on the host", &host, j->error));
-    KD_TRY(read_words(j, host, 1 + open->n));
-    open->places = malloc(open->n * sizeof *open->places);
-    open->labels = malloc(open->n * sizeof *open->labels);
-    if (!open->places || !open->labels)
-        KD_TRY(kd_error_set(j->error, KD_ENOMEM, "out of memory for %u rays", open->n));
-    memcpy(open->places, (const uint32_t *)kd_vk_buffer_map(host) + 1, open->n * sizeof *open->places);
-    label(j, open, part, band);
-    j->undecided += found - open->n;
-    KD_TRY(send(j, open, pass_of(part)));
-done:
-    kd_vk_buffer_destroy(j->r->vk, host);
-    return status;
-}
-
-void kd_open_rays_finish(struct kd_open_rays *open)
-{
-    free(open->places);
-    free(open->labels);
-    *open = (struct kd_open_rays) { 0 };
-}
-
-enum kd_status kd_frame_settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band,
-                               struct kd_open_rays *open)
+/* found: open rays, of which at most KD_GIVEN_MOST are listed. */
+static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;
-    *open = (struct kd_open_rays) {
+    struct open_rays open = {
         .lens = part ? part->lens : kd_frame_band_lens(j, band),
+        .n = found < KD_GIVEN_MOST ? found : KD_GIVEN_MOST,
         .stride = part ? part->push.stride : p->width * p->side * p->band_rows * p->side,
     };
-    if (p->path == KD_LENS_LISTED || !p->planes)
-        return KD_OK;
-    enum kd_status status;
-    KD_TRY(read_words(j, j->store->undecided_host, 1));
-    const uint32_t found = *(const uint32_t *)kd_vk_buffer_map(j->store->undecided_host);
-    if (!found)
-        return KD_OK;
-    open->n = found < KD_GIVEN_MOST ? found : KD_GIVEN_MOST;
-    KD_TRY(settle(j, open, part, band, found));
-    KD_TRY(kd_frame_forget_open(j, part));
+    enum kd_status status = KD_OK;
+    if (open.n > READ_AT_ONCE)
+        KD_TRY(read_list(j, open.n));
+    open.places = malloc(open.n * sizeof *open.places);
+    open.labels = malloc(open.n * sizeof *open.labels);
+    if (!open.places || !open.labels)
+        KD_TRY(kd_error_set(j->error, KD_ENOMEM, "out of memory for %u rays", open.n));
+    memcpy(open.places, (const uint32_t *)kd_vk_buffer_map(j->store->undecided_host) + 1, open.n * sizeof *open.places);
+    label(j, &open, part, band);
+    j->undecided += found - open.n;
+    KD_TRY(send(j, &open, pass_of(part)));
 done:
-    if (status)
-        kd_open_rays_finish(open);
+    free(open.places);
+    free(open.labels);
     return status;
+}
+
+enum kd_status kd_frame_settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band)
+{
+    if (j->plan->path == KD_LENS_LISTED)
+        return KD_OK;
+    enum kd_status status = read_list(j, READ_AT_ONCE);
+    const uint32_t found = status ? 0 : *(const uint32_t *)kd_vk_buffer_map(j->store->undecided_host);
+    return found ? settle(j, part, band, found) : status;
 }

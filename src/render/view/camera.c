@@ -103,6 +103,44 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
+/* The sums of the sizes of terms, over what they add up to: at most 2 min(x, y) more where x and y are of other signs.
+ */
+static double more_than_sum(double constant, double across, double up)
+{
+    return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
+}
+
+/* What rounding may do to rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: of the whole picture in
+ * steps. The components of a unit vector, which are sums of three of right angles to each other, have terms of sqrt(3).
+ */
+static void bound_rounding(struct kd_camera_exact *o, double width, double height)
+{
+    const double all = sqrt(3), x = 0.5 * width, y = 0.5 * height, h2 = o->horizon * o->horizon;
+    double most_l, d_l, d_p;
+    if (o->sight == KD_SIGHT_PLANE) {
+        o->size_e = 1;
+        d_l = more_than_sum(o->c0x, x * o->cxx, y * o->cyx);
+        d_p = more_than_sum(o->c0y, x * o->cxy, y * o->cyy);
+        most_l = fabs(o->c0x) + x * fabs(o->cxx) + y * fabs(o->cyx);
+    } else {
+        const bool flat = o->sight == KD_SIGHT_PINHOLE; /* its directions are no shorter than 1 */
+        const double d_theta = flat ? fmin(all, more_than_sum(o->c0y, x * o->cxy, y * o->cyy)) : all,
+                     d_phi = flat ? fmin(all, more_than_sum(o->c0z, x * o->cxz, y * o->cyz)) : all;
+        o->size_e = fabs(o->e_t) + all * (fabs(o->e_r) + fabs(o->e_theta) + fabs(o->e_phi));
+        d_l = 2 * (fabs(o->l_t) + all * (fabs(o->l_r) + fabs(o->l_theta))) + d_phi * fabs(o->l_phi);
+        d_p = 2 * (fabs(o->p_t) + all * (fabs(o->p_r) + fabs(o->p_phi))) + d_theta * fabs(o->p_theta);
+        most_l = fabs(o->l_t) + all * (fabs(o->l_r) + fabs(o->l_theta) + fabs(o->l_phi));
+    }
+    const double j = fabs(o->spin) * o->size_e, second = 4 * KD_ROUNDOFF;
+    o->noise_w = o->size_e + fabs(o->spin) * h2 * (j + o->s * d_l);
+    o->noise_wl = fabs(o->spin) * o->s * h2;
+    o->noise_p = d_p;
+    o->noise_l = d_l + 2 * o->s * j;
+    o->noise_k =
+        j * ((1 + o->u * o->u) * j + o->s * d_l) + second * (d_p * d_p + d_l * d_l + j * j + 2 * o->s * j * d_l);
+    o->noise_0 = second * (o->noise_w + o->noise_wl * most_l) * (o->noise_w + o->noise_wl * most_l);
+}
+
 struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
 {
     struct kd_camera_exact o = { 0 };
@@ -129,6 +167,7 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
         near(&o, c, o.sight == KD_SIGHT_PINHOLE ? kd_camera_pixel(scene) / kd_scene_side(scene) : 1);
         frame(&o, scene, &at);
     }
+    bound_rounding(&o, width, height);
     return o;
 }
 
