@@ -279,6 +279,8 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
 {
     job->queue = queue;
     job->submitted_ms = job->away_ms = kd_clock_ms();
+    job->kernels_ms = 0;
+    job->compilation = NULL;
     kd_render_stand_in_line(job);
     job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
     pthread_mutex_lock(&queue->lock);
