@@ -156,7 +156,8 @@ void *kd_render_compile_main(void *user)
                     NICE); /* threads that it starts, the driver's, have it from it */
     pthread_mutex_lock(&queue->lock);
     while (!queue->closing) {
-        const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled;
+        const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled ||
+                           queue->holder == &queue->rest; /* the device may be closed */
         struct kd_render_job *job = waits ? NULL : job_of(kd_shares_next(&queue->missing, is_any, NULL));
         if (job)
             compile(queue, job);
