@@ -33,9 +33,13 @@ FRAME = {"image": {"width": 640, "height": 360}}
 
 
 class Server:
-    def __init__(self, path, *options):
+    def __init__(self, path, *options, env=None):
         self.process = subprocess.Popen(
-            [path, "serve", "--port", "0", *options], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+            [path, "serve", "--port", "0", *options],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            env=env,
         )
         self.port = int(re.search(r":(\d+)/", self.process.stdout.readline())[1])
 
@@ -217,6 +221,18 @@ def queue(load):
     playgrounds(load)
 
 
+def new_kernels(load):
+    """One preset after the other, each of which needs kernels that no one before did."""
+    presets = [p["name"] for p in json.loads(load.server.ask(load.source, "GET", "/v1/presets")[1])["presets"]]
+    left = iter(presets * 100)
+    load.loop(
+        "presets",
+        lambda c: load.server.ask(
+            load.source, "GET", f"/v1/render?image.width=320&image.height=180&preset={next(left)}", connection=c
+        )[0],
+    )
+
+
 LOADS = {
     "nothing": [],
     "two watched sessions": [watched],
@@ -227,6 +243,7 @@ LOADS = {
     "twenty loops of huge plans": [plans],
     "all of these": [watched, dragged, large, job, rays, plans],
     "all that one may queue": [queue],
+    "presets whose kernels are new": [new_kernels],
 }
 
 
@@ -285,9 +302,15 @@ def warm(server, size=SIZE):
         server.ask("127.0.0.2", "GET", picture_of(size))
 
 
+def empty_cache(folder):
+    """An environment in which neither the driver nor kerrd finds a kernel that was compiled before."""
+    return {**os.environ, "MESA_SHADER_CACHE_DIR": folder, "XDG_CACHE_HOME": folder}
+
+
 def run_one(path, name, seconds, options=(), size=SIZE, session=True):
-    with tempfile.TemporaryDirectory() as state:
-        server = Server(path, "--state", state, *options)
+    new = LOADS[name] == [new_kernels]
+    with tempfile.TemporaryDirectory() as state, tempfile.TemporaryDirectory() as cache:
+        server = Server(path, "--state", state, *options, env=empty_cache(cache) if new else None)
         try:
             warm(server, size)
             server.ask(
@@ -299,7 +322,7 @@ def run_one(path, name, seconds, options=(), size=SIZE, session=True):
             load = Load(server)
             for begin in LOADS[name]:
                 begin(load)
-            time.sleep(2 if LOADS[name] else 0)
+            time.sleep(2 if LOADS[name] and not new else 0)
             return {**look(server, seconds, size=size, session=session), "load": load.counts}
         finally:
             server.stop()

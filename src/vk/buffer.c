@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void buffer_free(struct kd_vk *vk, struct kd_vk_retired *object)
 {
@@ -66,6 +67,8 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
         return kd_error_set(error, status, "buffer '%s': %s", name, why.message);
     }
     kd_vk_mapped_enter(vk, buffer);
+    if (vk->compiles_only && memory == KD_VK_READBACK) /* no kernel will write what the host reads */
+        memset(kd_vk_buffer_map(buffer), 0, size);
     *out = buffer;
     return KD_OK;
 }

@@ -155,7 +155,10 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
     if (pipeline->push_bytes)
         vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes,
                                 dispatch->push);
-    vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
+    if (vk->compiles_only)
+        vk->fn.CmdDispatch(slot->commands, 0, 0, 0);
+    else
+        vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
     ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk); /* ours to write, not the caller's */
 done:
     return status;
@@ -176,6 +179,8 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
         return kd_error_set(error, KD_EINTERNAL, "%s: the two ranges of '%s' overlap", pass, to->name);
     if (!size)
         return kd_vk_alive(vk, error);
+    if (vk->compiles_only && to->memory == KD_VK_READBACK)
+        return kd_vk_fill(vk, pass, to, to_offset / 4 * 4, size / 4 * 4, 0, error);
     enum kd_status status = kd_vk_submit_slot(vk, &slot, error);
     if (status)
         return status;

@@ -105,6 +105,7 @@ enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **ou
     struct kd_vk *vk = calloc(1, sizeof *vk);
     if (!vk)
         return kd_error_set(error, KD_ENOMEM, "no memory for a device");
+    vk->compiles_only = params->compiles_only;
     vk->deadline_ns = (params->deadline_ms ? params->deadline_ms : 60000) * UINT64_C(1000000);
     enum kd_status status;
     KD_TRY(kd_vk_instance_init(&vk->instance, validation_wanted(params), error));

@@ -44,6 +44,8 @@ struct kd_vk_params {
     const char *device;    /* "auto", an index, or part of a name (case-insensitive)    */
     const char *cache_dir; /* pipeline cache directory, NULL: $XDG_CACHE_HOME/kerrd, "": none */
     bool validate;         /* Khronos layer with synchronisation validation; also KERRD_VALIDATE=1 */
+    bool compiles_only;    /* dispatches have no workgroups, and copies to the host are zeros: nothing is computed, but
+                              a driver that compiles a kernel at its first dispatch does so */
     uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000. A software device that hardly has the
                               processor has up to 8 times as long */
 };
@@ -61,6 +63,14 @@ bool kd_vk_hangs(const struct kd_vk *vk); /* a submission has missed its deadlin
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and errors so far    */
+/* When the driver compiles a kernel: as its pipeline is made; or at its first dispatch, on the device's queue, and then
+ * whether it keeps what it compiled in files, which other devices of the process read (lavapipe). dir: the folder of
+ * these files, "" where it is not known. Any thread. */
+enum kd_vk_compiling { KD_VK_COMPILES_EARLY, KD_VK_COMPILES_LATE, KD_VK_COMPILES_LATE_KEEPS_NOTHING };
+enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[4096]);
+/* A number for the folders in which it keeps them: another one when they have been removed and made again. 0: there are
+ * none. Any thread. */
+uint64_t kd_vk_compiled_id(const struct kd_vk *vk);
 /* Path of a file in the cache directory that belongs to this device and this version of its driver, as the pipeline
  * cache does; malloc'd. NULL where there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);

@@ -3,6 +3,7 @@
 #include "render_support.h"
 
 #include "render/device/internal.h"
+#include "render/frame/compilation.h"
 #include "vk/device.h"
 
 static uint32_t made(void) { return renderer->vk->n_pipelines; }
@@ -114,16 +115,57 @@ static void a_kept_lens_map_is_not_traced(void **state)
     }
 }
 
+static bool goes_on(void *user, double fraction)
+{
+    (void)user, (void)fraction;
+    return true;
+}
+
+/* Kernels that are compiled beside the device are those that the frame asks for, and the picture is the same. */
+static void compiled_beside_the_device(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {
+        "{\"image\":{\"width\":67,\"height\":36},\"sky\":{\"model\":\"catalogue\"},\"style\":{\"bloom\":0.1}}",
+        "{\"image\":{\"width\":67,\"height\":36,\"samples\":\"auto\",\"layers\":[\"r\"]}}",
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct kd_scene scene;
+        struct kd_plan plan;
+        struct kd_capacity capacity;
+        kd_scene_defaults(&scene);
+        OK(kd_scene_from_json(&scene, scenes[i], strlen(scenes[i]), &error));
+        kd_renderer_capacity(renderer, &capacity);
+        OK(kd_plan_make(&scene, &capacity, &plan, &error));
+        kd_kernels_finish(&renderer->kernels, renderer->vk);
+        struct kd_frame frame = rendered(&scene);
+        kd_kernels_finish(&renderer->kernels, renderer->vk);
+        kd_store_empty(&renderer->store);
+        struct kd_compilation *c = kd_compilation_begin(renderer, &scene, &plan);
+        assert_non_null(c);
+        assert_int_equal(made(), 0);
+        OK(kd_compilation_run(c, goes_on, NULL, &error));
+        kd_compilation_end(c);
+        assert_null(kd_compilation_begin(renderer, &scene, &plan));
+        const uint32_t before = made();
+        struct kd_frame again = rendered(&scene);
+        print_message("scene %zu: %u kernels beside the device, %u more\n", i, before, made() - before);
+        assert_true(before > 3);
+        assert_memory_equal(kd_frame_pixels(&frame), kd_frame_pixels(&again), 3 * 67 * 36);
+        kd_frame_finish(&frame);
+        kd_frame_finish(&again);
+    }
+}
+
 int main(void)
 {
     int skip = open_renderer();
     if (skip)
         return skip;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noted_kernels_are_made_once),
-        cmocka_unit_test(what_cannot_be_made_is_told_later),
-        cmocka_unit_test(a_frame_notes_what_it_needs),
-        cmocka_unit_test(a_kept_lens_map_is_not_traced),
+        cmocka_unit_test(noted_kernels_are_made_once), cmocka_unit_test(what_cannot_be_made_is_told_later),
+        cmocka_unit_test(a_frame_notes_what_it_needs), cmocka_unit_test(a_kept_lens_map_is_not_traced),
+        cmocka_unit_test(compiled_beside_the_device),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -456,6 +456,21 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
+/* What is resident is looked at when it is asked for, and not in each frame. */
+static void test_what_is_resident_is_counted_when_asked(void **state)
+{
+    (void)state;
+    const uint64_t opened = renderer->opened_bytes;
+    uint64_t kept[KD_N_KEPT_KINDS];
+    renderer->opened_bytes = UINT64_MAX / 4; /* as if more had been, */
+    kd_renderer_kept(renderer, kept);
+    assert_int_equal(kept[KD_KEPT_OTHER], 0);
+    renderer->opened_bytes = 0; /* and as if nothing had */
+    kd_renderer_kept(renderer, kept);
+    assert_true(kept[KD_KEPT_OTHER] > 1 << 20);
+    renderer->opened_bytes = opened;
+}
+
 /* A defect of the program, here a buffer that is too small, is told as one, and the store begins anew. */
 static void test_a_defect_does_not_stay(void **state)
 {
@@ -612,6 +627,7 @@ int main(void)
         cmocka_unit_test(test_glances),
         cmocka_unit_test(test_asides),
         cmocka_unit_test(test_a_map_that_is_handed_over),
+        cmocka_unit_test(test_what_is_resident_is_counted_when_asked),
         cmocka_unit_test(test_a_defect_does_not_stay),
         cmocka_unit_test(test_rest),
         cmocka_unit_test(test_asides_with_particles),

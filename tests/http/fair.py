@@ -4,9 +4,13 @@ Its bounds are the time of the same picture on the idle server, measured in the 
 for the others' works: the least of them, the 4K picture, takes some thousand times as long as ours. So a machine that
 is ten times slower, or shared by many, does not break it, and a server where a work holds the device does."""
 
+import http.client
+import os
 import pathlib
+import select
 import statistics
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
@@ -62,6 +66,62 @@ class Fair(unittest.TestCase):
         self.assertGreater(
             sum(n for name, n in beside["load"].items() if name.endswith(": 200")), 10, "the loads were there"
         )
+
+
+class NewKernels(unittest.TestCase):
+    """On an empty cache of the driver."""
+
+    NEW = "/v1/render?image.width=320&image.height=180&preset=jet"
+    WARM = "/v1/render?image.width=64&image.height=36&camera.inclination_deg=%d"
+
+    def serve(self, **more):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        cache = {"MESA_SHADER_CACHE_DIR": folder.name, "XDG_CACHE_HOME": folder.name}
+        log = open(folder.name + "/log", "w+")
+        self.addCleanup(log.close)
+        server = daemon.Daemon(env={**os.environ, **cache, **more}, stderr=log)
+        self.addCleanup(server.process.kill)
+        return server, log
+
+    def ask(self, server, source, target):
+        s = server.connect(240, source)
+        self.addCleanup(s.close)
+        s.sendall(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        return s
+
+    def test_pictures_whose_kernels_are_there_come_before_one_that_waits_for_them(self):
+        """While a jet's kernels are compiled, a dozen and some seconds, many of another client's pictures come: not one
+        after each kernel, as where each holds the device."""
+        server, _ = self.serve()
+        if "llvmpipe" not in server.get("/v1/device").json()["name"]:
+            self.skipTest("this driver compiles kernels as their pipelines are made")
+        self.assertEqual(server.get(self.WARM % 50).status, 200)
+        new = self.ask(server, "127.0.0.1", self.NEW)
+        server.reaches("renders_unfinished", 1)
+        other = http.client.HTTPConnection("127.0.0.1", server.port, timeout=240, source_address=("127.0.0.2", 0))
+        self.addCleanup(other.close)
+        before = 0
+        while before <= 36 and not select.select([new], [], [], 0)[0]:
+            other.request("GET", self.WARM % (20 + before))
+            warm = other.getresponse()
+            self.assertEqual((warm.status, len(warm.read()) > 0), (200, True))
+            before += 1
+        self.assertGreater(before, 36)
+        first = daemon.read_answer(new)
+        self.assertEqual(first.status, 200)
+        self.assertIn("kernels;dur=", first.header("Server-Timing"))
+        self.assertEqual(server.stop(), 0)
+
+    def test_without_a_cache_it_is_said_once(self):
+        server, log = self.serve(MESA_SHADER_CACHE_DISABLE="true")
+        if "llvmpipe" not in server.get("/v1/device").json()["name"]:
+            self.skipTest("this driver compiles kernels as their pipelines are made")
+        for i in range(2):
+            self.assertEqual(server.get(self.WARM % (60 + i)).status, 200)
+        self.assertEqual(server.stop(), 0)
+        log.seek(0)
+        self.assertEqual(log.read().count("keeps no compiled kernels here"), 1)
 
 
 if __name__ == "__main__":

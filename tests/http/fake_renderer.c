@@ -5,13 +5,16 @@
  * several rays a pixel; -1 loses the device, which on one called "mends" can be opened again, -1.5 only the first
  * time, -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device
  * cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each
- * takes a millisecond. The picture of a sky of seed 4711 is under way until another picture is rendered. A device
+ * takes a millisecond. The picture of a sky of seed 4711 is under way until another picture is rendered, and
+ * kernels of one of seed 4712 are compiled until then, if that is within a minute; each compilation is told as a
+ * kilobyte more of kernels. A device
  * called "compiles" is busy with a small picture of a preset, as with a kernel, until five other pictures have been
  * rendered meanwhile; it fails after a minute without them. */
 #include "base/clock.h"
 #include "render/device/accuracy_store.h"
 #include "render/device/rest.h"
 #include "render/rays/device.h"
+#include "render/frame/compilation.h"
 #include "render/frame/frame.h"
 #include "render/frame/tell.h"
 
@@ -27,8 +30,9 @@ struct kd_renderer {
     bool measured, slow, held, compiles, bright;
     struct kd_renderer_params params;
     _Atomic bool read; /* the picture of that sky */
+    bool compiled;     /* the kernels of the other one */
 };
-enum { UNREAD = 4711, MEANWHILE = 5, PATIENCE_MS = 60000 };
+enum { UNREAD = 4711, UNCOMPILED = 4712, MEANWHILE = 5, PATIENCE_MS = 60000 };
 static _Atomic unsigned drawn; /* pictures, by whatever renderer */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -123,7 +127,7 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer)
 }
 
 /* Each rest is told as one byte more of kernels. */
-static _Atomic unsigned rests;
+static _Atomic unsigned rests, compilations;
 
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error)
 {
@@ -137,7 +141,7 @@ void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT
     (void)renderer;
     for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
         out[i] = 0;
-    out[KD_KEPT_KERNELS] = atomic_load(&rests);
+    out[KD_KEPT_KERNELS] = atomic_load(&rests) + 1024 * atomic_load(&compilations);
 }
 
 uint64_t kd_renderer_held(const struct kd_renderer *renderer)
@@ -171,6 +175,48 @@ static enum kd_status pass_time(double ms, kd_progress_fn progress, void *user, 
     }
     return KD_OK;
 }
+
+struct kd_compilation {
+    struct kd_renderer *renderer;
+    bool done;
+};
+
+bool kd_compilation_helps(const struct kd_renderer *renderer)
+{
+    (void)renderer;
+    return true;
+}
+
+struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                            const struct kd_plan *plan)
+{
+    (void)plan;
+    struct kd_compilation *c = scene->sky.seed == UNCOMPILED && !renderer->compiled ? calloc(1, sizeof *c) : NULL;
+    if (c)
+        c->renderer = renderer;
+    return c;
+}
+
+enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
+                                  struct kd_error *error)
+{
+    (void)error;
+    const unsigned before = atomic_load(&drawn);
+    atomic_fetch_add(&compilations, 1);
+    for (int ms = 0; ms < PATIENCE_MS && atomic_load(&drawn) == before; ms += 10)
+        if (pass_time(10, progress, user, NULL))
+            return KD_OK;
+    compilation->done = true;
+    return KD_OK;
+}
+
+void kd_compilation_end(struct kd_compilation *compilation)
+{
+    compilation->renderer->compiled |= compilation->done;
+    free(compilation);
+}
+
+void kd_compilation_drop(struct kd_compilation *compilation) { free(compilation); }
 
 static enum kd_status compile(kd_progress_fn progress, void *user, struct kd_error *error)
 {

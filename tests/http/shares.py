@@ -112,6 +112,48 @@ class Device(Case):
         self.assertEqual(self.ask("127.0.0.2", "GET", RENDER).status, 200)
 
 
+class Kernels(Case):
+    """Those of a sky of seed 4712 are compiled until another picture has been rendered."""
+
+    NEW = RENDER + "&sky.seed=4712"
+
+    def kernels(self, answer):
+        found = re.search(r"kernels;dur=([0-9.]+)", answer.header("Server-Timing"))
+        return float(found[1]) if found else 0
+
+    def test_a_picture_that_waits_for_its_kernels_holds_nobody(self):
+        """Nor is the second one that needs them compiled for. What they waited is said as such, and not as the queue's;
+        a client who has gone leaves nothing behind."""
+        gone = self.begin(self.NEW, "127.0.0.3")
+        self.daemon.reaches("renders_unfinished", 1)
+        daemon.vanish(gone)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_renders_unfinished"] == 0))
+        answers = [self.begin(self.NEW, source) for source in ("127.0.0.1", "127.0.0.4")]
+        self.daemon.reaches("renders_unfinished", 2)
+        for s in answers:
+            s.setblocking(False)
+            self.assertRaises(BlockingIOError, s.recv, 1)
+            s.setblocking(True)
+        other = self.ask("127.0.0.2", "GET", RENDER)
+        self.assertEqual((other.status, self.kernels(other)), (200, 0))
+        for s in answers:
+            answer = daemon.read_answer(s)
+            self.assertEqual(answer.status, 200)
+            self.assertGreater(self.kernels(answer), 0)
+        self.assertEqual(self.kernels(self.ask("127.0.0.1", "GET", self.NEW + "&time=1")), 0)
+        compiled = self.daemon.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024
+        self.assertLessEqual(compiled, 2)  # for the one that has gone, and the first of the others
+
+    def test_a_server_that_stops_waits_for_none(self):
+        own = daemon.Daemon("--drain-s", 1)
+        self.addCleanup(own.process.kill)
+        s = own.connect()
+        self.addCleanup(s.close)
+        s.sendall(f"GET {self.NEW} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        own.reaches("renders_unfinished", 1)
+        self.assertEqual(own.stop(), 0)
+
+
 class Allowance(Case):
     """Of the device's time a client may use a second a minute here: one of what it has taken, and of what is accepted
     by estimate."""

@@ -30,7 +30,7 @@ struct kd_renderer {
     struct kd_vk *vk; /* NULL: it was lost, and could not be opened again */
     struct kd_opening {
         char *device, *cache_dir;
-        bool validate;
+        bool validate, compiles_only;
         uint32_t deadline_ms;
     } opening;                /* how it was opened, */
     struct kd_vk_info opened; /* and what it is */

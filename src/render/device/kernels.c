@@ -335,16 +335,16 @@ static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_v
 static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
                  const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
 {
-    for (size_t i = 0; i < kernels->n_wishes; i++)
-        if (kernels->wishes[i].source == source &&
-            !memcmp(kernels->wishes[i].constants, key, sizeof kernels->wishes[i].constants))
+    struct kd_kernel_wishes *all = &kernels->wishes;
+    for (size_t i = 0; i < all->n; i++)
+        if (all->at[i].source == source && !memcmp(all->at[i].constants, key, sizeof all->at[i].constants))
             return;
     struct kd_kernel_entry *known = find(kernels, source, key);
     if (known)
         known->used = ++kernels->clock; /* else it might make room, and be made anew for each frame */
-    if (known || kernels->n_wishes == KD_KERNEL_WISHES || kernels->n_wishes == room_of(kernels))
+    if (known || all->n == KD_KERNEL_WISHES || all->n == room_of(kernels))
         return;
-    struct kd_kernel_wish *w = &kernels->wishes[kernels->n_wishes++];
+    struct kd_kernel_wish *w = &all->at[all->n++];
     *w = (struct kd_kernel_wish) { .source = source, .n = n };
     memcpy(w->constants, key, sizeof w->constants);
 }
@@ -379,11 +379,11 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
 void kd_kernels_note(struct kd_kernels *kernels)
 {
     kernels->noting = true;
-    kernels->n_wishes = 0;
+    kernels->wishes.n = 0;
 }
 
 struct makers {
-    struct kd_kernels *kernels;
+    struct kd_kernel_wishes *wishes;
     struct kd_vk *vk;
     atomic_size_t next;
 };
@@ -393,8 +393,8 @@ static void *make_wishes(void *user)
     struct makers *m = user;
     struct kd_error error = { 0 }; /* who asks for it again is told */
     size_t i;
-    while ((i = atomic_fetch_add(&m->next, 1)) < m->kernels->n_wishes) {
-        struct kd_kernel_wish *w = &m->kernels->wishes[i];
+    while ((i = atomic_fetch_add(&m->next, 1)) < m->wishes->n) {
+        struct kd_kernel_wish *w = &m->wishes->at[i];
         if (make(m->vk, w->source, w->constants, w->n, &w->made, &error))
             w->made = NULL;
     }
@@ -409,25 +409,44 @@ static int longer_first(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
+void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_wishes *out)
 {
-    struct makers m = { .kernels = kernels, .vk = vk };
+    kernels->noting = false;
+    *out = kernels->wishes;
+    kernels->wishes.n = 0;
+}
+
+void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk)
+{
+    struct makers m = { .wishes = wishes, .vk = vk };
     pthread_t threads[MAKERS - 1];
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     size_t n = 0;
-    kernels->noting = false;
-    qsort(kernels->wishes, kernels->n_wishes, sizeof *kernels->wishes, longer_first);
-    while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < kernels->n_wishes &&
+    qsort(wishes->at, wishes->n, sizeof *wishes->at, longer_first);
+    while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < wishes->n &&
            !pthread_create(&threads[n], NULL, make_wishes, &m))
         n++;
     make_wishes(&m); /* alone, too, where no thread could be had */
     for (size_t i = 0; i < n; i++)
         pthread_join(threads[i], NULL);
-    for (size_t i = 0; i < kernels->n_wishes; i++)
-        if (kernels->wishes[i].made)
-            keep(kernels, vk, kernels->wishes[i].source, kernels->wishes[i].constants, kernels->wishes[i].made);
-    kernels->n_wishes = 0;
+}
+
+void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_wishes *made)
+{
+    for (const struct kd_kernel_wish *w = made->at; w < made->at + made->n; w++)
+        if (w->made && find(kernels, w->source, w->constants))
+            kd_vk_pipeline_destroy(vk, w->made); /* another one has made it meanwhile */
+        else if (w->made)
+            keep(kernels, vk, w->source, w->constants, w->made);
     kernels->noted = kernels->clock;
+}
+
+void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
+{
+    struct kd_kernel_wishes wishes;
+    kd_kernels_noted(kernels, &wishes);
+    kd_kernel_wishes_make(&wishes, vk);
+    kd_kernels_keep(kernels, vk, &wishes);
 }
 
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes) { return bytes <= 16 * kd_vk_info(vk)->max_texels; }

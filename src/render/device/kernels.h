@@ -62,7 +62,7 @@ enum kd_kernel {
 
 #define KD_KERNEL_MAX_CONSTANTS 32
 #define KD_KERNELS_KEPT 48
-#define KD_KERNEL_WISHES 16
+#define KD_KERNEL_WISHES 32
 
 struct kd_kernel_entry {
     const struct kd_vk_pipeline_params *source; /* in constant data */
@@ -70,20 +70,23 @@ struct kd_kernel_entry {
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
 };
-/* A kernel that somebody will ask for, and that is not there yet. */
+/* Kernels that somebody will ask for, and that are not there yet. */
 struct kd_kernel_wish {
     const struct kd_vk_pipeline_params *source;
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
     size_t n;
     struct kd_vk_pipeline *made;
 };
+struct kd_kernel_wishes {
+    struct kd_kernel_wish at[KD_KERNEL_WISHES];
+    size_t n;
+};
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
     size_t kept; /* so many of the entries are used; 0: all. A test sets it before the first is asked for */
     uint64_t clock;
     bool noting;
-    struct kd_kernel_wish wishes[KD_KERNEL_WISHES];
-    size_t n_wishes;
+    struct kd_kernel_wishes wishes;
     uint64_t noted; /* the clock when the last of them were made */
 };
 
@@ -100,6 +103,11 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
  * four at most, and ends that. A kernel that cannot be made is left to whoever asks for it, and is then told why. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
+/* The second in three steps, of which the middle one may be any thread's while another one has the device, as long as
+ * that stays open: ends noting and hands out what was noted, makes it, and keeps what was made. */
+void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_wishes *out);
+void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk);
+void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_wishes *made);
 /* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the
  * time, but how many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);

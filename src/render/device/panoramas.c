@@ -55,6 +55,14 @@ static bool recall(const char *file, const struct kd_panorama_key *key, struct k
     return false;
 }
 
+static enum kd_status make_blank(struct kd_panorama *out, struct kd_error *error)
+{
+    out->columns = KD_MILKY_WAY_WIDTH;
+    out->rows = KD_MILKY_WAY_HEIGHT;
+    out->words = calloc(kd_panorama_words(out->columns, out->rows), sizeof *out->words);
+    return out->words ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a panorama");
+}
+
 static enum kd_status make(const struct kd_assets *assets, const struct kd_panorama_key *key, struct kd_panorama *out,
                            struct kd_error *error)
 {
@@ -97,7 +105,9 @@ static const struct kd_panorama *make_first(struct kd_panoramas *all)
     memcpy(made.of, key.of, sizeof made.of);
     pthread_mutex_unlock(&all->lock);
     const bool recalled = recall(all->file, &key, &made);
-    enum kd_status status = recalled ? KD_OK : make(all->assets, &key, &made, &why);
+    enum kd_status status = recalled     ? KD_OK
+                            : all->blank ? make_blank(&made, &why)
+                                         : make(all->assets, &key, &made, &why);
     pthread_mutex_lock(&all->lock);
     const bool ahead = all->asked[0].ahead; /* by now */
     if (status && !ahead) {

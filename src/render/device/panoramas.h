@@ -41,6 +41,7 @@ struct kd_panoramas {
     struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
     char *file; /* where the first Milky Way that is made is kept for later processes; NULL: nowhere, or one was kept */
+    bool blank; /* they are black, of a Milky Way's size, and take no time: nobody sees them */
     void (*made)(
         void *user); /* called by the thread, without the lock, whenever one is there or has failed; may be NULL */
     void *user;

@@ -69,6 +69,7 @@ static enum kd_status open_device(struct kd_renderer *r, struct kd_error *error)
     const struct kd_vk_params vk = { .device = r->opening.device,
                                      .cache_dir = r->opening.cache_dir,
                                      .validate = r->opening.validate,
+                                     .compiles_only = r->opening.compiles_only,
                                      .deadline_ms = r->opening.deadline_ms };
     enum kd_status status = kd_vk_create(&vk, &r->vk, error);
     if (status)
@@ -100,7 +101,9 @@ static void close_device(struct kd_renderer *r)
 
 static bool remember_opening(struct kd_renderer *r, const struct kd_renderer_params *params)
 {
-    r->opening = (struct kd_opening) { .validate = params->validate, .deadline_ms = params->deadline_ms };
+    r->opening = (struct kd_opening) { .validate = params->validate,
+                                       .compiles_only = params->compiles_only,
+                                       .deadline_ms = params->deadline_ms };
     return (!params->device || (r->opening.device = strdup(params->device))) &&
            (!params->cache_dir || (r->opening.cache_dir = strdup(params->cache_dir)));
 }
@@ -119,6 +122,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     r->passing = params->passing;
     pthread_mutex_init(&r->lock, NULL);
     kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
+    r->panoramas.blank = params->compiles_only;
     enum kd_status status = remember_opening(r, params)
                                 ? open_device(r, error)
                                 : kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");

@@ -26,6 +26,7 @@ struct kd_renderer_params {
     void *sky_user;
     bool passing; /* beside another one of the same device, with less of it: what it learns of the device's speed is not
                      kept */
+    bool compiles_only;    /* as kd_vk_params: pictures are black, and a Milky Way is not made */
     uint32_t deadline_ms;  /* as kd_vk_params */
     uint64_t memory_bytes; /* most memory for pictures, those rendered aside included; 0: as the device and the host
                               have it */

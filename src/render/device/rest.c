@@ -18,20 +18,26 @@ static uint64_t resident_bytes(void)
     return (uint64_t)resident * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-static uint64_t sum_of(const struct kd_renderer *r)
-{
-    uint64_t sum = 0;
-    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
-        sum += atomic_load(&r->kept_bytes[i]);
-    return sum;
-}
-
 void kd_renderer_begin_count(struct kd_renderer *r) { r->opened_bytes = resident_bytes(); }
 
 void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
 {
+    uint64_t named = r->opened_bytes;
+    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++) {
+        out[i] = i == KD_KEPT_OTHER ? 0 : atomic_load(&r->kept_bytes[i]);
+        named += out[i];
+    }
+    const uint64_t resident = resident_bytes();
+    out[KD_KEPT_OTHER] = resident > named ? resident - named : 0;
+}
+
+static uint64_t sum_of(const struct kd_renderer *r)
+{
+    uint64_t kept[KD_N_KEPT_KINDS], sum = 0;
+    kd_renderer_kept(r, kept);
     for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
-        out[i] = atomic_load(&r->kept_bytes[i]);
+        sum += kept[i];
+    return sum;
 }
 
 void kd_renderer_count(struct kd_renderer *r)
@@ -45,9 +51,6 @@ void kd_renderer_count(struct kd_renderer *r)
     atomic_store(&r->kept_bytes[KD_KEPT_BUFFERS], held > maps ? held - maps : 0);
     atomic_store(&r->kept_bytes[KD_KEPT_KERNELS], kd_kernels_spirv_bytes(&r->kernels));
     atomic_store(&r->kept_bytes[KD_KEPT_PANORAMAS], kd_panoramas_bytes(&r->panoramas));
-    atomic_store(&r->kept_bytes[KD_KEPT_OTHER], 0);
-    const uint64_t named = r->opened_bytes + sum_of(r), resident = resident_bytes();
-    atomic_store(&r->kept_bytes[KD_KEPT_OTHER], resident > named ? resident - named : 0);
 }
 
 static void empty_asides(struct kd_renderer *r)
@@ -85,9 +88,10 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
     KD_TRY(kd_vk_wait(r->vk, 0, error)); /* what was destroyed is freed now */
     kd_allocator_trim();
     kd_renderer_count(r);
-    if (sum_of(r) <= KD_REST_BYTES)
+    const uint64_t sum = sum_of(r);
+    if (sum <= KD_REST_BYTES)
         return KD_OK;
-    kd_log(KD_LOG_INFO, "%.0f MiB are kept at rest: the device is opened again", (double)sum_of(r) / 0x1p20);
+    kd_log(KD_LOG_INFO, "%.0f MiB are kept at rest: the device is opened again", (double)sum / 0x1p20);
     KD_TRY(kd_renderer_reopen(r, error));
     kd_allocator_trim();
     kd_renderer_count(r);

@@ -33,11 +33,12 @@ static inline const char *kd_kept_word(size_t kind)
 #undef KD_KEPT_WORD
     return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
 }
-/* As after the latest frame or rest. Lens maps and buffers are of the device; kernels are counted by their SPIR-V;
- * other: what is resident beyond the other kinds and what was when the device had been opened, as what the driver
- * has made of kernels, and what is being rendered, encoded or sent. Any thread. */
+/* As after the latest frame or rest, but for `other`. Lens maps and buffers are of the device; kernels are counted by
+ * their SPIR-V; other: what is resident now beyond the other kinds and what was when the device had been opened, as
+ * what the driver has made of kernels, and what is being rendered, encoded or sent; it takes the reading of a file in
+ * /proc. Any thread. */
 void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
-/* Counts it anew. Render thread only. */
+/* Counts it anew, after each frame: it calls nothing of the system. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
 /* Gives back everything but what the bounds above name, and the host's free memory to the kernel. Pictures come out
  * the same afterwards; those of the latest view as soon, unless the device had to be opened again (KD_REST_BYTES).

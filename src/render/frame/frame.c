@@ -44,29 +44,57 @@ done:
     return status;
 }
 
-/* Kernels that are not there yet are made at once, those that take longest, and while emitters make something on the
- * host. */
-static enum kd_status make_kernels(struct kd_frame_job *j)
+/* The lattices of rays that a picture has: on the grid, at the critical curve, and those of refining. */
+static size_t lattices_of(const struct kd_plan *p, struct kd_critical_lattice out[5])
 {
-    const struct kd_critical_lattice lattices[] = { { 0 },
-                                                    kd_critical_lattice(j->plan->critical ? j->plan->critical : 1) };
+    size_t n = 0;
+    out[n++] = (struct kd_critical_lattice) { 0 };
+    if (p->critical)
+        out[n++] = kd_critical_lattice(p->critical);
+    if (!p->adaptive)
+        return n;
+    out[n++] = kd_critical_grid(KD_PLAN_ADAPTIVE_SIDE);
+    out[n++] = kd_critical_grid(KD_PLAN_TRUTH_SIDE);
+    if (p->critical_dense)
+        out[n++] = kd_critical_lattice(p->critical_dense);
+    return n;
+}
+
+enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
+{
+    struct kd_critical_lattice lattices[5];
+    const size_t n = lattices_of(j->plan, lattices), kept = j->plan->critical ? 2 : 1;
     const struct kd_vk_pipeline *later;
-    const bool traces = j->plan->planes && !kd_store_has(j->store, j->plan);
+    const bool there = kd_store_has(j->store, j->plan);
     enum kd_status status = KD_OK;
-    kd_kernels_note(&j->r->kernels);
-    for (int i = 0; i < (j->plan->critical ? 2 : 1); i++) {
-        if (traces) {
+    for (size_t i = 0; i < n; i++) {
+        if (j->plan->planes && !(there && i < kept)) {
             KD_TRY(kd_frame_trace_kernel(j, &lattices[i], &later));
             KD_TRY(kd_frame_footprint_kernel(j, i ? &lattices[i] : NULL, &later));
         }
         if (!j->plan->unseen)
             KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &later));
     }
+    for (size_t i = 0; i < j->plan->n_layers; i++)
+        KD_TRY(kd_frame_light_kernel(j, &lattices[0], (int)i, &later));
+    if (j->plan->told.on && (j->plan->planes || j->plan->march.steps))
+        KD_TRY(kd_frame_light_kernel(j, &lattices[0], KD_MAKES_TOLD, &later));
     if (j->plan->points)
         KD_TRY(kd_frame_star_kernels(j));
-done:;
+    if (!j->plan->unseen)
+        KD_TRY(kd_frame_post_kernel(j, &later));
+done:
+    return status;
+}
+
+/* Kernels that are not there yet are made at once, those that take longest, and while emitters make something on the
+ * host. */
+static enum kd_status make_kernels(struct kd_frame_job *j)
+{
+    kd_kernels_note(&j->r->kernels);
+    const enum kd_status status = kd_frame_ask_kernels(j);
     const double begun = kd_clock_ms();
-    const bool any = j->r->kernels.n_wishes > 0;
+    const bool any = j->r->kernels.wishes.n > 0;
     kd_kernels_make(&j->r->kernels, j->r->vk);
     j->kernels_ms = any ? kd_clock_ms() - begun : 0;
     return status;

@@ -79,6 +79,9 @@ static inline uint32_t kd_frame_groups(uint64_t items)
     return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE);
 }
 
+/* Asks for the kernels that take long to make, as the frame will: for kd_kernels_note. Of the job it needs its
+ * renderer, store, scene and plan. */
+enum kd_status kd_frame_ask_kernels(struct kd_frame_job *job);
 /* Render by job's scene and plan, into *out. */
 enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out);
 /* The times of all passes that ran, in the order in which they did. */
@@ -174,6 +177,7 @@ enum kd_status kd_frame_bare(struct kd_frame_job *job, uint16_t *to);
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Pixels of what is lit, on the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
+enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
 /* All of these one after the other: from light to pixels. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
 /* Room for the layers of a plan behind the picture; and they, as far as there is light, on the host. One that is

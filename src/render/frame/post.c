@@ -51,6 +51,28 @@ struct look {
     void *to;
 };
 
+static bool has_heat(const struct kd_frame_job *j, const struct look *look)
+{
+    return !look->bare && j->scene->style.palette == KD_PALETTE_HEAT;
+}
+
+static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look, const struct kd_vk_pipeline **out)
+{
+    struct kd_vk *vk = j->r->vk;
+    const struct kd_spec_post spec = {
+        .ACES = j->scene->style.tone_map == KD_TONE_ACES,
+        .NEUTRAL = j->scene->style.tone_map == KD_TONE_NEUTRAL,
+        .WIDE = look->wide,
+        .TOGETHER = kd_bloom_together(look->bloom, j->plan->width),
+        .AROUND = look->bloom->around,
+    };
+    const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
+    const enum kd_kernel kernel =
+        kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, look->bloom),
+                       look->bloom->levels, has_heat(j, look));
+    return kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, out, j->error);
+}
+
 /* Post and read back what is lit, one band at a time. */
 static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
 {
@@ -62,23 +84,13 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
     const struct kd_vk_pipeline *post;
     const size_t pixel_bytes = look->wide ? 6 : 3;
     const struct kd_bloom *bloom = look->bloom;
-    const struct kd_spec_post spec = {
-        .ACES = scene->style.tone_map == KD_TONE_ACES,
-        .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL,
-        .WIDE = look->wide,
-        .TOGETHER = kd_bloom_together(bloom, j->plan->width),
-        .AROUND = bloom->around,
-    };
-    const bool heat = !look->bare && scene->style.palette == KD_PALETTE_HEAT;
     const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
-    const enum kd_kernel kernel = kd_kernel_post(
-        kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels, heat);
     enum kd_status status = KD_OK;
-    if (heat && !s->palette)
+    if (has_heat(j, look) && !s->palette)
         KD_TRY(make_palette(j));
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
-        KD_TRY(kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, &post, j->error));
+        KD_TRY(kernel_of(j, look, &post));
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
         uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
@@ -126,6 +138,12 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
     const struct look look = { kd_frame_bit_depth(j->frame) == 16, j->scene->style.dither, false, &j->plan->bloom,
                                kd_frame_pixels(j->frame) };
     return post_as(j, &look);
+}
+
+enum kd_status kd_frame_post_kernel(struct kd_frame_job *j, const struct kd_vk_pipeline **out)
+{
+    const struct look look = { .wide = j->scene->image.bit_depth == 16, .bloom = &j->plan->bloom };
+    return kernel_of(j, &look, out);
 }
 
 enum kd_status kd_frame_bare(struct kd_frame_job *j, uint16_t *to)

@@ -145,12 +145,29 @@ done:
     return status;
 }
 
+/* On a device that computes nothing no pixel would be chosen: one has its rays in each way. */
+static enum kd_status rehearse(struct kd_frame_job *j)
+{
+    struct kd_pixel pixel = { 0, 0 };
+    const struct kd_critical_pixels one = { &pixel, 1 };
+    uint8_t mark;
+    enum kd_status status;
+    if (j->plan->critical)
+        take(j, &j->lens->pixels, KD_REFINED_NOT_AT_CURVE);
+    KD_TRY(kd_frame_mark_between(j, &one, &mark));
+    for (int way = 0; way < WAYS; way++)
+        if ((way != AT_CURVE || j->plan->critical_dense) && (way != BETWEEN || kd_frame_has_between(j)))
+            KD_TRY(light(j, way, &one));
+done:
+    return status;
+}
+
 enum kd_status kd_frame_refine(struct kd_frame_job *j)
 {
     struct work w;
     enum kd_status status = init(j, &w);
     if (!status)
-        status = rounds(j, &w);
+        status = j->r->opening.compiles_only ? rehearse(j) : rounds(j, &w);
     finish(&w);
     return status;
 }

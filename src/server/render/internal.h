@@ -49,17 +49,21 @@ struct kd_render_queue {
     bool failed, reopening;  /* the device has failed, and is to be opened again when nobody is inside; somebody does */
     struct kd_error failure; /* why */
     unsigned inside;         /* jobs that are */
-    unsigned reopenings, reopened; /* most of them within KD_REOPENINGS_S; so far, ... */
-    unsigned spent;                /* ... and those that count against it, of ... */
-    double spent_from_ms;          /* ... the KD_REOPENINGS_S that began then */
-    struct kd_pulse pulse;         /* of whoever has the device */
+    unsigned reopenings, reopened;               /* most of them within KD_REOPENINGS_S; so far, ... */
+    unsigned spent;                              /* ... and those that count against it, of ... */
+    double spent_from_ms;                        /* ... the KD_REOPENINGS_S that began then */
+    bool compiles;                               /* the thread below runs */
+    struct kd_shares missing;                    /* who is next to have kernels compiled */
+    struct kd_compilation *compiling, *compiled; /* by it now; and one that is not yet the renderer's */
+    _Atomic bool uncompiled;                     /* nobody wants what is being compiled */
+    struct kd_pulse pulse;                       /* of whoever has the device */
     _Atomic bool cancel;
     struct kd_render_measures measures;
     struct kd_render_job rest; /* gives back what is not needed, once nothing has been asked for for rest_ms */
     double rest_ms, worked_ms; /* worked_ms: when something was asked for, or done, last */
     bool rested;               /* since then */
 
-    pthread_t render_thread, encoders[KD_ENCODERS];
+    pthread_t render_thread, compiler, encoders[KD_ENCODERS];
     unsigned n_encoders;
     bool render_thread_runs;
 };
@@ -88,10 +92,21 @@ void kd_render_stand_in_line(struct kd_render_job *job);
 /* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked; unlocks meanwhile. */
 void kd_render_rest_if_idle(struct kd_render_queue *queue);
 
+/* compile.c, locked. The first two: nobody else has the device. Looks which jobs lack kernels, and hands over what has
+ * been compiled. Whether a job has what it needs. Says in its frame what it waited. */
+void kd_render_ask_kernels(struct kd_render_queue *queue);
+void kd_render_take_kernels(struct kd_render_queue *queue);
+bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job);
+void kd_render_tell_kernels(struct kd_render_job *job);
+void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job); /* it goes */
+/* A thread, with the queue as argument, that ends when that is closing. */
+void *kd_render_compile_main(void *queue);
+
 /* reopen.c, locked, but for the first. */
 void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error); /* the device has. Unlocked */
 /* After its turn: whether the job begins once more. If so its outcome is taken back. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job);
+void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error); /* a device that cannot be closed */
 /* Opens a device that has failed again, once nobody is inside; else, or if it has not, does nothing. Unlocks
  * meanwhile. */
 void kd_render_reopen(struct kd_render_queue *queue);

@@ -32,6 +32,7 @@ void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job
     while (*link != job)
         link = &(*link)->next;
     kd_render_list_take(&queue->jobs, link);
+    kd_render_forget_kernels(queue, job);
     kd_shares_remove(&queue->shares, &job->claim);
 }
 
@@ -78,6 +79,11 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
     }
     if (start_lanes(queue, error))
         return KD_ENOMEM;
+    if (kd_compilation_helps(queue->renderer)) {
+        if (pthread_create(&queue->compiler, NULL, kd_render_compile_main, queue))
+            return kd_error_set(error, KD_ENOMEM, "the thread that compiles kernels could not be started");
+        queue->compiles = true;
+    }
     for (; queue->n_encoders < KD_ENCODERS; queue->n_encoders++)
         if (pthread_create(&queue->encoders[queue->n_encoders], NULL, kd_render_encode_main, queue))
             return kd_error_set(error, KD_ENOMEM, "an encoder could not be started");
@@ -137,6 +143,10 @@ void kd_render_queue_destroy(struct kd_render_queue *queue)
         pthread_join(queue->lanes[i].thread, NULL);
     for (unsigned i = 0; i < queue->n_encoders; i++)
         pthread_join(queue->encoders[i], NULL);
+    if (queue->compiles)
+        pthread_join(queue->compiler, NULL);
+    if (queue->compiled && !queue->lost)
+        kd_render_take_kernels(queue);
     if (queue->renderer)
         kd_renderer_sky_stop(queue->renderer);
     if (!queue->lost)
@@ -261,6 +271,7 @@ static bool wants_lane(const struct kd_render_job *job)
 void kd_render_stand_in_line(struct kd_render_job *job)
 {
     job->claim.left_ms = job->plan.estimate_ms;
+    job->kernels = KD_KERNELS_UNKNOWN;
     job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
 }
 
@@ -268,6 +279,8 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
 {
     job->queue = queue;
     job->submitted_ms = job->away_ms = kd_clock_ms();
+    job->kernels_ms = 0;
+    job->compilation = NULL;
     kd_render_stand_in_line(job);
     job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
     pthread_mutex_lock(&queue->lock);
@@ -326,6 +339,7 @@ void kd_render_queue_sweep(struct kd_render_queue *queue)
 void kd_render_queue_cancel(struct kd_render_queue *queue)
 {
     atomic_store(&queue->cancel, true);
+    atomic_store(&queue->uncompiled, true);
     pthread_mutex_lock(&queue->lock);
     kd_render_next(queue);
     pthread_cond_broadcast(&queue->changed);

@@ -17,6 +17,9 @@
  * if it had not, and only what had the device when it failed for the second time is told so. Where that cannot be
  * done, or has been done too often, the device is lost, and all that waits is told.
  *
+ * A picture whose kernels are not there waits while a thread compiles them, one picture's after the other's by the same
+ * shares; others have the device meanwhile (compile.c).
+ *
  * A picture before a sky whose picture has to be read first waits for that, which takes up to a second and no
  * device.
  *
@@ -27,6 +30,7 @@
 
 #include "base/buffer.h"
 #include "render/frame/blur.h"
+#include "render/frame/compilation.h"
 #include "render/output/format.h"
 #include "render/render.h"
 #include "server/http/shares.h"
@@ -47,6 +51,9 @@ enum kd_render_stage {
     KD_RENDER_WORKS,
     KD_RENDER_WORKS_IN_LANE,
 };
+
+/* Of the kernels of a picture. */
+enum kd_render_kernels { KD_KERNELS_UNKNOWN, KD_KERNELS_MISSING, KD_KERNELS_THERE };
 
 struct kd_render_job {
     /* filled in by the submitter */
@@ -81,6 +88,10 @@ struct kd_render_job {
     struct kd_render_job *next;
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
+    enum kd_render_kernels kernels;
+    struct kd_compilation *compilation;    /* of those that are missing; run, or only compared with what is being run */
+    struct kd_claim missing;               /* for those, while there are any */
+    double kernels_ms, missing_ms;         /* kernels_ms: waited for them; missing_ms: since when */
     bool sky;                              /* the picture of its sky was not there when it came */
     bool inside;                           /* it is at work with the renderer, or waits between two slices */
     bool repeated;                         /* the device has failed it once */

@@ -55,6 +55,12 @@ bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another)
     return hangs;
 }
 
+void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error)
+{
+    queue->hangs = true;
+    lose(queue, error);
+}
+
 void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error)
 {
     kd_log(KD_LOG_WARN, "the device has failed: %s", error->message);
@@ -108,8 +114,9 @@ static enum kd_status reopen(struct kd_render_queue *queue, struct kd_error *err
 
 void kd_render_reopen(struct kd_render_queue *queue)
 {
-    if (!queue->failed || queue->inside || queue->reopening)
+    if (!queue->failed || queue->inside || queue->reopening || queue->compiling)
         return;
+    kd_render_take_kernels(queue);
     if (!queue->reopenings || kd_renderer_hangs(queue->renderer)) {
         lose(queue, &queue->failure);
         return;

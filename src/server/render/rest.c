@@ -31,8 +31,8 @@ static double patience_ms(const struct kd_render_queue *queue)
 
 void kd_render_rest_if_idle(struct kd_render_queue *queue)
 {
-    const bool idle =
-        queue->opened && !queue->unfinished && !queue->holder && !queue->lost && !queue->failed && !queue->closing;
+    const bool idle = queue->opened && !queue->unfinished && !queue->holder && !queue->compiling && !queue->lost &&
+                      !queue->failed && !queue->closing;
     if (queue->rested || !idle || kd_clock_ms() - queue->worked_ms < patience_ms(queue))
         return;
     queue->rest = (struct kd_render_job) { .claim.class = KD_CLASS_JOB, .run = rest, .done = done, .socket = -1 };

@@ -81,7 +81,9 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     struct kd_render_queue *queue = user;
     if (queue->failed) /* those inside only have to leave */
         return job->inside;
-    if (!queue->lost && !may_be_paid(queue, claim))
+    if (job == &queue->rest && queue->compiling) /* a rest may close the device */
+        return false;
+    if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;
     return kd_render_has_begun(job) || queue->lost ||
            (!(job->sky && kd_renderer_sky_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) &&
@@ -100,6 +102,7 @@ static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
 
 static struct kd_render_job *choose(struct kd_render_queue *queue)
 {
+    kd_render_ask_kernels(queue);
     struct kd_render_job *dropped = first_dropped(queue);
     return dropped ? dropped : (struct kd_render_job *)kd_shares_next(&queue->shares, may_have_it, queue);
 }
@@ -224,6 +227,8 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
         kd_render_failed(queue, &job->error);
     else
         kd_render_describe_device(queue);
+    if (!job->status && !job->run)
+        kd_render_tell_kernels(job);
     if (!job->status && !job->run)
         kd_render_measures_frame(&queue->measures, &job->frame);
     if (!job->status && !job->run && job->rendered)

@@ -1,0 +1,114 @@
+#include "render/frame/compilation.h"
+
+#include "base/log.h"
+#include "render/device/compiled.h"
+#include "render/frame/job.h"
+
+#include <stdlib.h>
+
+struct kd_compilation {
+    struct kd_renderer *renderer;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_kernel_wishes wishes;
+    kd_progress_fn progress;
+    void *user;
+    enum kd_status status;
+    struct kd_error error;
+};
+
+struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct kd_scene *scene,
+                                            const struct kd_plan *plan)
+{
+    struct kd_error error = { 0 }; /* who renders is told */
+    struct kd_compilation *c = calloc(1, sizeof *c);
+    struct kd_frame_job job = { .r = r, .store = &r->store, .scene = scene, .plan = plan, .error = &error };
+    if (!c || !r->vk) {
+        free(c);
+        return NULL;
+    }
+    kd_kernels_note(&r->kernels);
+    const enum kd_status status = kd_frame_ask_kernels(&job);
+    kd_kernels_noted(&r->kernels, &c->wishes);
+    if (status || !c->wishes.n) {
+        free(c);
+        return NULL;
+    }
+    c->renderer = r;
+    c->scene = *scene;
+    c->plan = *plan;
+    c->plan.audit = 0; /* of nothing */
+    return c;
+}
+
+/* The picture on a device that computes nothing. That is closed afterwards, for the driver writes its files in a thread
+ * of its own, which then has ended. */
+static void *rehearse(void *user)
+{
+    struct kd_compilation *c = user;
+    const struct kd_renderer *r = c->renderer;
+    const struct kd_renderer_params params = { .device = r->opening.device,
+                                               .cache_dir = "",
+                                               .assets = r->panoramas.assets,
+                                               .passing = true,
+                                               .compiles_only = true,
+                                               .deadline_ms = r->opening.deadline_ms };
+    struct kd_renderer *own = NULL;
+    struct kd_frame frame = { 0 };
+    c->status = kd_renderer_create(&params, &own, &c->error);
+    if (!c->status)
+        c->status = kd_render(own, &c->scene, &c->plan, c->progress, c->user, &frame, &c->error);
+    kd_frame_finish(&frame);
+    if (own && kd_renderer_hangs(own))
+        return NULL; /* it can never be closed */
+    if (c->status == KD_EDEVICE)
+        c->status = KD_EIO; /* the picture's own device may be well */
+    if (own)
+        kd_renderer_sky_stop(own);
+    kd_renderer_destroy(own);
+    return NULL;
+}
+
+enum kd_status kd_compilation_run(struct kd_compilation *c, kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    char dir[4096];
+    pthread_t thread;
+    c->progress = progress;
+    c->user = user;
+    const bool late = kd_vk_compiling(c->renderer->vk, dir) == KD_VK_COMPILES_LATE &&
+                      !kd_compiled_has(c->renderer, &c->wishes),
+               beside = late && !pthread_create(&thread, NULL, rehearse, c);
+    kd_kernel_wishes_make(&c->wishes, c->renderer->vk);
+    if (beside)
+        pthread_join(thread, NULL);
+    else if (late)
+        rehearse(c);
+    if (late && !c->status)
+        kd_compiled_add(c->renderer, &c->wishes);
+    if (c->status && c->status != KD_ECANCELLED)
+        kd_log(KD_LOG_DEBUG, "kernels could not be compiled beside the device: %s", c->error.message);
+    if (c->status == KD_EDEVICE && error)
+        *error = c->error;
+    return c->status == KD_EDEVICE ? KD_EDEVICE : KD_OK;
+}
+
+void kd_compilation_end(struct kd_compilation *c)
+{
+    kd_kernels_keep(&c->renderer->kernels, c->renderer->vk, &c->wishes);
+    free(c);
+}
+
+void kd_compilation_drop(struct kd_compilation *c) { free(c); }
+
+bool kd_compilation_helps(const struct kd_renderer *r)
+{
+    char dir[4096];
+    const enum kd_vk_compiling how = kd_vk_compiling(r->vk, dir);
+    if (how == KD_VK_COMPILES_LATE_KEEPS_NOTHING)
+        kd_log(
+            KD_LOG_WARN,
+            "%.200s keeps no compiled kernels here (%.300s cannot be written, or MESA_SHADER_CACHE_DISABLE is set): a "
+            "picture whose kernels are new holds the device for some seconds while they are compiled",
+            r->driver, *dir ? dir : "its folder");
+    return how != KD_VK_COMPILES_LATE_KEEPS_NOTHING;
+}

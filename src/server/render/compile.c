@@ -1,0 +1,169 @@
+/* Kernels are compiled here while others have the device. A picture's are looked for as soon as it waits, by whoever
+ * chooses who is next; a thread compiles those that are missing; and whoever chooses next hands them to the renderer.
+ * So the renderer's kernels are touched only under the lock while nobody has the device, or by who has it. */
+#include "base/clock.h"
+#include "server/render/internal.h"
+
+#include <stddef.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#define NICE 3 /* half the weight of what is live: a picture that is new has its part of the processor, and no more */
+
+static void ask(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->compilation = job->run ? NULL : kd_compilation_begin(queue->renderer, &job->scene, &job->plan);
+    job->kernels = job->compilation ? KD_KERNELS_MISSING : KD_KERNELS_THERE;
+    job->missing_ms = kd_clock_ms();
+    if (!job->compilation)
+        return;
+    job->missing = (struct kd_claim) { .class = job->claim.class };
+    memcpy(job->missing.client, job->claim.client, sizeof job->missing.client);
+    kd_shares_add(&queue->missing, &job->missing);
+    pthread_cond_broadcast(&queue->changed);
+}
+
+void kd_render_take_kernels(struct kd_render_queue *queue)
+{
+    if (!queue->compiled)
+        return;
+    kd_compilation_end(queue->compiled);
+    queue->compiled = NULL;
+    pthread_cond_broadcast(&queue->changed);
+}
+
+void kd_render_ask_kernels(struct kd_render_queue *queue)
+{
+    if (!queue->compiles || queue->failed || queue->lost)
+        return;
+    kd_render_take_kernels(queue);
+    for (struct kd_render_job *job = queue->jobs.first; job; job = job->next)
+        if (job->kernels == KD_KERNELS_UNKNOWN && !kd_render_has_begun(job))
+            ask(queue, job);
+}
+
+bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    return !queue->compiles || kd_render_has_begun(job) || job->kernels == KD_KERNELS_THERE;
+}
+
+void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    if (!job->compilation)
+        return;
+    kd_shares_remove(&queue->missing, &job->missing);
+    if (job->compilation && job->compilation == queue->compiling)
+        atomic_store(&queue->uncompiled, true);
+    else
+        kd_compilation_drop(job->compilation);
+    job->compilation = NULL;
+}
+
+void kd_render_tell_kernels(struct kd_render_job *job)
+{
+    struct kd_frame *frame = &job->frame;
+    size_t i = 0;
+    if (!(job->kernels_ms > 0))
+        return;
+    while (i < frame->n_timings && strcmp(frame->timings[i].name, "kernels"))
+        i++;
+    if (i == KD_FRAME_MAX_TIMINGS)
+        return;
+    if (i == frame->n_timings)
+        frame->timings[frame->n_timings++] = (struct kd_timing) { "kernels", 0 };
+    frame->timings[i].ms += job->kernels_ms;
+}
+
+static struct kd_render_job *job_of(struct kd_claim *missing)
+{
+    return missing ? (struct kd_render_job *)((char *)missing - offsetof(struct kd_render_job, missing)) : NULL;
+}
+
+static bool is_any(const struct kd_claim *claim, void *user)
+{
+    (void)user;
+    return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
+}
+
+/* What it waited for kernels is no time in which others had the device. */
+static void end_waiting(struct kd_render_job *job)
+{
+    const double now = kd_clock_ms();
+    job->queue_ms += job->missing_ms - job->away_ms;
+    job->kernels_ms += now - job->missing_ms;
+    job->away_ms = now;
+}
+
+/* The picture that they were compiled for has all that it needs, and its client has had its turn. Others are looked at
+ * again, for they may need the same. */
+static void share_out(struct kd_render_queue *queue, const struct kd_compilation *done, double ms)
+{
+    for (struct kd_render_job *job = queue->jobs.first; job; job = job->next) {
+        const bool own = job->compilation == done;
+        if (!job->compilation)
+            continue;
+        if (own) {
+            kd_shares_charge(&queue->missing, &job->missing, ms);
+            kd_allowance_charge(&queue->allowance, job->claim.client, ms, kd_clock_ms());
+        } else {
+            kd_compilation_drop(job->compilation);
+        }
+        kd_shares_remove(&queue->missing, &job->missing);
+        end_waiting(job);
+        job->compilation = NULL;
+        job->kernels = own ? KD_KERNELS_THERE : KD_KERNELS_UNKNOWN;
+    }
+}
+
+static bool is_wanted(void *user, double fraction)
+{
+    struct kd_render_queue *queue = user;
+    (void)fraction;
+    return !atomic_load(&queue->uncompiled);
+}
+
+/* Locked; unlocks while it works. */
+static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    struct kd_compilation *c = queue->compiling = job->compilation;
+    struct kd_error error = { 0 };
+    const double begun = kd_clock_ms();
+    atomic_store(&queue->uncompiled, atomic_load(&queue->cancel));
+    pthread_mutex_unlock(&queue->lock);
+    const enum kd_status status = kd_compilation_run(c, is_wanted, queue, &error);
+    pthread_mutex_lock(&queue->lock);
+    while (queue->compiled && !queue->closing)
+        pthread_cond_wait(&queue->changed, &queue->lock);
+    share_out(queue, c, kd_clock_ms() - begun);
+    queue->compiling = NULL;
+    queue->compiled = c;
+    queue->worked_ms = kd_clock_ms();
+    if (status == KD_EDEVICE)
+        kd_render_hung(queue, &error);
+    kd_render_reopen(queue);
+    kd_render_next(queue);
+    pthread_cond_broadcast(&queue->changed);
+}
+
+void *kd_render_compile_main(void *user)
+{
+    struct kd_render_queue *queue = user;
+    const pid_t self = (pid_t)syscall(SYS_gettid);
+    setpriority(PRIO_PROCESS, (id_t)self,
+                getpriority(PRIO_PROCESS, (id_t)self) +
+                    NICE); /* threads that it starts, the driver's, have it from it */
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->closing) {
+        const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled ||
+                           queue->holder == &queue->rest; /* the device may be closed */
+        struct kd_render_job *job = waits ? NULL : job_of(kd_shares_next(&queue->missing, is_any, NULL));
+        if (job)
+            compile(queue, job);
+        else
+            pthread_cond_wait(&queue->changed, &queue->lock);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return NULL;
+}
