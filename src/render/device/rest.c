@@ -1,11 +1,14 @@
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
+#include "base/clock.h"
 #include "base/log.h"
 #include "render/device/internal.h"
 
 #include <stdio.h>
 #include <unistd.h>
+
+#define HEAP_MS 1000. /* between two looks at the heap, which take longer than the rest of it */
 
 static uint64_t resident_bytes(void)
 {
@@ -26,12 +29,35 @@ static uint64_t sum_of(const struct kd_renderer *r)
     return sum;
 }
 
-void kd_renderer_begin_count(struct kd_renderer *r) { r->opened_bytes = resident_bytes(); }
+void kd_renderer_begin_count(struct kd_renderer *r)
+{
+    r->opened_bytes = resident_bytes();
+    r->opened_heap = kd_allocator_used();
+}
 
 void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
 {
     for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
         out[i] = atomic_load(&r->kept_bytes[i]);
+}
+
+/* What is resident and has no name yet. Of the device's memory, which is counted as a whole, pages may never have been
+ * touched: so the heap is no more than what is left. */
+static void count_rest(struct kd_renderer *r)
+{
+    const double now = kd_clock_ms();
+    if (!(now - r->heap_ms < HEAP_MS)) {
+        const uint64_t known = r->opened_heap + atomic_load(&r->kept_bytes[KD_KEPT_KERNELS]),
+                       used = kd_allocator_used();
+        r->heap_bytes = used > known ? used - known : 0;
+        r->heap_ms = now;
+    }
+    atomic_store(&r->kept_bytes[KD_KEPT_HEAP], 0);
+    atomic_store(&r->kept_bytes[KD_KEPT_OTHER], 0);
+    const uint64_t named = r->opened_bytes + sum_of(r), resident = resident_bytes(),
+                   left = resident > named ? resident - named : 0, heap = r->heap_bytes < left ? r->heap_bytes : left;
+    atomic_store(&r->kept_bytes[KD_KEPT_HEAP], heap);
+    atomic_store(&r->kept_bytes[KD_KEPT_OTHER], left - heap);
 }
 
 void kd_renderer_count(struct kd_renderer *r)
@@ -45,9 +71,7 @@ void kd_renderer_count(struct kd_renderer *r)
     atomic_store(&r->kept_bytes[KD_KEPT_BUFFERS], held > maps ? held - maps : 0);
     atomic_store(&r->kept_bytes[KD_KEPT_KERNELS], kd_kernels_spirv_bytes(&r->kernels));
     atomic_store(&r->kept_bytes[KD_KEPT_PANORAMAS], kd_panoramas_bytes(&r->panoramas));
-    atomic_store(&r->kept_bytes[KD_KEPT_OTHER], 0);
-    const uint64_t named = r->opened_bytes + sum_of(r), resident = resident_bytes();
-    atomic_store(&r->kept_bytes[KD_KEPT_OTHER], resident > named ? resident - named : 0);
+    count_rest(r);
 }
 
 static void empty_asides(struct kd_renderer *r)
@@ -84,12 +108,14 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
     give_back(r);
     KD_TRY(kd_vk_wait(r->vk, 0, error)); /* what was destroyed is freed now */
     kd_allocator_trim();
+    r->heap_ms = 0;
     kd_renderer_count(r);
     if (sum_of(r) <= KD_REST_BYTES)
         return KD_OK;
     kd_log(KD_LOG_INFO, "%.0f MiB are kept at rest: the device is opened again", (double)sum_of(r) / 0x1p20);
     KD_TRY(kd_renderer_reopen(r, error));
     kd_allocator_trim();
+    r->heap_ms = 0;
     kd_renderer_count(r);
 done:
     return status;

@@ -6,7 +6,8 @@
 
 /* X(kind, its word in /metrics) */
 #define KD_KEPT_KINDS(X) \
-    X(LENS_MAPS, "lens_maps") X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(OTHER, "other")
+    X(LENS_MAPS, "lens_maps") \
+    X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(HEAP, "heap") X(OTHER, "other")
 enum kd_kept_kind {
 #define KD_KEPT_ENUM(kind, word) KD_KEPT_##kind,
     KD_KEPT_KINDS(KD_KEPT_ENUM)
@@ -33,9 +34,10 @@ static inline const char *kd_kept_word(size_t kind)
 #undef KD_KEPT_WORD
     return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
 }
-/* As after the latest frame or rest. Lens maps and buffers are of the device; kernels are counted by their SPIR-V;
- * other: what is resident beyond the other kinds and what was when the device had been opened, as what the driver
- * has made of kernels, and what is being rendered, encoded or sent. Any thread. */
+/* As after the latest frame or rest. Lens maps and buffers are of the device; kernels are counted by their SPIR-V. The
+ * last two are what is resident beyond these and what was when the device had been opened: heap, in use there, mostly
+ * what lavapipe has made of kernels, looked at each HEAP_MS; other: code, stacks, what is freed and not given back,
+ * and blocks of a MiB and more that are being rendered, encoded or sent. Any thread. */
 void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
 /* Counts it anew. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
