@@ -28,3 +28,12 @@ void kd_allocator_trim(void)
     malloc_trim(0);
 #endif
 }
+
+size_t kd_allocator_used(void)
+{
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+    return mallinfo2().uordblks;
+#else
+    return 0;
+#endif
+}

@@ -7,7 +7,7 @@
  *   nobody waits for a disk (fsync) while a lock is held that a thread which answers requests takes.
  *
  * The linker leads the calls of our own code here (src/server/meson.build); the environment's KERRD_WATCH=tell lets
- * the program say it and go on. Other builds have nothing of this. Any thread. */
+ * the program say it, each time, and go on. Other builds have nothing of this. Any thread. */
 #ifndef KD_BASE_WATCH_H
 #define KD_BASE_WATCH_H
 

@@ -1,4 +1,5 @@
 /* Each integral fills the columns that its kind lists. */
+#include "base/pause.h"
 #include "integral/answer.h"
 #include "integral/kept.h"
 #include "physics/constants.h"
@@ -202,6 +203,7 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
                               "inclinations further from face on and edge on",
                               r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
+        kd_pause_every(k, 16);
         double g_star = r->g_star.at[k];
         struct kd_transfer side[2];
         if (!kd_transfer_at(image, &ring, g_star, side))

@@ -1,5 +1,6 @@
 /* This writes answers as JSON, CSV and NPY, and the schema of the first. */
 #include "base/decimal.h"
+#include "base/pause.h"
 #include "base/schema.h"
 #include "image/npy.h"
 #include "integral/answer.h"
@@ -73,8 +74,10 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, struct
     kd_json_object(&json, "columns");
     for (size_t i = 0; i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++) {
         kd_json_array(&json, kind->columns[i].name);
-        for (size_t row = 0; row < answer->rows; row++)
+        for (size_t row = 0; row < answer->rows; row++) {
+            kd_pause_every(row, 1024);
             kd_json_number(&json, NULL, answer->columns[i][row]);
+        }
         kd_json_end(&json);
     }
     kd_json_end(&json);
@@ -95,6 +98,7 @@ static enum kd_status write_csv(const struct kd_integral_answer *answer, struct 
         KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "", kind->columns[i].name));
     for (size_t row = 0; row < answer->rows; row++)
         for (size_t i = 0; i < n; i++) {
+            kd_pause_every(row, 1024);
             char number[1 + KD_DECIMAL_SIZE] = { i ? ',' : '\n' };
             double value = answer->columns[i][row];
             KD_TRY(kd_buffer_append(out, number, 1 + (isfinite(value) ? kd_decimal_print(number + 1, value) : 0)));

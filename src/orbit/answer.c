@@ -1,6 +1,7 @@
 #include "orbit/answer.h"
 
 #include "base/decimal.h"
+#include "base/pause.h"
 #include "image/npy.h"
 
 #include <math.h>
@@ -349,6 +350,7 @@ enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enu
     if (format == KD_ORBIT_NDJSON)
         put(&t, "{\"rows\":[");
     for (size_t i = 0; i < n && !t.status; i++) {
+        kd_pause_every(i, 64);
         columns_of(&samples[i], values);
         switch (format) {
         case KD_ORBIT_JSON: json_row(&t, &samples[i], count_of(params), !(first + i)); break;
@@ -426,6 +428,7 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
 {
     put(t, "{\"orbits\":[");
     for (size_t i = 0; i < n && !t->status; i++) {
+        kd_pause_every(i, 16);
         put(t, i ? ",\n" : "\n");
         t->status = t->status ? t->status : kd_orbit_answer_begin(&runs[i], KD_ORBIT_JSON, t->out);
         if (samples && !t->status)
@@ -454,6 +457,7 @@ enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, c
     else
         csv_names(&t, names, count);
     for (size_t i = 0; i < n && !t.status; i++) {
+        kd_pause_every(i, 64);
         if (samples) {
             t.status =
                 kd_orbit_answer_samples(runs[i].params, format, samples + i * runs[i].samples, runs[i].samples, 0, out);

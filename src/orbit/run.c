@@ -1,5 +1,6 @@
 #include "orbit/run.h"
 
+#include "base/pause.h"
 #include "orbit/cases.h"
 #include "orbit/step.h"
 #include "physics/angle.h"
@@ -119,6 +120,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
     for (bool over = false; !over && path.mino.value < longest;) {
         if (!(left-- > 0))
             return false;
+        kd_pause_every((uint64_t)left, 1024);
         before = path;
         kd_orbit_path_step(&path, h);
         if (strays(o, &before, &path))
@@ -316,6 +318,7 @@ static size_t advance_closed(struct kd_orbit_run *run, uint64_t steps, struct kd
 {
     size_t n = 0;
     for (; steps > 0 && !kd_orbit_run_done(run) && (n < room || !run->samples); steps--) {
+        kd_pause_every(steps, 64);
         if (run->samples) {
             double mino = run->mino_end * ((double)run->sampled++ / (run->samples - 1));
             samples[n++] = sample_of(run, kd_orbit_bound_at(&run->bound, mino), NAN);
@@ -348,6 +351,7 @@ size_t kd_orbit_run_advance(struct kd_orbit_run *run, uint64_t steps, struct kd_
     }
     while (steps-- > 0 && run->done < run->steps && (n < room || !run->samples)) {
         double before = run->path.rate[KD_PATH_W].value;
+        kd_pause_every(steps, 256);
         if (!isnan(run->aim) && run->done + 1 == run->steps)
             step_to_the_end(run);
         else

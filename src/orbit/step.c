@@ -1,5 +1,7 @@
 #include "orbit/step.h"
 
+#include "base/pause.h"
+
 #include <math.h>
 
 #define STEPS_MAX (1u << 20)
@@ -79,8 +81,10 @@ static void follow(struct kd_orbit_run *const *runs, struct trial *trials, int n
     }
     if (n > 1)
         kd_orbit_lanes_run(&lanes);
-    for (uint64_t k = 0; n == 1 && k < lanes.steps[0]; k++)
+    for (uint64_t k = 0; n == 1 && k < lanes.steps[0]; k++) {
+        kd_pause_every(k, 1024);
         kd_orbit_path_step(&paths[0], lanes.h[0]);
+    }
     for (int i = 0; i < n; i++)
         if (!trials[i].over)
             trials[i].fine = kd_orbit_path_place(&paths[i]);

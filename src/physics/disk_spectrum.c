@@ -1,5 +1,6 @@
 #include "physics/disk_spectrum.h"
 
+#include "base/pause.h"
 #include "physics/constants.h"
 #include "physics/disk.h"
 
@@ -65,6 +66,7 @@ static void integrate(const struct kd_disk_image *image, const struct kd_disk_sp
     n = n / coarse < image->angles ? image->angles : n / coarse;
     for (int i = 0; i < panels; i++)
         for (int k = 0; k < GAUSS; k++) {
+            kd_pause();
             double s =
                 (i + 0.5 + 0.5 * at[k]) / panels; /* ln r = ln inner + span s^2: T goes like the root of r - r_isco */
             add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share[k] / panels, n, frequencies, n_f,

@@ -1,5 +1,6 @@
 #include "physics/line_profile.h"
 
+#include "base/pause.h"
 #include "physics/lamppost.h"
 
 #include <math.h>
@@ -189,6 +190,7 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
                     emissivity(p, lamp, p->inner) * p->inner * p->inner; /* by ring of equal ln r */
     double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
+        kd_pause_every((uint64_t)i, 4);
         double part = (double)i / m,
                r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
         fill_ring(image, p, lamp, r, looks.skip, n, &rings[i & 1]);

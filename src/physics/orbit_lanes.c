@@ -1,5 +1,6 @@
 #include "physics/orbit_lanes.h"
 
+#include "base/pause.h"
 #include "physics/kerr.h"
 #include "physics/orbit_internal.h"
 
@@ -19,6 +20,8 @@ typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 #define WIDEST
 #endif
 #define INLINE static inline __attribute__((always_inline))
+
+enum { PIECE = 4096 }; /* steps between two looks at whether others go first */
 
 struct exact { lane value, rest; };
 
@@ -215,6 +218,8 @@ void kd_orbit_lanes_run(struct kd_orbit_lanes *lanes)
         mask turned;
         for (int i = 0; i < KD_ORBIT_LANES; i++)
             steps = left[i] && left[i] < steps ? left[i] : steps;
+        steps = steps < PIECE ? steps : PIECE;
+        kd_pause();
         uint64_t gone = steps - go(&s, steps, lanes->worst[0] != NULL, lanes->periastron != NULL, &turned);
         most = 0;
         for (int i = 0; i < KD_ORBIT_LANES; i++) {

@@ -1,5 +1,6 @@
 #include "playground/debris.h"
 
+#include "base/pause.h"
 #include "base/random.h"
 #include "image/npy.h"
 #include "playground/hole.h"
@@ -30,16 +31,15 @@ enum kd_status kd_debris_resize(struct kd_playground_debris *debris, uint32_t ca
     if (!pieces)
         return kd_error_set(error, KD_ENOMEM, "no memory for %u pieces of debris", capacity);
     /* From the newest back, which lies before `next`. */
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < debris->used; i++) {
+    const uint32_t kept = debris->alive < capacity ? debris->alive : capacity;
+    for (uint32_t i = 0, left = kept; i < debris->used; i++) {
+        kd_pause_every(i, 65536);
         struct kd_debris_piece *piece = &debris->pieces[(debris->next + debris->capacity - 1 - i) % debris->capacity];
-        if (kept < capacity && piece->stage != KD_DEBRIS_FREE)
-            pieces[capacity - ++kept] = *piece;
+        if (left && piece->stage != KD_DEBRIS_FREE)
+            pieces[--left] = *piece;
         else
             give_up(debris, piece);
     }
-    memmove(pieces, pieces + (capacity - kept), kept * sizeof *pieces);
-    memset(pieces + kept, 0, (capacity + 1 - kept) * sizeof *pieces);
     free(debris->pieces);
     debris->pieces = pieces;
     debris->capacity = capacity;
@@ -224,6 +224,7 @@ void kd_debris_advance(struct kd_playground_debris *debris, double t, double saf
     for (uint32_t i = 0; debris->alive && i < debris->used; i++) {
         struct kd_debris_piece *piece = &debris->pieces[i];
         double radius;
+        kd_pause_every(i, 256);
         if (piece->stage == KD_DEBRIS_FREE)
             continue;
         struct kd_debris_source *source = &debris->sources[piece->source];

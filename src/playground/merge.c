@@ -1,4 +1,5 @@
 /* Bodies that touch become one, and bodies that come too close become the hole's. */
+#include "base/pause.h"
 #include "playground/hole.h"
 #include "playground/playground.h"
 
@@ -74,6 +75,7 @@ void kd_playground_merge(struct kd_playground *p, double h)
         bool again = p->mutual.near[i] > 0 && p->bodies[i].id;
         while (again) {
             again = false;
+            kd_pause_every(i, 64);
             for (size_t j = 0; j < p->n; j++)
                 if (j != i && p->bodies[j].id && touched(&p->bodies[i], &p->bodies[j], grown[i] || grown[j] ? 0 : h)) {
                     before = joined++ ? before : kd_playground_totals(p).energy;

@@ -1,5 +1,7 @@
 #include "playground/mutual.h"
 
+#include "base/pause.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -87,6 +89,8 @@ void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct
     }
     for (size_t i = n; i % LANES; i++) /* lanes that stand idle */
         mutual->x[i] = mutual->y[i] = mutual->z[i] = mutual->mass[i] = mutual->radius[i] = 0;
-    for (size_t first = 0; first < n; first += LANES)
+    for (size_t first = 0; first < n; first += LANES) {
+        kd_pause_every(first, 16 * LANES);
         pull(mutual, first, n, softening * softening, margin);
+    }
 }

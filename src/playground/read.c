@@ -1,4 +1,5 @@
 /* Documents that make and change a playground. */
+#include "base/pause.h"
 #include "playground/fields.h"
 #include "playground/hole.h"
 #include "playground/json.h"
@@ -13,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PIECES 16384   /* of debris, that are copied at once: a millisecond */
 #define VALUES 4000000 /* of a document: of 4 096 bodies some fifty each, and the sources' counts */
 
 static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer,
@@ -128,6 +130,7 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
         return kd_error_field(error, pointer, "%s has %d elements, allowed are up to %u", name,
                               cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
+        kd_pause_every(i, 16);
         snprintf(pointer, sizeof pointer, "/%s", name);
         snprintf(index, sizeof index, "%u", i++);
         kd_text_pointer(pointer, sizeof pointer, index);
@@ -200,6 +203,7 @@ static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, st
     for (const cJSON *one = cJSON_IsArray(list) ? list->child : NULL; one; one = one->next) {
         struct kd_playground_body body = plain(), held = { .x = { 100, 0, 0 }, .v = { 0, 0.1, 0 } };
         char pointer[40];
+        kd_pause_every(i, 16);
         snprintf(pointer, sizeof pointer, "/bodies/%u", i++);
         KD_TRY(read_body(&body, one, pointer, NULL, KD_PLAYGROUND_BODIES_MAX, error));
         if (isnan(body.x[0]))
@@ -259,14 +263,13 @@ enum kd_status kd_playground_read(const char *text, size_t length, struct kd_pla
 static enum kd_status copy(const struct kd_playground *from, struct kd_playground **out, struct kd_error *error)
 {
     struct kd_playground *p = malloc(sizeof *p);
-    const size_t pieces = ((size_t)from->debris.capacity + 1) * sizeof *from->debris.pieces;
     if (p) {
         *p = *from;
         p->mutual = (struct kd_playground_mutual) { 0 };
         p->forced = false;
         p->bodies = from->room ? malloc(from->room * sizeof *p->bodies) : NULL;
         p->geodesics = from->geodesics ? malloc(from->room * sizeof *p->geodesics) : NULL;
-        p->debris.pieces = malloc(pieces);
+        p->debris.pieces = calloc((size_t)from->debris.capacity + 1, sizeof *p->debris.pieces);
     }
     if (!p || !p->debris.pieces || (from->room && !p->bodies) || (from->geodesics && !p->geodesics) ||
         kd_playground_mutual_reserve(&p->mutual, from->room ? from->room : 1, NULL)) {
@@ -277,7 +280,12 @@ static enum kd_status copy(const struct kd_playground *from, struct kd_playgroun
         memcpy(p->bodies, from->bodies, from->n * sizeof *p->bodies);
     if (from->geodesics)
         memcpy(p->geodesics, from->geodesics, from->n * sizeof *p->geodesics);
-    memcpy(p->debris.pieces, from->debris.pieces, pieces);
+    for (size_t at = 0; at < from->debris.used; at += PIECES) {
+        kd_pause();
+        const size_t left = from->debris.used - at;
+        memcpy(p->debris.pieces + at, from->debris.pieces + at,
+               (left < PIECES ? left : PIECES) * sizeof *from->debris.pieces);
+    }
     *out = p;
     return KD_OK;
 }

@@ -1,5 +1,6 @@
 #include "playground/show.h"
 
+#include "base/pause.h"
 #include "playground/hole.h"
 #include "playground/json.h"
 #include "scene/sha256.h"
@@ -43,6 +44,7 @@ void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_sh
 {
     const float cells = (float)(KD_SHOW_TURN_MOST / (2 * M_PI)), turn = KD_SHOW_TURN_MOST;
     for (size_t i = 0; i < n; i++) {
+        kd_pause_every(i, 4096);
         const float x = (float)pieces[i].x[0], y = (float)pieces[i].x[1], z = (float)pieces[i].x[2],
                     r2 = x * x + y * y + z * z, across2 = x * x + y * y;
         float column = cells * atan2f(y, x);
@@ -72,6 +74,7 @@ static bool take(const struct kd_show_place *places, size_t n, struct taken *out
     uint8_t *seen = calloc((size_t)(HIGH - LOW) * KD_SHOW_TURN_LEAST / 8, 1);
     *out = (struct taken) { .rows = { INT32_MAX, INT32_MIN } };
     for (size_t i = 0; seen && i < n; i++) {
+        kd_pause_every(i, 4096);
         if (isnan(places[i].row))
             continue;
         const int32_t row = (int32_t)floorf(places[i].row / COARSER), column = (int32_t)(places[i].column / COARSER);
@@ -158,6 +161,7 @@ void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_sho
     const size_t width = KD_CROWD_NODE * (size_t)to->columns;
     double thick = 0;
     for (size_t i = 0; i < n; i++) {
+        kd_pause_every(i, 4096);
         const float row = scale * places[i].row - (float)to->first_row;
         if (isnan(row) || row > (float)(to->rows - 1)) {
             to->hidden += pieces[i].stage != KD_DEBRIS_FREE;

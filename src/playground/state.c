@@ -1,5 +1,6 @@
 #include "playground/state.h"
 
+#include "base/pause.h"
 #include "playground/base64.h"
 #include "playground/fields.h"
 #include "playground/hole.h"
@@ -111,6 +112,7 @@ enum kd_status kd_state_write(const struct kd_playground *p, struct kd_json *jso
     kd_json_end(json);
     kd_json_array(json, "bodies");
     for (size_t i = 0; i < p->n; i++) {
+        kd_pause_every(i, 64);
         kd_json_object(json, NULL);
         write_numbers(&p->bodies[i], body, N(body), json);
         if (p->params.gravity == KD_GRAVITY_KERR) {
@@ -152,11 +154,12 @@ static enum kd_status read_numbers(void *to, const struct number *table, size_t 
         const cJSON *one = cJSON_GetObjectItemCaseSensitive(item, table[i].name);
         const struct range *may = &ranges[table[i].kind];
         const double x = cJSON_IsNumber(one) ? one->valuedouble : NAN;
-        char what[120];
-        snprintf(what, sizeof what, "is %.17g, allowed %s %.17g to %.17g", x,
-                 may->whole ? "are whole numbers from" : "is", may->least, may->most);
-        if (!(x >= may->least && x <= may->most) || (may->whole && x != floor(x)))
+        if (!(x >= may->least && x <= may->most) || (may->whole && x != floor(x))) {
+            char what[120];
+            snprintf(what, sizeof what, "is %.17g, allowed %s %.17g to %.17g", x,
+                     may->whole ? "are whole numbers from" : "is", may->least, may->most);
             return bad(pointer, table[i].name, cJSON_IsNumber(one) ? what : "is no number", error);
+        }
         switch (table[i].kind) {
         case REAL:
         case TIME: *(double *)at = x; break;
@@ -197,6 +200,7 @@ static bool look(struct kd_playground_debris *d)
     double haste = 0;
     d->alive = 0;
     for (uint32_t i = 0; i < d->used; i++) {
+        kd_pause_every(i, 16384);
         const struct kd_debris_piece *piece = &d->pieces[i];
         const double r = kd_playground_radius(piece->x);
         if (piece->stage > KD_DEBRIS_BACK || piece->source >= KD_DEBRIS_SOURCES)
@@ -284,8 +288,10 @@ enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct
         KD_TRY(kd_playground_numbers(p->spent.capped_momentum, 3, MOST, capped, "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
         KD_TRY(bad("/state", "bodies", "are not as many as the bodies", error));
-    for (const cJSON *one = bodies->child; one; one = one->next)
+    for (const cJSON *one = bodies->child; one; one = one->next) {
+        kd_pause_every(i, 64);
         KD_TRY(read_body(p, i++, one, error));
+    }
     KD_TRY(read_debris(&p->debris, cJSON_GetObjectItemCaseSensitive(state, "debris"), error));
     p->events.last = cJSON_IsNumber(events) && events->valuedouble >= 0 && events->valuedouble <= WHOLE
                          ? (uint64_t)events->valuedouble

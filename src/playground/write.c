@@ -1,3 +1,4 @@
+#include "base/pause.h"
 #include "playground/fields.h"
 #include "playground/json.h"
 #include "playground/state.h"
@@ -22,6 +23,7 @@ static void bodies(const struct kd_playground *p, bool ids, struct kd_json *json
 {
     kd_json_array(json, "bodies");
     for (size_t i = 0; i < p->n; i++) {
+        kd_pause_every(i, 64);
         kd_json_object(json, NULL);
         if (ids)
             kd_json_number(json, "id", p->bodies[i].id);

@@ -2,6 +2,7 @@
 #include "quantity/text.h"
 
 #include "base/decimal.h"
+#include "base/pause.h"
 
 static void write_point(struct kd_writer *w, const struct kd_quantity_answer *answer, size_t point)
 {
@@ -32,7 +33,9 @@ enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct k
     for (size_t k = 0; k < quantity->n_outputs; k++)
         kd_write(w, ",%s", quantity->outputs[k].name);
     kd_write(w, "\n");
-    for (size_t point = 0; point < answer->points && !writer.status; point++)
+    for (size_t point = 0; point < answer->points && !writer.status; point++) {
+        kd_pause_every(point, 256);
         write_point(w, answer, point);
+    }
     return writer.status;
 }

@@ -2,6 +2,7 @@
 #include "quantity/text.h"
 
 #include "base/decimal.h"
+#include "base/pause.h"
 
 static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const struct kd_axis *axis, int digits)
 {
@@ -55,6 +56,7 @@ static void write_values(struct kd_writer *w, const struct kd_quantity_answer *a
         for (size_t i = 0; i < (list ? answer->points : 1); i++) {
             if (list && !w->status)
                 w->status = kd_buffer_append(w->out, i ? "," : "[", 1);
+            kd_pause_every(i, 1024);
             double value = answer->values[i * quantity->n_outputs + k];
             kd_quantity_write_number(w, list ? kd_decimal_round(value, answer->request.digits) : value, "null");
         }

@@ -1,5 +1,7 @@
 #include "quantity/sound.h"
 
+#include "base/pause.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -166,6 +168,7 @@ static enum kd_status put_samples(struct kd_buffer *out, size_t n, double hz, do
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < n; i++) {
+        kd_pause_every(i, 4096);
         const double t = (double)i / RATE;
         KD_TRY(put(out, (uint16_t)(int16_t)lrint(INT16_MAX * exp(-t / damping_s) * cos(2 * M_PI * hz * t)), 2));
     }

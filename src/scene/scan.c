@@ -2,6 +2,7 @@
 
 #include "scene/mistake.h"
 #include "scene/number.h"
+#include "base/pause.h"
 #include "base/utf8.h"
 #include "scene/text.h"
 
@@ -154,7 +155,8 @@ static enum kd_status scan(const char *text, size_t start, size_t end, size_t mo
     const char *encoding = start ? NULL : kd_json_encoding(text, end);
     if (encoding)
         return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it is %s, and JSON is UTF-8", encoding);
-    while (!status && s.at < end) {
+    for (uint64_t tokens = 0; !status && s.at < end; tokens++) {
+        kd_pause_every(tokens, 16384);
         char c = text[s.at];
         bool letter = (c | 32) >= 'a' && (c | 32) <= 'z',
              value = letter || c == '"' || c == '-' || (c >= '0' && c <= '9');

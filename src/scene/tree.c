@@ -1,5 +1,6 @@
 #include "scene/tree.h"
 
+#include "base/pause.h"
 #include "scene/number.h"
 #include "scene/scan.h"
 #include "scene/text.h"
@@ -68,7 +69,9 @@ enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_
     if (length)
         memcpy(copy, text, length);
     copy[length] = 0;
+    kd_pause();
     status = parse(copy, length, out, error);
+    kd_pause();
     free(copy);
     return status;
 }

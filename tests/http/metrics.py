@@ -170,7 +170,7 @@ class Metrics(daemon.Case):
 
         def rests():
             kept = {sample.labels["kind"]: sample.value for sample in families(server)["kerrd_kept_bytes"].samples}
-            self.assertEqual(set(kept), {"lens_maps", "buffers", "kernels", "panoramas", "other"})
+            self.assertEqual(set(kept), {"lens_maps", "buffers", "kernels", "panoramas", "heap", "other"})
             return kept["kernels"]
 
         self.assertTrue(daemon.eventually(lambda: rests() == 1))

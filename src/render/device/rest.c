@@ -1,6 +1,7 @@
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
+#include "base/clock.h"
 #include "base/log.h"
 #include "render/device/internal.h"
 
@@ -18,26 +19,36 @@ static uint64_t resident_bytes(void)
     return (uint64_t)resident * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-void kd_renderer_begin_count(struct kd_renderer *r) { r->opened_bytes = resident_bytes(); }
-
-void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
+void kd_renderer_begin_count(struct kd_renderer *r)
 {
-    uint64_t named = r->opened_bytes;
-    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++) {
-        out[i] = i == KD_KEPT_OTHER ? 0 : atomic_load(&r->kept_bytes[i]);
-        named += out[i];
-    }
-    const uint64_t resident = resident_bytes();
-    out[KD_KEPT_OTHER] = resident > named ? resident - named : 0;
+    r->opened_bytes = resident_bytes();
+    r->opened_heap = kd_allocator_used();
 }
 
-static uint64_t sum_of(const struct kd_renderer *r)
+static uint64_t more_than(uint64_t a, uint64_t b) { return a > b ? a - b : 0; }
+
+static uint64_t named_bytes(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
 {
-    uint64_t kept[KD_N_KEPT_KINDS], sum = 0;
-    kd_renderer_kept(r, kept);
+    uint64_t sum = 0;
     for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
-        sum += kept[i];
+        sum += out[i] = i == KD_KEPT_HEAP || i == KD_KEPT_OTHER ? 0 : atomic_load(&r->kept_bytes[i]);
     return sum;
+}
+
+uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
+{
+    uint64_t each[KD_N_KEPT_KINDS], named = named_bytes(r, each);
+    return named + more_than(resident_bytes(), r->opened_bytes + named);
+}
+
+/* What is resident and has no name yet is the heap's or something else. Of the device's memory, which is counted as a
+ * whole, pages may never have been touched: so the heap is no more than what is left. */
+void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
+{
+    const uint64_t left = more_than(resident_bytes(), r->opened_bytes + named_bytes(r, out)),
+                   heap = more_than(kd_allocator_used(), r->opened_heap + out[KD_KEPT_KERNELS]);
+    out[KD_KEPT_HEAP] = heap < left ? heap : left;
+    out[KD_KEPT_OTHER] = left - out[KD_KEPT_HEAP];
 }
 
 void kd_renderer_count(struct kd_renderer *r)
@@ -78,6 +89,20 @@ static void give_back(struct kd_renderer *r)
     kd_panoramas_rest(&r->panoramas, KD_REST_PANORAMAS);
 }
 
+/* Closes the device and opens it again. What the process is larger by afterwards is not the device's. */
+static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
+{
+    enum kd_status status = kd_renderer_reopen(r, error);
+    if (status && !r->vk) /* whatever the reason: there is no device */
+        status = error->status = KD_EDEVICE;
+    if (status)
+        return status;
+    kd_allocator_trim();
+    kd_renderer_begin_count(r);
+    kd_renderer_count(r);
+    return KD_OK;
+}
+
 enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status;
@@ -88,13 +113,11 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
     KD_TRY(kd_vk_wait(r->vk, 0, error)); /* what was destroyed is freed now */
     kd_allocator_trim();
     kd_renderer_count(r);
-    const uint64_t sum = sum_of(r);
+    const uint64_t sum = kd_renderer_kept_sum(r);
     if (sum <= KD_REST_BYTES)
         return KD_OK;
     kd_log(KD_LOG_INFO, "%.0f MiB are kept at rest: the device is opened again", (double)sum / 0x1p20);
-    KD_TRY(kd_renderer_reopen(r, error));
-    kd_allocator_trim();
-    kd_renderer_count(r);
+    return open_again(r, error);
 done:
     return status;
 }

@@ -6,7 +6,8 @@
 
 /* X(kind, its word in /metrics) */
 #define KD_KEPT_KINDS(X) \
-    X(LENS_MAPS, "lens_maps") X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(OTHER, "other")
+    X(LENS_MAPS, "lens_maps") \
+    X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(HEAP, "heap") X(OTHER, "other")
 enum kd_kept_kind {
 #define KD_KEPT_ENUM(kind, word) KD_KEPT_##kind,
     KD_KEPT_KINDS(KD_KEPT_ENUM)
@@ -33,18 +34,21 @@ static inline const char *kd_kept_word(size_t kind)
 #undef KD_KEPT_WORD
     return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
 }
-/* As after the latest frame or rest, but for `other`. Lens maps and buffers are of the device; kernels are counted by
- * their SPIR-V; other: what is resident now beyond the other kinds and what was when the device had been opened, as
- * what the driver has made of kernels, and what is being rendered, encoded or sent; it takes the reading of a file in
- * /proc. Any thread. */
+/* The device's kinds are as after the latest frame or rest; kernels are counted by their SPIR-V. The last two are what
+ * is resident now beyond these and what was when the device had been opened: heap, in use there, mostly what lavapipe
+ * has made of kernels; other: code, stacks, what is freed and not given back, and blocks of a MiB and more that are
+ * being rendered, encoded or sent. It takes the reading of a file in /proc and a look at the heap, a millisecond or so.
+ * Any thread. */
 void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
+/* The sum of all kinds, without the look at the heap. Any thread. */
+uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
 /* Counts it anew, after each frame: it calls nothing of the system. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
 /* Gives back everything but what the bounds above name, and the host's free memory to the kernel. Pictures come out
  * the same afterwards; those of the latest view as soon, unless the device had to be opened again (KD_REST_BYTES).
  * Errors as kd_renderer_reopen. Render thread only, while nothing is rendered, here or aside. */
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
-/* The process has just the device: what is resident now is no kind of what is kept. */
+/* The process has just opened the device: what is resident now is no kind of what is kept. */
 void kd_renderer_begin_count(struct kd_renderer *renderer);
 
 #endif

@@ -1,6 +1,7 @@
 #include "render/rays/answer.h"
 
 #include "base/decimal.h"
+#include "base/pause.h"
 #include "image/npy.h"
 #include "render/rays/hold.h"
 #include "render/rays/rows.h"
@@ -36,6 +37,8 @@ void kd_rays_answer_finish(struct kd_rays_answer *answer)
 
 static int ascending(const void *a, const void *b)
 {
+    static _Thread_local uint64_t compared;
+    kd_pause_every(compared++, 65536);
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
@@ -48,6 +51,7 @@ enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu errors", answer->n);
     answer->undecided = answer->followed_again = answer->beyond = 0;
     for (size_t i = 0; i < answer->n; i++) {
+        kd_pause_every(i, 65536);
         answer->undecided += answer->ends[i].fate == KD_RAY_UNDECIDED;
         answer->followed_again += answer->ends[i].again;
         answer->beyond += answer->params.tolerance > 0 && !kd_rays_held(&answer->ends[i], answer->params.tolerance);

@@ -5,6 +5,7 @@
 #include "physics/kerr.h"
 #include "physics/null_geodesic.h"
 #include "base/cores.h"
+#include "base/pause.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -87,9 +88,11 @@ static bool trace_slice(struct share *share)
 {
     const struct kd_ray_labels *rays = share->rays;
     size_t first = atomic_load(&share->stop) ? rays->n : atomic_fetch_add(&share->next, SLICE);
-    for (size_t i = first; i < rays->n && i < first + SLICE; i++)
+    for (size_t i = first; i < rays->n && i < first + SLICE; i++) {
+        kd_pause_every(i, 64);
         trace_one(share->params, rays->alpha_beta + 2 * i, rays->outward && rays->outward[i], share->errors,
                   share->crossings + i * share->params->orders, &share->ends[i]);
+    }
     return first < rays->n;
 }
 

@@ -1,5 +1,6 @@
 #include "render/rays/list.h"
 
+#include "base/pause.h"
 #include "render/rays/rays.h"
 #include "scene/mistake.h"
 #include "scene/number.h"
@@ -169,6 +170,7 @@ enum kd_status kd_rays_list_read(struct kd_rays_list *list, const char *text, si
     if (!take(&r, ']')) {
         struct kd_number_locale locale = kd_number_locale_enter();
         do {
+            kd_pause_every(r.ray, 1024);
             r.at = skip_blanks(text, r.at);
             status = pair(&r, list);
             r.ray++;

@@ -209,8 +209,14 @@ void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset)
     pthread_mutex_unlock(&store->lock);
 }
 
-void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, uint64_t *bytes)
+void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes)
 {
-    *assets = store->count;
-    *bytes = store->bytes;
+    *assets = 0;
+    *bytes = 0;
+    pthread_mutex_lock(&store->lock);
+    for (const struct kd_asset *asset = store->first; asset; asset = asset->next) {
+        *assets += asset->state == KD_ASSET_READY;
+        *bytes += asset->state == KD_ASSET_READY ? asset->about.size : 0;
+    }
+    pthread_mutex_unlock(&store->lock);
 }

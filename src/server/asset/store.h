@@ -71,9 +71,8 @@ bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset)
 /* The same on a worker, for who must not wait. */
 void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_turns *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
-/* How many there are, and their bytes. It waits for nobody: an asset that comes or goes just then may be in one of
- * the two alone. */
-void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
+/* How many can be found, and their bytes: without those whose files are just being written or removed. */
+void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
 
 /* What is known of an asset stays the same as long as it is held. */
 struct kd_asset_about {

@@ -281,15 +281,16 @@ static void answer_late(const struct kd_connection *one)
         kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive", NULL);
 }
 
-/* Throw away what has arrived. False when there is no more to wait for. */
+/* Throw away what has arrived, 1 MiB each sweep at most: the lock is held. False when there is no more to wait for. */
 static bool empty(struct kd_connection *one)
 {
+    enum { READS = 64 };
     char scrap[16384];
-    ssize_t n;
-    while ((n = recv(one->socket, scrap, sizeof scrap, MSG_DONTWAIT)) > 0)
+    ssize_t n = 0;
+    for (int i = 0; i < READS && (n = recv(one->socket, scrap, sizeof scrap, MSG_DONTWAIT)) > 0; i++)
         if ((one->discarded += (size_t)n) > LINGER_BYTES)
             return false;
-    return n < 0 && (errno == EAGAIN || errno == EINTR);
+    return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
 static void empty_lingering(struct kd_connections *all, double now)

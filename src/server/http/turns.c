@@ -1,6 +1,7 @@
 #include "server/http/turns.h"
 #include "base/clock.h"
 #include "base/cores.h"
+#include "base/pause.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -10,6 +11,15 @@
 #include <string.h>
 
 #define WORKERS_MAX 16
+#define THREADS_MAX (4 * WORKERS_MAX) /* with those whose turns are paused */
+#define PIECE_MS 15.                  /* of a turn, after which others go first */
+
+/* A turn that has paused, on the stack of its thread; listed among the jobs, to be gone on with when its time has come.
+ */
+struct paused {
+    struct kd_turns_job place; /* first; its turn is NULL */
+    pthread_cond_t resumed;
+};
 
 struct kd_turns {
     unsigned limit, share;
@@ -20,9 +30,14 @@ struct kd_turns {
     struct kd_turns_job *first, **end, *parked; /* in the order of their turns; waiting to be woken */
     struct kd_turns_job *accepted;              /* all but those that are being handed back */
     unsigned n_accepted, unfinished;
-    pthread_t workers[WORKERS_MAX];
-    unsigned n_workers;
+    pthread_t threads[THREADS_MAX];
+    unsigned n_threads, n_workers, busy, idle; /* busy: threads with a turn under way, n_workers at most */
 };
+
+/* Of the calling thread, if it is one of a queue's. */
+static _Thread_local struct kd_turns *mine;
+static _Thread_local struct kd_turns_job *under_way;
+static _Thread_local double piece_ms; /* when the piece of its turn began */
 
 static void append(struct kd_turns *turns, struct kd_turns_job *job)
 {
@@ -117,6 +132,13 @@ static void let_go(struct kd_turns *turns, struct kd_turns_job *job)
     turns->n_accepted--;
 }
 
+/* While a turn of a shared job is paused no other begins: each would take a thread. */
+static void list_again(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    if (!job->paused && !job->over)
+        append(turns, job);
+}
+
 /* Takes a turn of the first job in the list. Locked on entry and exit. */
 static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
 {
@@ -124,8 +146,10 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     job->workers++;
     job->woken = false;
     if (job->shared)
-        append(turns, job); /* for whoever is free */
+        list_again(turns, job); /* for whoever is free */
     pthread_mutex_unlock(&turns->lock);
+    under_way = job;
+    piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
     enum kd_turn_end turn = job->turn(job);
     kd_watch_turn_ends();
@@ -138,29 +162,97 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     else if (turn == KD_TURN_PARK || turn == KD_TURN_AWAY)
         park(turns, job, turn == KD_TURN_AWAY);
     else
-        append(turns, job);
+        list_again(turns, job);
     if (!job->over || job->workers)
         return;
     let_go(turns, job);
     pthread_mutex_unlock(&turns->lock);
+    kd_watch_turn_begins();
     job->done(job);
+    kd_watch_turn_ends();
     pthread_mutex_lock(&turns->lock);
     turns->unfinished--;
 }
 
+/* The first in the list goes on: a thread that has paused by itself, another one here. Locked on entry and exit. */
+static void go_on(struct kd_turns *turns)
+{
+    struct kd_turns_job *job = turns->first;
+    turns->busy++;
+    if (!job->turn) {
+        take_out(turns, job);
+        pthread_cond_signal(&((struct paused *)job)->resumed);
+        return;
+    }
+    give_turn(turns, job);
+    turns->busy--;
+}
+
+static void let_others_go_first(void);
+
 static void *work(void *user)
 {
     struct kd_turns *turns = user;
+    mine = turns;
+    kd_pause_hook = let_others_go_first;
     pthread_mutex_lock(&turns->lock);
     while (!turns->closing) {
         const double next = unpark_due(turns);
-        if (turns->first)
-            give_turn(turns, turns->first);
-        else
-            sleep_until(turns, next);
+        if (turns->first && turns->busy < turns->n_workers) {
+            go_on(turns);
+            continue;
+        }
+        turns->idle++;
+        sleep_until(turns, next);
+        turns->idle--;
     }
     pthread_mutex_unlock(&turns->lock);
     return NULL;
+}
+
+/* Starts a thread more, before there are others or with the lock. */
+static bool start_thread(struct kd_turns *turns)
+{
+    if (turns->n_threads == THREADS_MAX || pthread_create(&turns->threads[turns->n_threads], NULL, work, turns))
+        return false;
+    turns->n_threads++;
+    return true;
+}
+
+/* Locked on entry and exit. */
+static void pause_turn(struct kd_turns *turns)
+{
+    struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
+    append(turns, &me.place);
+    turns->busy--;
+    pthread_cond_signal(&turns->changed);
+    while (me.place.listed)
+        pthread_cond_wait(&me.resumed, &turns->lock);
+    pthread_cond_destroy(&me.resumed);
+}
+
+/* This thread's turn waits until those of other jobs that are listed have had theirs. Where no thread is left to give
+ * them these, it goes on. */
+static void let_others_go_first(void)
+{
+    struct kd_turns *turns = mine;
+    struct kd_turns_job *job = under_way;
+    if (kd_clock_ms() - piece_ms < PIECE_MS)
+        return;
+    kd_watch_turn_ends();
+    pthread_mutex_lock(&turns->lock);
+    unpark_due(turns);
+    take_out(turns, job);
+    job->paused++;
+    if (turns->first && (turns->idle || start_thread(turns)))
+        pause_turn(turns);
+    job->paused--;
+    if (job->shared)
+        list_again(turns, job);
+    pthread_mutex_unlock(&turns->lock);
+    under_way = job;
+    piece_ms = kd_clock_ms();
+    kd_watch_turn_begins();
 }
 
 static unsigned cores(void)
@@ -179,11 +271,16 @@ enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns *
     turns->end = &turns->first;
     pthread_mutex_init(&turns->lock, NULL);
     pthread_cond_init(&turns->changed, NULL);
-    for (unsigned n = cores(); turns->n_workers < n; turns->n_workers++)
-        if (pthread_create(&turns->workers[turns->n_workers], NULL, work, turns)) {
-            kd_turns_destroy(turns);
-            return kd_error_set(error, KD_ENOMEM, "a worker thread could not be started");
-        }
+    pthread_mutex_lock(&turns->lock);
+    turns->n_workers = cores();
+    bool started = true;
+    for (unsigned i = 0; i < turns->n_workers && started; i++)
+        started = start_thread(turns);
+    pthread_mutex_unlock(&turns->lock);
+    if (!started) {
+        kd_turns_destroy(turns);
+        return kd_error_set(error, KD_ENOMEM, "a worker thread could not be started");
+    }
     *out = turns;
     return KD_OK;
 }
@@ -196,8 +293,8 @@ void kd_turns_destroy(struct kd_turns *turns)
     turns->closing = true;
     pthread_cond_broadcast(&turns->changed);
     pthread_mutex_unlock(&turns->lock);
-    for (unsigned i = 0; i < turns->n_workers; i++)
-        pthread_join(turns->workers[i], NULL);
+    for (unsigned i = 0; i < turns->n_threads; i++)
+        pthread_join(turns->threads[i], NULL);
     pthread_cond_destroy(&turns->changed);
     pthread_mutex_destroy(&turns->lock);
     free(turns);

@@ -1,4 +1,6 @@
-/* Long jobs take turns: a few workers do a piece of each, so that a short one does not wait for a long one. */
+/* Long jobs take turns: a few workers do a piece of each, so that a short one does not wait for a long one. A turn ends
+ * by itself after some 10 ms; what it calls may also pause in the midst of it (base/pause.h), on a thread that is
+ * kept for it while as many others as there are workers go on. */
 #ifndef KD_SERVER_HTTP_TURNS_H
 #define KD_SERVER_HTTP_TURNS_H
 
@@ -25,7 +27,7 @@ struct kd_turns_job {
     /* the queue's own */
     struct kd_turns_job *next, *next_accepted, **accepted_at;
     bool listed, parked, away, woken, over;
-    unsigned workers;
+    unsigned workers, paused; /* its turns that have begun, and those of them that let others go first */
 };
 
 struct kd_turns;

@@ -135,6 +135,9 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
 /* run.c: hand the next frame to the render queue if it is time for one. */
 void kd_jobs_pump(struct kd_jobs *all);
+/* Plans the next frame, without the lock: what planning keeps of a camera is found then, and to begin the frame takes
+ * no time with it. By who writes records alone. */
+void kd_job_plan_ahead(struct kd_job *job);
 /* Finds the job of a frame by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_glance kd_job_glance;

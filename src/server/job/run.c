@@ -32,6 +32,9 @@ void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
+/* The exposure of all its frames is still measured. Locked. */
+static bool still_measures(const struct kd_job *job) { return job->exposure.done < job->exposure.n; }
+
 static unsigned at_place(const struct kd_job *job, unsigned place)
 {
     return job->order.frames ? job->order.frames[place] : place;
@@ -46,21 +49,51 @@ void kd_job_strike(struct kd_job *job)
     kd_job_keep(job);
 }
 
+/* The frame to be rendered next; the number of frames: none. Locked. */
+static unsigned next_frame(struct kd_job *job)
+{
+    while (job->next < job->frames && job->have[at_place(job, job->next)])
+        job->next++;
+    if (job->next == job->frames)
+        return job->frames;
+    return still_measures(job) ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
+}
+
+static enum kd_status plan(const struct kd_jobs *all, const struct kd_job_spec *spec, bool measures, unsigned number,
+                           struct kd_crowd *crowd, struct kd_scene *scene, struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(all->params.renders, &capacity);
+    return measures ? kd_job_exposure_plan(spec, number, &capacity, scene, out, error)
+                    : kd_job_frame_plan(spec, number, crowd, 0, all->params.longest_s, &capacity, scene, out, error);
+}
+
+void kd_job_plan_ahead(struct kd_job *job)
+{
+    struct kd_jobs *all = job->all;
+    struct kd_scene scene;
+    struct kd_plan ignored;
+    struct kd_error error;
+    pthread_mutex_lock(&all->lock);
+    const bool measures = still_measures(job);
+    const unsigned number = next_frame(job);
+    pthread_mutex_unlock(&all->lock);
+    if (number < job->frames && !(job->spec.every > 0)) /* a film's scene has to be made first */
+        plan(all, &job->spec, measures, number, NULL, &scene, &ignored, &error);
+}
+
 /* Hands over the next frame of a job. False: there was none. */
 static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
-    struct kd_capacity capacity;
     struct kd_error error = { 0 };
-    const bool measures = job->exposure.done < job->exposure.n;
-    while (job->next < job->frames && job->have[at_place(job, job->next)])
-        job->next++;
-    if (job->next == job->frames)
+    const bool measures = still_measures(job);
+    if (next_frame(job) == job->frames)
         return false;
     kd_job_strike(job);
     if (job->keeping) /* the strike is on the disk before what it is for begins */
         return true;
-    const unsigned number = measures ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
+    const unsigned number = next_frame(job);
     struct kd_crowd *crowd = NULL;
     enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
     if (status)
@@ -68,12 +101,8 @@ static bool begin(struct kd_job *job)
     if (status || (job->spec.every > 0 && !crowd))
         return false;
     struct kd_job_render *frame = calloc(1, sizeof *frame);
-    kd_render_queue_capacity(all->params.renders, &capacity);
-    status = !frame     ? kd_error_set(&error, KD_ENOMEM, "out of memory for a frame")
-             : measures ? kd_job_exposure_plan(&job->spec, number, &capacity, &frame->render.scene, &frame->render.plan,
-                                               &error)
-                        : kd_job_frame_plan(&job->spec, number, crowd, 0, all->params.longest_s, &capacity,
-                                            &frame->render.scene, &frame->render.plan, &error);
+    status = frame ? plan(all, &job->spec, measures, number, crowd, &frame->render.scene, &frame->render.plan, &error)
+                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
     if (status) {
         kd_job_give_up(job, &error);
         free(frame);

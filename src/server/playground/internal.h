@@ -30,12 +30,14 @@ struct kd_play {
     struct kd_playground_events log;
     uint64_t log_begin; /* what a snapshot has told elsewhere */
     struct kd_play_watcher *watchers;
-    struct kd_scene scene;      /* of its picture */
-    struct kd_session *picture; /* that shows it, a reference; NULL: nobody has asked for one */
-    bool unshown;               /* that has been given nothing yet */
-    double looked_at_ms;        /* when somebody asked for a frame last */
-    /* with `work`, which is taken before all->lock */
-    pthread_mutex_t work;
+    struct kd_scene scene;          /* of its picture */
+    struct kd_session *picture;     /* that shows it, a reference; NULL: nobody has asked for one */
+    bool unshown;                   /* that has been given nothing yet */
+    double looked_at_ms;            /* when somebody asked for a frame last */
+    bool held;                      /* the playground belongs to somebody */
+    struct kd_play_waiter *waiters; /* for it */
+    /* whoever holds the playground (kd_play_take) */
+    struct kd_play_waiter waiter; /* of the play's own job */
     struct kd_playground *p;
     double looked_ms, goal, allowance; /* the clock of its turns (run.c); looked_ms 0: it stands */
     double ticked_ms, measured_ms, measured_t, shown_ms;
@@ -55,7 +57,7 @@ struct kd_plays {
 };
 
 /* Callers hold all->lock. */
-void kd_play_let_go(struct kd_play *play); /* of a reference */
+struct kd_play *kd_play_let_go(struct kd_play *play); /* of a reference. Returns it if that was the last one */
 void kd_play_unlist(struct kd_play *play, const char *why);
 bool kd_play_awake(const struct kd_play *play, double now); /* somebody watches, or has asked of late */
 void kd_play_call(struct kd_play *play);                    /* its job has something to do */
@@ -68,6 +70,9 @@ struct kd_session *kd_play_shown(
     double now);                         /* the picture, if somebody may look at it: a reference, or NULL. picture.c */
 void kd_play_hide(struct kd_play *play); /* ends the picture. picture.c */
 unsigned kd_play_viewers(const struct kd_play *play); /* who look at it. picture.c */
+
+/* Frees one that nobody refers to, which may take some milliseconds: without the lock. Accepts NULL. */
+void kd_play_destroy(struct kd_play *play);
 
 /* The play's job; run.c. */
 enum kd_turn_end kd_play_turn(struct kd_turns_job *job);

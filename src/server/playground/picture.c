@@ -1,6 +1,6 @@
 /* A play is shown by a session (server/session), which is opened when somebody asks for the first frame, and given a
  * crowd of what there is to see whenever that has changed and somebody looks (run.c). Locks are taken in the order
- * work, all->lock, the sessions' lock. */
+ * all->lock, the sessions' lock. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"

@@ -46,16 +46,13 @@ void kd_plays_destroy(struct kd_plays *all)
 
 /* From here on functions run with the lock. */
 
-void kd_play_let_go(struct kd_play *play)
+struct kd_play *kd_play_let_go(struct kd_play *play)
 {
     if (--play->references)
-        return;
+        return NULL;
     kd_play_hide(play);
     kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
-    kd_play_tick_release(play->tick);
-    kd_playground_destroy(play->p);
-    pthread_mutex_destroy(&play->work);
-    free(play);
+    return play;
 }
 
 void kd_play_call(struct kd_play *play)
@@ -95,15 +92,17 @@ static unsigned watchers_of(const struct kd_play *play)
 
 /* From here on functions take the lock themselves. */
 
-/* The job's reference. */
-static void done(struct kd_turns_job *job)
+void kd_play_destroy(struct kd_play *play)
 {
-    struct kd_play *play = (struct kd_play *)job;
-    struct kd_plays *all = play->all;
-    pthread_mutex_lock(&all->lock);
-    kd_play_let_go(play);
-    pthread_mutex_unlock(&all->lock);
+    if (!play)
+        return;
+    kd_play_tick_release(play->tick);
+    kd_playground_destroy(play->p);
+    free(play);
 }
+
+/* The job's reference. */
+static void done(struct kd_turns_job *job) { kd_play_release((struct kd_play *)job); }
 
 static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pace, const char *client)
 {
@@ -119,7 +118,8 @@ static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pac
     play->pace = *pace;
     play->used_ms = kd_clock_ms();
     play->generation = 1;
-    pthread_mutex_init(&play->work, NULL);
+    play->held = true;
+    play->waiter = (struct kd_play_waiter) { .turns = all->turns, .job = &play->turns };
     return play;
 }
 
@@ -165,7 +165,6 @@ enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, con
     }
     pthread_mutex_unlock(&all->lock);
     if (status) {
-        pthread_mutex_destroy(&play->work);
         free(play);
         return status;
     }
@@ -197,8 +196,9 @@ void kd_play_release(struct kd_play *play)
         return;
     struct kd_plays *all = play->all;
     pthread_mutex_lock(&all->lock);
-    kd_play_let_go(play);
+    struct kd_play *unused = kd_play_let_go(play);
     pthread_mutex_unlock(&all->lock);
+    kd_play_destroy(unused);
 }
 
 const char *kd_play_id(const struct kd_play *play) { return play->id; }
@@ -212,16 +212,34 @@ void kd_play_end(struct kd_play *play, const char *why)
     pthread_mutex_unlock(&play->all->lock);
 }
 
-struct kd_playground *kd_play_take(struct kd_play *play)
+struct kd_playground *kd_play_take(struct kd_play *play, struct kd_play_waiter *waiter)
 {
-    pthread_mutex_lock(&play->work);
-    return play->p;
+    struct kd_playground *p = NULL;
+    pthread_mutex_lock(&play->all->lock);
+    if (!play->held) {
+        play->held = true;
+        p = play->p;
+    } else if (!waiter->listed) {
+        waiter->listed = true;
+        waiter->next = play->waiters;
+        play->waiters = waiter;
+    }
+    pthread_mutex_unlock(&play->all->lock);
+    return p;
 }
 
 void kd_play_give(struct kd_play *play, struct kd_playground *p)
 {
+    pthread_mutex_lock(&play->all->lock);
     play->p = p;
-    pthread_mutex_unlock(&play->work);
+    play->held = false;
+    for (struct kd_play_waiter *waiter = play->waiters, *next; waiter; waiter = next) {
+        next = waiter->next;
+        waiter->listed = false;
+        kd_turns_wake(waiter->turns, waiter->job);
+    }
+    play->waiters = NULL;
+    pthread_mutex_unlock(&play->all->lock);
 }
 
 void kd_play_moved(struct kd_play *play)

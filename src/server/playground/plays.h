@@ -6,8 +6,8 @@
  * ms: a sub-step is not divided, and takes tens of milliseconds where there are 4096 bodies or a million pieces of
  * debris. What a second asks for and does not get is let go: simulated time slows, which is told.
  *
- * A playground belongs to one thread at a time: whoever holds the play's `work`, a worker always. The HTTP thread
- * reads what the workers have published, a tick. Any thread; the functions on watchers belong to the HTTP thread. */
+ * A playground belongs to one thread at a time: whoever has taken it, a worker always. The HTTP thread reads what the
+ * workers have published, a tick. Any thread; the functions on watchers belong to the HTTP thread. */
 #ifndef KD_SERVER_PLAYGROUND_PLAYS_H
 #define KD_SERVER_PLAYGROUND_PLAYS_H
 
@@ -46,8 +46,8 @@ struct kd_play_pace {
     bool paused;
 };
 
-/* Opens a play, which owns *p from then on and sets it to NULL. The caller holds a reference. KD_EBUSY: there are as
- * many as may be, or as many bytes; *quota: of this client. */
+/* Opens a play, which owns *p from then on and sets it to NULL. The caller holds a reference, and has taken the
+ * playground. KD_EBUSY: there are as many as may be, or as many bytes; *quota: of this client. */
 enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace,
                              const struct kd_scene *scene, const char *client, bool *quota, struct kd_play **out,
                              struct kd_error *error);
@@ -60,9 +60,17 @@ bool kd_play_owned(const struct kd_play *play, const char *token); /* in constan
 /* Ends the play, and tells all who watch why: a word. */
 void kd_play_end(struct kd_play *play, const char *why);
 
-/* Takes the playground, which is the caller's until it is given back, itself or another one in its place: workers
- * only, and for a moment. */
-struct kd_playground *kd_play_take(struct kd_play *play);
+/* Takes the playground, which is the caller's until it is given back, itself or another one in its place. NULL:
+ * somebody has it; the waiter's job is woken when it is given back, and is to end its turn with KD_TURN_AWAY. A turn
+ * that holds it may pause (base/pause.h): nobody blocks for it. Workers. */
+struct kd_play_waiter {
+    struct kd_turns *turns;
+    struct kd_turns_job *job;
+    /* the play's own */
+    struct kd_play_waiter *next;
+    bool listed;
+};
+struct kd_playground *kd_play_take(struct kd_play *play, struct kd_play_waiter *waiter);
 void kd_play_give(struct kd_play *play, struct kd_playground *p);
 /* In between: what has happened in it is told; it has changed, or gone on; how many sub-steps it may be moved on
  * between two looks at the clock. */

@@ -25,6 +25,7 @@ struct play_task {
     enum what what;
     const char *type;     /* of the answer */
     struct kd_play *play; /* a reference; of OPEN what has been opened */
+    struct kd_play_waiter waiter;
     struct kd_buffer out;
     bool conflict, steps, begun, told; /* steps: the play is stepped by this; told: who has opened it knows */
     double by;
@@ -95,8 +96,8 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
     KD_TRY(kd_play_read_scene(look, p, kd_asset_store_assets(server->assets), &scene, error));
     if (look)
         KD_TRY(kd_plays_takes(server->plays, &scene, error));
+    struct kd_playground *opened = p;
     KD_TRY(kd_plays_open(server->plays, &p, &pace, &scene, t->task.request->client, &t->task.quota, &t->play, error));
-    struct kd_playground *opened = kd_play_take(t->play);
     status = tell(t, opened, &(struct kd_play_told) { .token = true, .before = UINT32_MAX }, error);
     kd_play_give(t->play, opened);
 done:
@@ -161,21 +162,18 @@ done:
     return status;
 }
 
-static enum kd_status change(struct play_task *t, struct kd_error *error)
+static enum kd_status change(struct play_task *t, struct kd_playground **p, struct kd_error *error)
 {
     cJSON *tree = NULL;
     enum kd_status status = kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error);
-    if (!status) {
-        struct kd_playground *p = kd_play_take(t->play);
-        status = change_taken(t, &p, tree, error);
-        kd_play_give(t->play, p);
-    }
+    if (!status)
+        status = change_taken(t, p, tree, error);
     cJSON_Delete(tree);
     kd_task_drop_body(t->task.request);
     return status;
 }
 
-static enum kd_turn_end step(struct play_task *t, double until_ms, struct kd_error *error)
+static enum kd_turn_end step(struct play_task *t, struct kd_playground *p, double until_ms, struct kd_error *error)
 {
     if (!t->begun) {
         if (kd_play_read_step(body_of(&t->task), t->task.request->body.size, &t->by, error))
@@ -187,7 +185,6 @@ static enum kd_turn_end step(struct play_task *t, double until_ms, struct kd_err
             return KD_TURN_LAST;
         }
     }
-    struct kd_playground *p = kd_play_take(t->play);
     bool more = true;
     if (!t->begun)
         kd_playground_begin(p, t->by, &t->run);
@@ -202,13 +199,11 @@ static enum kd_turn_end step(struct play_task *t, double until_ms, struct kd_err
         progress.asked = t->by;
         tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX, .progress = &progress }, error);
     }
-    kd_play_give(t->play, p);
     return more && !kd_play_state(t->play).over ? KD_TURN_MORE : KD_TURN_LAST;
 }
 
-static enum kd_status write_file(struct play_task *t, struct kd_error *error)
+static enum kd_status write_file(struct play_task *t, struct kd_playground *p, struct kd_error *error)
 {
-    struct kd_playground *p = kd_play_take(t->play);
     const bool npy = !strcmp(t->type, KD_NPY_TYPE);
     double now[KD_SERIES_N];
     enum kd_status status = KD_OK;
@@ -223,7 +218,6 @@ static enum kd_status write_file(struct play_task *t, struct kd_error *error)
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
     default: status = tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX }, error);
     }
-    kd_play_give(t->play, p);
     return status ? kd_error_set(error, status, "out of memory for the answer") : KD_OK;
 }
 
@@ -232,12 +226,17 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct play_task *t = (struct play_task *)task;
     struct kd_error error = { 0 };
     enum kd_turn_end end = KD_TURN_LAST;
+    struct kd_playground *p = t->what == OPEN ? NULL : kd_play_take(t->play, &t->waiter);
+    if (!p && t->what != OPEN)
+        return KD_TURN_AWAY;
     switch (t->what) {
     case OPEN: open_play(t, &error); break;
-    case CHANGE: change(t, &error); break;
-    case STEP: end = step(t, until_ms, &error); break;
-    default: write_file(t, &error);
+    case CHANGE: change(t, &p, &error); break;
+    case STEP: end = step(t, p, until_ms, &error); break;
+    default: write_file(t, p, &error);
     }
+    if (p)
+        kd_play_give(t->play, p);
     kd_task_fail(task, error.status, &error);
     if (!error.status)
         kd_task_fail(
@@ -293,6 +292,7 @@ static enum MHD_Result begin(struct kd_request *request, struct kd_play *play, e
         return refused;
     }
     t->play = play;
+    t->waiter = (struct kd_play_waiter) { .turns = t->task.queue, .job = &t->task.turns };
     t->what = what;
     t->type = type;
     return kd_task_submit(&t->task);

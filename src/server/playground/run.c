@@ -36,7 +36,6 @@ static uint32_t wanted_debris(const struct kd_play *play, double now)
     return most;
 }
 
-/* With `work`. */
 static struct order look(struct kd_play *play, double now)
 {
     pthread_mutex_lock(&play->all->lock);
@@ -61,7 +60,7 @@ static struct order look(struct kd_play *play, double now)
 void kd_play_log(struct kd_play *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
-    if (p->events.last == log->last) /* only who has `work` changes either */
+    if (p->events.last == log->last) /* only who holds the playground changes either */
         return;
     pthread_mutex_lock(&play->all->lock);
     play->all->events += p->events.last - log->last;
@@ -188,11 +187,12 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
 {
     struct kd_play *play = (struct kd_play *)job;
     bool behind = false;
-    pthread_mutex_lock(&play->work); /* first: who has it meanwhile may change what is to be done */
+    if (!kd_play_take(play, &play->waiter)) /* first: who has it meanwhile may change what is to be done */
+        return KD_TURN_AWAY;
     double now = kd_clock_ms();
     const struct order order = look(play, now);
     if (order.over) {
-        pthread_mutex_unlock(&play->work);
+        kd_play_give(play, play->p);
         if (order.shown)
             kd_session_release(order.shown);
         return KD_TURN_LAST;
@@ -207,7 +207,7 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
     const double ahead = play->p->t - play->goal,
                  next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
     job->due_ms = sooner(publish(play, &order, now), sooner(show(play, &order, now), next));
-    pthread_mutex_unlock(&play->work);
+    kd_play_give(play, play->p);
     if (order.shown)
         kd_session_release(order.shown);
     return behind ? KD_TURN_MORE : KD_TURN_PARK;

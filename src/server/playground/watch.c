@@ -97,8 +97,9 @@ void kd_play_unwatch(struct kd_play_watcher *w)
     if (w->next)
         w->next->previous = w->previous;
     play->used_ms = kd_clock_ms();
-    kd_play_let_go(play);
+    struct kd_play *unused = kd_play_let_go(play);
     pthread_mutex_unlock(&all->lock);
+    kd_play_destroy(unused);
     w->play = NULL;
 }
 

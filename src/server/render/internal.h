@@ -89,7 +89,10 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
 /* As for a job that has not begun: how it waits. */
 void kd_render_stand_in_line(struct kd_render_job *job);
 
-/* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked; unlocks meanwhile. */
+/* As kd_render_queue_push, locked, of a job that renders no scene. */
+void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job);
+
+/* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked. */
 void kd_render_rest_if_idle(struct kd_render_queue *queue);
 
 /* compile.c, locked. The first two: nobody else has the device. Looks which jobs lack kernels, and hands over what has

@@ -275,22 +275,38 @@ void kd_render_stand_in_line(struct kd_render_job *job)
     job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
 }
 
-void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
+static void prepare(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->queue = queue;
     job->submitted_ms = job->away_ms = kd_clock_ms();
     job->kernels_ms = 0;
     job->compilation = NULL;
     kd_render_stand_in_line(job);
-    job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
-    pthread_mutex_lock(&queue->lock);
+}
+
+static void append(struct kd_render_queue *queue, struct kd_render_job *job)
+{
     kd_render_list_append(&queue->jobs, job);
     kd_shares_add(&queue->shares, &job->claim);
     queue->unfinished++;
     queue->worked_ms = job->submitted_ms;
     queue->rested = job == &queue->rest;
     kd_render_next(queue);
+}
+
+void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    prepare(queue, job);
+    job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
+    pthread_mutex_lock(&queue->lock);
+    append(queue, job);
     pthread_mutex_unlock(&queue->lock);
+}
+
+void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    prepare(queue, job);
+    append(queue, job);
 }
 
 void kd_render_queue_encode(struct kd_render_queue *queue, struct kd_render_job *job)

@@ -20,23 +20,19 @@ void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms)
 }
 
 /* Where much is held, a short pause is made use of. */
-static double patience_ms(const struct kd_render_queue *queue)
+static bool is_long_enough(const struct kd_render_queue *queue, double pause_ms)
 {
-    uint64_t kept[KD_N_KEPT_KINDS], sum = 0;
-    kd_renderer_kept(queue->renderer, kept);
-    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
-        sum += kept[i];
-    return sum > KD_REST_SOON_BYTES ? queue->rest_ms / 60 : queue->rest_ms;
+    const double soon_ms = queue->rest_ms / 60.;
+    return pause_ms >= queue->rest_ms ||
+           (pause_ms >= soon_ms && kd_renderer_kept_sum(queue->renderer) > KD_REST_SOON_BYTES);
 }
 
 void kd_render_rest_if_idle(struct kd_render_queue *queue)
 {
     const bool idle = queue->opened && !queue->unfinished && !queue->holder && !queue->compiling && !queue->lost &&
                       !queue->failed && !queue->closing;
-    if (queue->rested || !idle || kd_clock_ms() - queue->worked_ms < patience_ms(queue))
+    if (queue->rested || !idle || !is_long_enough(queue, kd_clock_ms() - queue->worked_ms))
         return;
     queue->rest = (struct kd_render_job) { .claim.class = KD_CLASS_JOB, .run = rest, .done = done, .socket = -1 };
-    pthread_mutex_unlock(&queue->lock);
-    kd_render_queue_push(queue, &queue->rest);
-    pthread_mutex_lock(&queue->lock);
+    kd_render_queue_push_locked(queue, &queue->rest);
 }

@@ -81,7 +81,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     struct kd_render_queue *queue = user;
     if (queue->failed) /* those inside only have to leave */
         return job->inside;
-    if (job == &queue->rest && queue->compiling) /* a rest may close the device */
+    if (job == &queue->rest && (queue->compiling || queue->inside)) /* a rest may close the device */
         return false;
     if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;

@@ -1,0 +1,129 @@
+/* Jobs that take turns: one that computes for long lets others go first in the midst of its turn. */
+#include "server/http/turns.h"
+
+#include "base/clock.h"
+#include "base/cores.h"
+#include "base/pause.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#define PATIENCE_MS 60e3
+enum { LONG = 40, PIECES = 20 };
+
+static _Atomic bool over;
+static _Atomic unsigned dones, begun, at_once, most_at_once;
+
+static void count_done(struct kd_turns_job *job)
+{
+    (void)job;
+    atomic_fetch_add(&dones, 1);
+}
+
+/* Computes until another job has had its turn. */
+static enum kd_turn_end compute(struct kd_turns_job *job)
+{
+    (void)job;
+    for (const double since = kd_clock_ms(); !atomic_load(&over) && kd_clock_ms() - since < PATIENCE_MS;)
+        kd_pause();
+    return KD_TURN_LAST;
+}
+
+static enum kd_turn_end end_all(struct kd_turns_job *job)
+{
+    (void)job;
+    atomic_store(&over, true);
+    return KD_TURN_LAST;
+}
+
+/* A piece of a shared job: some 40 ms. */
+static enum kd_turn_end piece(struct kd_turns_job *job)
+{
+    (void)job;
+    const unsigned own = atomic_fetch_add(&begun, 1);
+    if (own >= PIECES)
+        return KD_TURN_LAST;
+    const unsigned n = atomic_fetch_add(&at_once, 1) + 1;
+    if (n > atomic_load(&most_at_once))
+        atomic_store(&most_at_once, n);
+    for (const double since = kd_clock_ms(); kd_clock_ms() - since < 40;)
+        kd_pause();
+    atomic_fetch_sub(&at_once, 1);
+    return own + 1 == PIECES ? KD_TURN_LAST : KD_TURN_MORE;
+}
+
+static void wait_for(unsigned n)
+{
+    for (const double since = kd_clock_ms(); atomic_load(&dones) < n && kd_clock_ms() - since < 2 * PATIENCE_MS;)
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    assert_int_equal(atomic_load(&dones), n);
+}
+
+static struct kd_turns *begin(void)
+{
+    struct kd_turns *turns = NULL;
+    struct kd_error error;
+    atomic_store(&over, false);
+    atomic_store(&dones, 0);
+    assert_int_equal(kd_turns_create(LONG + 1, LONG + 1, &turns, &error), KD_OK);
+    return turns;
+}
+
+/* There are more long turns than workers, and the short one comes last. */
+static void test_a_short_turn_comes_between_long_ones(void **state)
+{
+    (void)state;
+    struct kd_turns *turns = begin();
+    static struct kd_turns_job jobs[LONG], last;
+    for (int i = 0; i < LONG; i++) {
+        jobs[i] = (struct kd_turns_job) { .turn = compute, .done = count_done };
+        kd_turns_push(turns, &jobs[i]);
+    }
+    const double since = kd_clock_ms();
+    last = (struct kd_turns_job) { .turn = end_all, .done = count_done };
+    kd_turns_push(turns, &last);
+    wait_for(LONG + 1);
+    assert_true(kd_clock_ms() - since < PATIENCE_MS);
+    assert_true(atomic_load(&over));
+    while (kd_turns_unfinished(turns))
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    kd_turns_destroy(turns);
+}
+
+/* A job whose turns several workers take begins no more of them while it waits than there are workers. */
+static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
+{
+    (void)state;
+    struct kd_turns *turns = begin();
+    static struct kd_turns_job shared, others[4];
+    atomic_store(&begun, 0);
+    shared = (struct kd_turns_job) { .turn = piece, .done = count_done, .shared = true };
+    kd_turns_push(turns, &shared);
+    for (int i = 0; i < 4; i++) {
+        others[i] = (struct kd_turns_job) { .turn = compute, .done = count_done };
+        kd_turns_push(turns, &others[i]);
+    }
+    wait_for(1);
+    static struct kd_turns_job last;
+    last = (struct kd_turns_job) { .turn = end_all, .done = count_done };
+    kd_turns_push(turns, &last);
+    wait_for(6);
+    assert_true(atomic_load(&begun) >= PIECES);
+    assert_in_range(atomic_load(&most_at_once), 1, kd_cores());
+    while (kd_turns_unfinished(turns))
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    kd_turns_destroy(turns);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_a_short_turn_comes_between_long_ones),
+                                        cmocka_unit_test(test_a_shared_job_does_not_begin_all_its_turns) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
