@@ -1,4 +1,4 @@
-/* Preemption points of long computations. A function that may compute for longer than some milliseconds calls
+/* This gives long computations points of preemption. A function that may compute for longer than some milliseconds calls
  * kd_pause every few thousand operations; a thread that shares its processor among requests (server/http/turns.h)
  * then lets others go first. Everywhere else it does nothing. A caller of such functions may hold no lock that others
  * need meanwhile. Any thread. */
