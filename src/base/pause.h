@@ -1,5 +1,5 @@
-/* This gives long computations points of preemption. A function that may compute for longer than some milliseconds calls
- * kd_pause every few thousand operations; a thread that shares its processor among requests (server/http/turns.h)
+/* This gives long computations points of preemption. A function that may compute for longer than some milliseconds
+ * calls kd_pause every few thousand operations; a thread that shares its processor among requests (server/http/turns.h)
  * then lets others go first. Everywhere else it does nothing. A caller of such functions may hold no lock that others
  * need meanwhile. Any thread. */
 #ifndef KD_BASE_PAUSE_H

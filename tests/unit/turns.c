@@ -5,6 +5,7 @@
 #include "base/cores.h"
 #include "base/pause.h"
 
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -17,8 +18,8 @@
 #define PATIENCE_MS 60e3
 enum { LONG = 40, PIECES = 20 };
 
-static _Atomic bool over;
-static _Atomic unsigned dones, begun, at_once, most_at_once;
+static _Atomic bool over, destroyed;
+static _Atomic unsigned dones, begun, at_once, most_at_once, computing;
 
 static void count_done(struct kd_turns_job *job)
 {
@@ -30,6 +31,7 @@ static void count_done(struct kd_turns_job *job)
 static enum kd_turn_end compute(struct kd_turns_job *job)
 {
     (void)job;
+    atomic_fetch_add(&computing, 1);
     for (const double since = kd_clock_ms(); !atomic_load(&over) && kd_clock_ms() - since < PATIENCE_MS;)
         kd_pause();
     return KD_TURN_LAST;
@@ -121,9 +123,40 @@ static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
     kd_turns_destroy(turns);
 }
 
+static void *destroy(void *turns)
+{
+    kd_turns_destroy(turns);
+    atomic_store(&destroyed, true);
+    return NULL;
+}
+
+/* A turn that has paused ends with the queue, as one that is under way does. */
+static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
+{
+    (void)state;
+    struct kd_turns *turns = begin();
+    static struct kd_turns_job jobs[LONG];
+    pthread_t thread;
+    atomic_store(&computing, 0);
+    for (int i = 0; i < LONG; i++) {
+        jobs[i] = (struct kd_turns_job) { .turn = compute, .done = count_done };
+        kd_turns_push(turns, &jobs[i]);
+    }
+    while (atomic_load(&computing) <= kd_cores()) /* then one of them at least has paused */
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    assert_int_equal(pthread_create(&thread, NULL, destroy, turns), 0);
+    nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL); /* the queue is closing, and turns are under way */
+    atomic_store(&over, true);
+    for (const double since = kd_clock_ms(); !atomic_load(&destroyed) && kd_clock_ms() - since < PATIENCE_MS;)
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    assert_true(atomic_load(&destroyed));
+    pthread_join(thread, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_a_short_turn_comes_between_long_ones),
-                                        cmocka_unit_test(test_a_shared_job_does_not_begin_all_its_turns) };
+                                        cmocka_unit_test(test_a_shared_job_does_not_begin_all_its_turns),
+                                        cmocka_unit_test(test_a_queue_is_destroyed_while_turns_are_paused) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

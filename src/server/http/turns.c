@@ -153,6 +153,7 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     kd_watch_turn_begins();
     enum kd_turn_end turn = job->turn(job);
     kd_watch_turn_ends();
+    under_way = NULL; /* what ends the job frees it, and does not pause */
     pthread_mutex_lock(&turns->lock);
     job->workers--;
     if (turn == KD_TURN_LAST)
@@ -226,8 +227,12 @@ static void pause_turn(struct kd_turns *turns)
     append(turns, &me.place);
     turns->busy--;
     pthread_cond_signal(&turns->changed);
-    while (me.place.listed)
+    while (me.place.listed && !turns->closing)
         pthread_cond_wait(&me.resumed, &turns->lock);
+    if (me.place.listed) { /* nobody gives turns any more */
+        take_out(turns, &me.place);
+        turns->busy++;
+    }
     pthread_cond_destroy(&me.resumed);
 }
 
@@ -237,14 +242,14 @@ static void let_others_go_first(void)
 {
     struct kd_turns *turns = mine;
     struct kd_turns_job *job = under_way;
-    if (kd_clock_ms() - piece_ms < PIECE_MS)
+    if (!job || kd_clock_ms() - piece_ms < PIECE_MS)
         return;
     kd_watch_turn_ends();
     pthread_mutex_lock(&turns->lock);
     unpark_due(turns);
     take_out(turns, job);
     job->paused++;
-    if (turns->first && (turns->idle || start_thread(turns)))
+    if (turns->first && !turns->closing && (turns->idle || start_thread(turns)))
         pause_turn(turns);
     job->paused--;
     if (job->shared)
@@ -292,6 +297,9 @@ void kd_turns_destroy(struct kd_turns *turns)
     pthread_mutex_lock(&turns->lock);
     turns->closing = true;
     pthread_cond_broadcast(&turns->changed);
+    for (struct kd_turns_job *job = turns->first; job; job = job->next)
+        if (!job->turn)
+            pthread_cond_signal(&((struct paused *)job)->resumed);
     pthread_mutex_unlock(&turns->lock);
     for (unsigned i = 0; i < turns->n_threads; i++)
         pthread_join(turns->threads[i], NULL);
