@@ -178,25 +178,33 @@ class Long(Case):
     """A call that does not return: nobody can be told but by the end of the process."""
 
     def test_a_driver_that_hangs(self):
-        server = self.start("--device-timeout", 1)
-        self.faults.set(hang=2)
-        with self.assertRaises((OSError, daemon.http.client.HTTPException)):
-            server.get(RENDER)
-        self.assertEqual(server.wait(60), EXIT_DEVICE)
-        self.assertIn("no sign of life", server.said())
+        """The device that compiles a picture's kernels, or, where they are there, the device that renders it."""
+        for there in (False, True):
+            with self.subTest(there=there):
+                server = self.start("--device-timeout", 1)
+                if there:
+                    server.get(RENDER)
+                self.faults.set(hang=2)
+                with self.assertRaises((OSError, daemon.http.client.HTTPException)):
+                    server.get(RENDER + "&camera.inclination_deg=50")
+                self.assertEqual(server.wait(60), EXIT_DEVICE)
+                self.assertIn("no sign of life", server.said())
+                self.faults.set(hang=0)
 
     def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
         """Its first piece of work never ends, and the second cannot be begun: what hangs cannot be closed, so there is
         no other."""
         server = self.start("--device-timeout", 1)
+        self.assertEqual(server.get(RENDER).status, 200)  # its kernels are there from now on
+        before = self.faults.calls()["CreateDevice"]
         self.faults.arm("BeginCommandBuffer", 1, UNKNOWN)
         self.faults.set(hang=1)
         with contextlib.suppress(OSError, daemon.http.client.HTTPException):
-            self.assertEqual(server.get(RENDER).status, 500)
+            self.assertEqual(server.get(RENDER + "&disk.gas.amplitude=0.5").status, 500)  # nothing is traced
         self.assertEqual(server.wait(60), EXIT_DEVICE)
         self.assertEqual(self.faults.get("injected"), 1)
         self.assertNotIn("opened again", server.said())
-        self.assertEqual(self.faults.calls()["CreateDevice"], 1)
+        self.assertEqual(self.faults.calls()["CreateDevice"], before)
 
 
 if __name__ == "__main__":

@@ -67,6 +67,12 @@ const struct kd_variable kd_variables[] = {
       "not set" },
     { "HOME", NULL, "the folder of ~/.cache" },
     { "VK_DRIVER_FILES", NULL, "the drivers that Vulkan's loader looks at, instead of those that are installed" },
+    { "MESA_SHADER_CACHE_DIR", "serve",
+      "the folder in which Mesa's drivers keep compiled kernels; XDG_CACHE_HOME where it is not set. Where it cannot "
+      "be "
+      "written, a picture whose kernels are new holds the device while they are compiled" },
+    { "MESA_GLSL_CACHE_DIR", "serve", "the older name of MESA_SHADER_CACHE_DIR" },
+    { "MESA_SHADER_CACHE_DISABLE", "serve", "1: Mesa's drivers keep no compiled kernels" },
     { "LP_NUM_THREADS", "bench", "how many threads lavapipe has: its speeds are told per core" },
     { "TMUX", "view", "where it is set, tmux stands before the terminal, and a refusal says so" },
     { "PATH", "film serve", "the folders in which the program ffmpeg is sought, which encodes films" },

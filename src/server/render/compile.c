@@ -121,6 +121,7 @@ static bool is_wanted(void *user, double fraction)
 {
     struct kd_render_queue *queue = user;
     (void)fraction;
+    kd_pulse_beat(&queue->compiler_pulse);
     return !atomic_load(&queue->uncompiled);
 }
 
@@ -132,7 +133,9 @@ static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
     const double begun = kd_clock_ms();
     atomic_store(&queue->uncompiled, atomic_load(&queue->cancel));
     pthread_mutex_unlock(&queue->lock);
+    kd_pulse_beat(&queue->compiler_pulse);
     const enum kd_status status = kd_compilation_run(c, is_wanted, queue, &error);
+    kd_pulse_rest(&queue->compiler_pulse);
     pthread_mutex_lock(&queue->lock);
     while (queue->compiled && !queue->closing)
         pthread_cond_wait(&queue->changed, &queue->lock);

@@ -39,7 +39,9 @@ unsigned kd_render_queue_reopened(struct kd_render_queue *queue)
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another)
 {
     struct kd_error error;
-    const double s = kd_pulse_missing_s(&queue->pulse, queue->params.deadline_ms);
+    const double own = kd_pulse_missing_s(&queue->pulse, queue->params.deadline_ms),
+                 compiler = kd_pulse_missing_s(&queue->compiler_pulse, queue->params.deadline_ms),
+                 s = own > compiler ? own : compiler;
     pthread_mutex_lock(&queue->lock);
     if (s > 0)
         kd_error_set(&error, KD_EDEVICE, "the device hangs: its driver has given no sign of life for %.0f s", s);

@@ -144,10 +144,10 @@ def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
     return kind(
         **{
             field.name: _typed(document[field.name], types[field.name])
-            for field in dataclasses.fields(kind)
+            for field in dataclasses.fields(kind)  # type: ignore[arg-type]
             if field.name in document
         }
-    )  # type: ignore[arg-type]
+    )
 
 
 def _typed(value: Any, hint: Any) -> Any:
