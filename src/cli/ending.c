@@ -57,6 +57,8 @@ const char *kd_cli_ending(const struct argp_state *state, const char *option, co
                           const char *const known[])
 {
     char ending[LETTERS_MAX + 1];
+    if (!path)
+        return "";
     ending_of(path, ending);
     const char *format = ending;
     for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)

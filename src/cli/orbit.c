@@ -78,9 +78,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_END:
         if (!arguments->format)
-            arguments->format = arguments->output ? kd_cli_ending(state, "--output", arguments->output,
-                                                                  KD_ENDINGS("json", "ndjson", "csv", "npy"))
-                                                  : "";
+            arguments->format =
+                kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "ndjson", "csv", "npy"));
         return 0;
     }
     return ARGP_ERR_UNKNOWN;

@@ -35,9 +35,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_ARG: argp_error(state, "%s: parameters are options, as in --%s VALUE", text, "spin"); return 0;
     case ARGP_KEY_END:
         if (!arguments->format)
-            arguments->format = arguments->output ? kd_cli_ending(state, "--output", arguments->output,
-                                                                  KD_ENDINGS("json", "csv", "wav"))
-                                                  : "";
+            arguments->format = kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "csv", "wav"));
         return 0;
     }
     return ARGP_ERR_UNKNOWN;

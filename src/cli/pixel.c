@@ -50,9 +50,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!arguments->at)
             argp_error(state, "--at X,Y is missing: which pixel?");
         if (!arguments->format)
-            arguments->format = arguments->output
-                                    ? kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("text", "json"))
-                                    : "";
+            arguments->format = kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("text", "json"));
         if (arguments->trace && !wants_json(arguments))
             argp_error(state, "--trace goes with JSON: --format json, or a name that ends in .json");
         return 0;

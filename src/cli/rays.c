@@ -80,7 +80,7 @@ static void settle_format(struct arguments *arguments, const struct argp_state *
 {
     const char *const *known = arguments->trace ? KD_ENDINGS("text", "json", "csv") : KD_ENDINGS("json", "npy", "csv");
     if (!arguments->format)
-        arguments->format = arguments->output ? kd_cli_ending(state, "--output", arguments->output, known) : "";
+        arguments->format = kd_cli_ending(state, "--output", arguments->output, known);
     if (arguments->trace && !strcmp(arguments->format, "npy"))
         argp_error(state, "--trace writes text, json or csv, not npy");
     if (!arguments->trace && !strcmp(arguments->format, "text"))
