@@ -277,7 +277,7 @@ class Files(Case):
             2, 'volume.model "gold", "riaf", "torus" or "grid"', "plan", "--set", "image.layers=specific_intensity"
         )
 
-    @unittest.skipIf("KERRD_SANITIZED" in os.environ, "the address sanitizer reserves terabytes of addresses")
+    @unittest.skipIf("SANITIZED" in os.environ, "the address sanitizer reserves terabytes of addresses")
     def test_limit_of_the_address_space(self):
         """A driver that has too little of it ends the process without a word."""
 
