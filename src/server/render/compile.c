@@ -2,13 +2,11 @@
  * chooses who is next; a thread compiles those that are missing; and whoever chooses next hands them to the renderer.
  * So the renderer's kernels are touched only under the lock while nobody has the device, or by who has it. */
 #include "base/clock.h"
+#include "base/nice.h"
 #include "server/render/internal.h"
 
 #include <stddef.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #define NICE 3 /* half the weight of what is live: a picture that is new has its part of the processor, and no more */
 
@@ -54,7 +52,7 @@ void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_jo
     if (!job->compilation)
         return;
     kd_shares_remove(&queue->missing, &job->missing);
-    if (job->compilation && job->compilation == queue->compiling)
+    if (job->compilation == queue->compiling)
         atomic_store(&queue->uncompiled, true);
     else
         kd_compilation_drop(job->compilation);
@@ -153,10 +151,7 @@ static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
 void *kd_render_compile_main(void *user)
 {
     struct kd_render_queue *queue = user;
-    const pid_t self = (pid_t)syscall(SYS_gettid);
-    setpriority(PRIO_PROCESS, (id_t)self,
-                getpriority(PRIO_PROCESS, (id_t)self) +
-                    NICE); /* threads that it starts, the driver's, have it from it */
+    kd_nice_thread(NICE);
     pthread_mutex_lock(&queue->lock);
     while (!queue->closing) {
         const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled ||

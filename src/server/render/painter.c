@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/nice.h"
 #include "base/read.h"
 #include "base/replace.h"
 #include "render/output/format.h"
@@ -16,10 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
 #include <time.h>
-#include <unistd.h>
 
 #define NICE 10   /* a tenth of the weight of what is live */
 #define IDLE_S 10 /* after which its device is closed */
@@ -185,10 +183,7 @@ static struct kd_painting *await(struct kd_painter *painter)
 static void *painter_main(void *user)
 {
     struct kd_painter *painter = user;
-    const pid_t self = (pid_t)syscall(SYS_gettid);
-    setpriority(PRIO_PROCESS, (id_t)self,
-                getpriority(PRIO_PROCESS, (id_t)self) +
-                    NICE); /* threads that it starts, the driver's, have it from it */
+    kd_nice_thread(NICE);
     pthread_mutex_lock(&painter->lock);
     for (;;) {
         struct kd_painting *work = await(painter);
