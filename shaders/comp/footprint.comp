@@ -24,6 +24,7 @@
 KD_SPEC_FOOTPRINT(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/math.glsl"
 #include "ray/planes.glsl"
+#include "ray/ellipse.glsl"
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -33,13 +34,17 @@ layout(push_constant) uniform Push { kd_footprint push_; };
 kd_footprint push; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 /* A word of the map that was traced. */
+/* Places of rays that are followed alone (ray/places.glsl). */
+layout(set = 0, binding = KD_FOOTPRINT_PLACES) readonly buffer Places { uint words[]; };
+#include "ray/places.glsl"
 #ifdef KD_TEXELS
-layout(set = 0, binding = 1) uniform textureBuffer traced;
+layout(set = 0, binding = 2) uniform textureBuffer traced;
 float map_at(uint at) { return texelFetch(traced, int(at)).r; }
 #else
 float map_at(uint at) { return lens[at]; }
 #endif
 
+const uint FIRST = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u ? KD_LENS_FOOTPRINT : KD_LENS_SKY_FOOTPRINT;
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
 /* A ray comes here: of a crossing (w, phi), of the sky a unit vector. */
@@ -99,28 +104,6 @@ vec3 scale(uint n, kd_spot own)
     return n < ORDERS ? vec3(r * r, r, 0.0) : vec3(1.0);
 }
 
-float longest(float a, float b, float c)
-{
-    float half_ = 0.5 * (a - b), size = sqrt(0.5 * (a + b) + sqrt(half_ * half_ + c * c));
-    return kd_is_finite(size) ? min(size, KD_FOOTPRINT_EDGE) : KD_FOOTPRINT_EDGE;
-}
-
-/* The footprint and its shape, as the map keeps them. */
-struct kd_oval { float size, shape; };
-
-const kd_oval KD_NO_OVAL = kd_oval(KD_FOOTPRINT_EDGE, 1.0 + (1023.0 + 2048.0 * 1023.0) / 8388608.0);
-
-/* These are ellipses of J J^T, whose components along r and phi these are; r grows as w falls. */
-kd_oval oval(float rr, float ff, float rf)
-{
-    float size = longest(rr, ff, rf), i = rr / (rr + ff), j = 0.5 - 0.5 * rf * inversesqrt(rr * ff);
-    if (!kd_is_finite(i + j))
-        return kd_oval(size, KD_NO_OVAL.shape);
-    return kd_oval(
-        size, 1.0 + (floor(2047.0 * clamp(i, 0.0, 1.0) + 0.5) + 2048.0 * floor(2047.0 * clamp(j, 0.0, 1.0) + 0.5)) /
-                        8388608.0);
-}
-
 /* The ray's place in a grid, all of which lies in the map row by row. */
 struct kd_grid { uint x, y, width, rows; };
 
@@ -130,10 +113,10 @@ kd_oval on_grid(uint n, uint at, kd_grid grid)
     kd_change across = change(n, own, at, grid.x, grid.width, 1),
               down = change(n, own, at, grid.y, grid.rows, grid.width);
     vec3 m = scale(n, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend, bend_j = m * down.bend;
-    kd_oval o = kd_oval(longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j)), 0.0);
+    kd_oval o = kd_oval(kd_longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j)), 0.0);
     if (SHAPED && n < ORDERS) {
         vec3 rr = i * i + j * j + bend_i * bend_i + bend_j * bend_j;
-        o.shape = oval(rr.x, rr.y, i.x * i.y + j.x * j.y + bend_i.x * bend_i.y + bend_j.x * bend_j.y).shape;
+        o.shape = kd_oval_of(rr.x, rr.y, i.x * i.y + j.x * j.y + bend_i.x * bend_i.y + bend_j.x * bend_j.y).shape;
     }
     if (across.there && down.there)
         return o;
@@ -195,16 +178,16 @@ kd_oval on_lattice(uint n, uint at)
     float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
-    kd_oval o = kd_oval(longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
+    kd_oval o = kd_oval(kd_longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
     if (SHAPED && n < ORDERS)
-        o.shape = oval(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
+        o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                        area * (i.x * i.y + j.x * j.y))
                       .shape;
     /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all
      * directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
-                                                        : longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),
+                                                        : kd_longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),
                     KD_NO_OVAL.shape);
     return o;
 }
@@ -216,18 +199,36 @@ kd_oval footprint(uint n, uint at, kd_grid grid)
     return on_grid(n, at, grid);
 }
 
-void main()
+/* The footprints of a crossing, or of the sky, are not there yet, for the rays next to it are not. */
+void mark(uint at) { lens[at + kd_plane(FIRST) * push.stride] = KD_FOOTPRINT_WANTED; }
+bool is_marked(uint at) { return map_at(at + kd_plane(FIRST) * push.stride) == KD_FOOTPRINT_WANTED; }
+
+/* The ray of this invocation; false: none. */
+bool this_ray(out kd_grid grid, out uint at)
 {
-    push = push_;
-    uint x = gl_GlobalInvocationID.x, y = push.first + gl_WorkGroupID.y, at = y * push.width + x;
-    kd_grid grid = kd_grid(x, y, push.width, push.rows);
+    uint x = gl_GlobalInvocationID.x, y = push.first + gl_WorkGroupID.y;
     if (CRITICAL > 0) {
         at = push.first + x;
         uint k = at % max(CRITICAL, 1), side = max(SHIFT, 1);
         grid = kd_grid(k % side, k / side, side, side);
-        if (at >= push.end)
-            return;
-    } else if (x >= push.width) {
+        return at < push.end;
+    }
+    const bool alone = push.alone == 1u;
+    uint word = push.list + 2u * x;
+    grid = kd_grid(alone ? words[word] : x, alone ? words[word + 1u] - push.row0 : y, push.width, push.rows);
+    at = grid.y * push.width + grid.x;
+    return alone ? x < kd_stage_count(KD_STAGE_ALONE) : x < push.width && (push.alone == 0u || is_marked(at));
+}
+
+void main()
+{
+    push = push_;
+    kd_grid grid;
+    uint at;
+    if (!this_ray(grid, at))
+        return;
+    if (push.alone == 1u && grid.y >= push.end) {
+        mark(at);
         return;
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {

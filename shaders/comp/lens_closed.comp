@@ -24,10 +24,12 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-#include "ray/open.glsl"
 #define KD_CAMERA_BINDING 2
+#define KD_BY_PLACE_BINDING KD_PLACES_BINDING
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
+#include "ray/open.glsl"
+#include "ray/node.glsl"
 
 const uint MORE =
     12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
@@ -185,6 +187,7 @@ void main()
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
+    uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
     if (!PHI && !SKY) { /* a half period costs as much as keeping that there is none */
@@ -192,6 +195,7 @@ void main()
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);
             open = open || (before && is_open(leg, polar, margins));
+            crossings += leg.alive && polar.crosses ? 1u : 0u;
             keep(at, n, leg.alive && polar.crosses, leg, drag);
         }
     }
@@ -202,6 +206,7 @@ void main()
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);
             if (n < ORDERS) {
                 open = open || is_open(leg, polar, margins);
+                crossings += leg.alive && polar.crosses ? 1u : 0u;
                 keep(at, n, leg.alive && polar.crosses, leg, drag);
             }
         } while (++n < legs && leg.alive);
@@ -221,5 +226,5 @@ void main()
         }
         open = !keep_end(at, m, ray, a, azimuth, drag, leg, middle, z, before, !open);
     }
-    kd_leave_open(open, at);
+    kd_finish_ray(open, at, crossings, drag.falls);
 }

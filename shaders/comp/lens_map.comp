@@ -24,10 +24,12 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-#include "ray/open.glsl"
 #define KD_CAMERA_BINDING 2
+#define KD_BY_PLACE_BINDING KD_PLACES_BINDING
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
+#include "ray/open.glsl"
+#include "ray/node.glsl"
 #include "ray/escape.glsl"
 
 /* Boole's weights of five places. */
@@ -97,6 +99,7 @@ void main()
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses && !dark;
+    uint crossings = 0u;
     bool open = !dark && !kd_is_decided(barrier, start);
     const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
     float lost = kd_start_noise(m, start, rounding); /* of R; what steps lose shows at each crossing */
@@ -162,6 +165,7 @@ void main()
             lost = max(lost, abs(y.dw * y.dw - kd_fall_squared(m, y.w, ray.e, cam.spin, cam.root)));
             chi += sum * h * (2.0 / 45.0);
             float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
+            crossings++;
             lens[at + n * slice.stride] = y.w;
             if (PHI)
                 lens[at + (kd_plane(KD_LENS_PHI) + n) * slice.stride] = -(psi + chi + fall);
@@ -188,5 +192,5 @@ void main()
         lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = end.fate;
         open = end.fate == KD_FATE_UNDECIDED;
     }
-    kd_leave_open(open, at);
+    kd_finish_ray(open, at, crossings, dark || !kd_flies_out(barrier, start));
 }

@@ -55,7 +55,7 @@ kd_rounding kd_camera_rounding()
 
 kd_ray kd_camera_ray(uint px, uint py)
 {
-    float x = float(px) - cam.middle_x, y = cam.middle_y - float(py), ahead = kd_camera_ahead(x, y);
+    float x = float(int(px)) - cam.middle_x, y = cam.middle_y - float(int(py)), ahead = kd_camera_ahead(x, y);
     float kx = ahead * cam.c0x + x * cam.cxx + y * cam.cyx;
     float ky = ahead * cam.c0y + x * cam.cxy + y * cam.cyy;
     kd_ray ray;

@@ -9,6 +9,8 @@
 #ifndef KD_KERR_RAY_GLSL
 #define KD_KERR_RAY_GLSL
 
+#include "ray/fall.glsl"
+
 struct kd_ray {
     float e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
@@ -58,14 +60,5 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
  * a float does not hold their squares, as those of a fast observer far away are. Powers of two: no digit changes. */
 float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
 float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
-
-/* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole,
- * and the two factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may,
- * they would have lost them. */
-float kd_delta(float w, float root)
-{
-    precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);
-    return delta;
-}
 
 #endif

@@ -1,6 +1,8 @@
 /* This finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
- * constants CRITICAL, GENERATOR and SHIFT.
+ * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: kernels that trace have one for places.
  *
+ * CRITICAL = KD_RAYS_BY_PLACE: rays are those of a stage of a list of places (ray/places.glsl): nodes, whose map is that
+ * list's own and has their states behind its planes, or rays of the grid that are followed alone.
  * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the
  * listed pixels, CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid
  * (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
@@ -10,6 +12,12 @@
 /* A word of the lens map. */
 #ifndef KD_MAP_AT
 #define KD_MAP_AT(at) lens[at]
+#endif
+
+#ifdef KD_BY_PLACE_BINDING
+layout(set = 0, binding = KD_BY_PLACE_BINDING) readonly buffer Places { uint words[]; };
+#include "ray/places.glsl"
+const bool BY_PLACE = CRITICAL == KD_RAYS_BY_PLACE;
 #endif
 
 /* The pixel of this number in the list. */
@@ -32,6 +40,17 @@ uvec2 kd_critical_place(uvec2 pixel, uint ray)
 bool kd_this_ray(out uvec2 ray, out uint at)
 {
     uint x = gl_GlobalInvocationID.x;
+#ifdef KD_BY_PLACE_BINDING
+    if (BY_PLACE) {
+        bool alone = slice.stage == KD_STAGE_ALONE;
+        uint number = x + (alone ? 0u : kd_stage_first(slice.stage)), word = slice.places + 2u * number;
+        if (x >= kd_stage_count(slice.stage))
+            return false;
+        ray = uvec2(words[word], words[word + 1u]);
+        at = alone ? (ray.y - slice.band0) * cam.width + ray.x : number;
+        return true;
+    }
+#endif
     if (CRITICAL > 0) {
         at = slice.row0 * CRITICAL + x;
         if (x >= slice.rows * CRITICAL)

@@ -12,4 +12,10 @@ uint kd_plane(uint quantity)
     return uint(bitCount(before & KD_LENS_CROSSINGS)) * ORDERS + uint(bitCount(before & ~KD_LENS_CROSSINGS));
 }
 
+/* All of them. */
+uint kd_planes_of_all()
+{
+    return uint(bitCount(QUANTITIES & KD_LENS_CROSSINGS)) * ORDERS + uint(bitCount(QUANTITIES & ~KD_LENS_CROSSINGS));
+}
+
 #endif

@@ -5,6 +5,7 @@
 
 #include "shared/math.glsl"
 #include "ray/nystroem.glsl"
+#include "ray/fall.glsl"
 
 struct kd_state { float w, dw; };
 
@@ -16,9 +17,6 @@ kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
     KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw)
     return o;
 }
-
-/* This is Delta/r^2, with a floor so that it can be divided by. */
-float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
 /* This is W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning
  * behind the horizon. */
@@ -68,21 +66,6 @@ bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
     return w < horizon || e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
 }
 
-/* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where
- * x is small, as for a hole that is nearly extremal. */
-float kd_fall(float w, float root)
-{
-    precise float gap = 1.0 - w - root * w;
-    float first = w / max(gap, 1e-30), x = 2.0 * root * first, y = x / (2.0 + x), y2 = y * y;
-#ifdef KD_DOUBLE
-    float series = 0.0;
-    for (int k = 8; k >= 0; k--)
-        series = series * y2 + 1.0 / float(2 * k + 1);
-#else
-    float series = 1.0 + y2 * ((1.0 / 3.0) + y2 * ((1.0 / 5.0) + y2 * (1.0 / 7.0)));
-#endif
-    return first * (x < 0.25 ? 2.0 * series / (2.0 + x) : kd_log(1.0 + x) / x);
-}
 float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
 
 /* A ray ends there by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon

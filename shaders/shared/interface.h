@@ -51,7 +51,8 @@
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */ \
     U(band0)                /* first row of the band that the buffers hold */ \
     U(stride)               /* rays of the band: distance between planes of the lens map */ \
-    U(list)                 /* of listed pixels, where it begins in the lens map */ \
+    U(list)                 /* of listed pixels, where it begins in the lens map; of nodes, where their states do */ \
+    U(stage) U(places)      /* of rays by their places: which, and where the places of their list begin */ \
     U(steps) U(fine)        /* of the march (light/march.glsl): steps a half period; quarters of a stretch a grain; */ \
     F(opaque)               /* what of the light behind need not come through for the ray to go on */ \
     F(unseen)               /* octaves of noise whose part is less than this one of the first are left out */ \
@@ -71,8 +72,47 @@
     U(rows)                 /* all of them; of listed pixels how many these are */ \
     U(first) U(end)         /* those that are wanted; on listed pixels, rays */ \
     U(stride)               /* rays from plane to plane */ \
-    U(list)                 /* where the listed pixels are */
+    U(list)                 /* where the listed pixels are; of rays that are followed alone, where their places are */ \
+    U(alone)                /* 1: of these; and of those in rows from `end` on, whose next rows are not there yet, */ \
+                            /* mark that they are wanted. 2: of those that are marked so */ \
+    U(row0)                 /* the first row of the buffer in the picture */
 /* clang-format on */
+/* lens_cells.comp and lens_fill.comp take these: a lens map that is followed in nodes and interpolated between them
+ * (src/render/frame/sample.c). Places are those of rays in the picture at hand; cells begin where those of the whole
+ * picture do. */
+/* clang-format off */
+#define KD_SAMPLE_FIELDS_(F, U) \
+    U(origin_x) U(origin_y) /* place of the first block's first ray, an integer of either sign */ \
+    U(blocks_x) U(blocks_y) \
+    U(width) U(rows)        /* rays a row of the map; rows of rays that are wanted, */ \
+    U(row0) U(band0)        /* from this one on; the first row that the buffer of the map holds */ \
+    U(stride)               /* rays from plane to plane of the map, */ \
+    U(room)                 /* and of the nodes */ \
+    U(level)                /* of lens_cells.comp: 0 makes the first nodes, 1 to KD_CELL_LEVELS look at cells */ \
+    F(tolerance)
+/* clang-format on */
+#define KD_CELL_BLOCK 64  /* rays along the side of a cell of level 1, which half of them halve at each level */
+#define KD_CELL_LEVELS 4
+/* The head of what the nodes' kernels count, in words: for each stage of rays, which are the nodes of the levels and
+ * the rays that are followed alone, for each level of cells, and for what is filled of smooth cells, their crossings and
+ * their sky, the workgroups along three axes of the dispatch that takes them, and how many they are. */
+#define KD_STAGE_ALONE KD_CELL_LEVELS
+#define KD_SAMPLE_STAGES (KD_CELL_LEVELS + 1)
+#define KD_SAMPLE_CELLS (4 * KD_SAMPLE_STAGES)
+#define KD_SAMPLE_FILLS (KD_SAMPLE_CELLS + 4 * KD_CELL_LEVELS)
+#define KD_SAMPLE_COUNTED (KD_SAMPLE_FILLS + 4 * 2)
+#define KD_SAMPLE_QUEUES 64 /* where the lists begin, behind that: cells of each level, at most 85 a block; */
+#define KD_SAMPLE_QUEUED 85
+#define KD_SAMPLE_UNITS 64 /* units that are filled, eight columns of a cell each, twice at most so many a block; then
+                              places */
+#define KD_FOOTPRINT_PLACES 1
+#define KD_PLACES_BINDING 3 /* of the kernels that trace */
+#define KD_RAYS_BY_PLACE 0xffffffffu /* the specialisation constant CRITICAL of kernels that take stages */
+/* How a node counts: its crossings, and so much more if it is captured; below 0: the ray is open. */
+#define KD_NODE_CAPTURED 16.0
+#define KD_NODE_OPEN -1.0
+
+#define KD_FOOTPRINT_WANTED -1.0
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than all that is */
 
 /* star_tiles.comp, star_search.comp and star_images.comp are told this. Rows are those of rays that the buffer

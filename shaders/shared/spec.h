@@ -26,6 +26,10 @@
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 /* clang-format on */
 
+/* lens_cells.comp has these; and lens_fill.comp, OF_SKY: where rays end, instead of their crossings. */
+#define KD_SPEC_SAMPLE(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3)
+#define KD_SPEC_FILL(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) B(2, OF_SKY, false)
+
 /* between.comp has these. SIDE: rays along each side of a pixel; MARK: say only where they may be had so. */
 #define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
 

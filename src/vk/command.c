@@ -9,6 +9,8 @@
 
 #include <inttypes.h>
 
+enum { COUNTS_BYTES = 12 }; /* of a dispatch whose size a kernel has written */
+
 /* The bytes a binding means: whole texels, if it is one of texels. */
 static uint64_t size_of(const struct kd_vk_binding *binding, enum kd_vk_kind kind)
 {
@@ -74,6 +76,11 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
         if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
             return kd_error_set(error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
                                 dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
+    if (dispatch->counts && (dispatch->counts_at % 4 || !inside(dispatch->counts, dispatch->counts_at, COUNTS_BYTES)))
+        return kd_error_set(error, KD_EINTERNAL,
+                            "%s: counts at %" PRIu64 " of '%s' (%" PRIu64
+                            " bytes) must lie inside it, at a multiple of 4",
+                            pass, dispatch->counts_at, dispatch->counts->name, dispatch->counts->size);
     if (dispatch->pipeline->push_bytes && !dispatch->push)
         return kd_error_set(error, KD_EINTERNAL, "%s: no push constants were given", pass);
     for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
@@ -128,7 +135,7 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot, co
 
 static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const struct kd_vk_dispatch *dispatch)
 {
-    struct kd_vk_access accesses[KD_VK_MAX_BINDINGS];
+    struct kd_vk_access accesses[KD_VK_MAX_BINDINGS + 1];
     uint32_t n = dispatch->pipeline->n_buffers;
     for (uint32_t i = 0; i < n; i++) {
         const struct kd_vk_binding *b = &dispatch->bindings[i];
@@ -136,7 +143,23 @@ static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const stru
                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, b->write);
         b->buffer->retired.ticket = kd_vk_current(vk);
     }
+    if (dispatch->counts) {
+        accesses[n++] = access_of(vk, dispatch->counts, dispatch->counts_at, dispatch->counts_at + COUNTS_BYTES,
+                                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, false);
+        dispatch->counts->retired.ticket = kd_vk_current(vk);
+    }
     kd_vk_barrier_before(vk, slot->commands, accesses, n);
+}
+
+static void dispatch_groups(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_dispatch *dispatch)
+{
+    const uint32_t *groups = dispatch->groups;
+    if (vk->compiles_only)
+        vk->fn.CmdDispatch(commands, 0, 0, 0);
+    else if (dispatch->counts)
+        vk->fn.CmdDispatchIndirect(commands, dispatch->counts->handle, dispatch->counts_at);
+    else
+        vk->fn.CmdDispatch(commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
 }
 
 enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error)
@@ -148,17 +171,13 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
     KD_TRY(kd_vk_submit_slot(vk, &slot, error));
     KD_TRY(bind_buffers(vk, slot, dispatch, error));
     const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
-    const uint32_t *groups = dispatch->groups;
     kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
     order_dispatch(vk, slot, dispatch);
     vk->fn.CmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle);
     if (pipeline->push_bytes)
         vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes,
                                 dispatch->push);
-    if (vk->compiles_only)
-        vk->fn.CmdDispatch(slot->commands, 0, 0, 0);
-    else
-        vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
+    dispatch_groups(vk, slot->commands, dispatch);
     ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk); /* ours to write, not the caller's */
 done:
     return status;

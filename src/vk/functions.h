@@ -91,6 +91,7 @@
     X(CmdBindDescriptorSets) \
     X(CmdPushConstants) \
     X(CmdDispatch) \
+    X(CmdDispatchIndirect) \
     X(CmdCopyBuffer) \
     X(CmdFillBuffer)
 

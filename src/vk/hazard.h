@@ -3,7 +3,7 @@
  * It lists the accesses since the last barrier, in recorded order and across submissions (a pipeline barrier
  * also orders earlier submissions of its queue). A command conflicts when one of its ranges overlaps a listed
  * range of the same buffer and either of the two writes. The barrier that follows orders everything before it
- * against everything after it, in both stages we use and for each kind of binding, so it empties the table: on
+ * against everything after it, in all stages we use and for each kind of binding, so it empties the table: on
  * hardware a barrier of one buffer costs what a global one costs, since caches are flushed whole. */
 #ifndef KD_VK_HAZARD_H
 #define KD_VK_HAZARD_H
@@ -17,7 +17,7 @@
 struct kd_vk_access {
     uint64_t buffer;            /* an identity, never reused */
     uint64_t begin, end;        /* bytes */
-    VkPipelineStageFlags stage; /* compute shader or transfer, one bit */
+    VkPipelineStageFlags stage; /* compute shader, transfer or the reading of counts, one bit */
     bool write;                 /* writes, and may read as well */
     bool host;                  /* of memory that the host has mapped */
 };

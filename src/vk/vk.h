@@ -137,6 +137,10 @@ struct kd_vk_dispatch {
     struct kd_vk_binding bindings[KD_VK_MAX_BINDINGS];
     const void *push;
     uint32_t groups[3]; /* 0 counts as 1 */
+    /* Three words at this offset of a buffer, a multiple of 4, instead of `groups`: kernels before this one have written
+     * them, within what the device dispatches; a 0 among them is no dispatch. NULL: `groups` says */
+    struct kd_vk_buffer *counts;
+    uint64_t counts_at;
 };
 enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error);
 enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,

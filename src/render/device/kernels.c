@@ -25,7 +25,10 @@
 #include "footprint_texels.spv.h"
 #include "layers.spv.h"
 #include "layers_march.spv.h"
+#include "lens_cells.spv.h"
 #include "lens_closed.spv.h"
+#include "lens_fill.spv.h"
+#include "lens_fill_texels.spv.h"
 #include "lens_map.spv.h"
 #include "photometry.spv.h"
 #include "post.spv.h"
@@ -79,23 +82,41 @@ static const struct kd_vk_pipeline_params sources[] = {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed",
                                 kd_spv_lens_closed,
                                 sizeof kd_spv_lens_closed,
-                                3,
+                                4,
                                 sizeof(struct kd_slice),
                                 { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_LENS_MAP] = { "lens_map",
                              kd_spv_lens_map,
                              sizeof kd_spv_lens_map,
-                             3,
+                             4,
                              sizeof(struct kd_slice),
                              { [2] = KD_VK_UNIFORM } },
-    [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1,
+    [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 2,
                               sizeof(struct kd_footprint_push) },
     [KD_KERNEL_FOOTPRINT_TEXELS] = { "footprint, texels",
                                      kd_spv_footprint_texels,
                                      sizeof kd_spv_footprint_texels,
-                                     2,
+                                     3,
                                      sizeof(struct kd_footprint_push),
-                                     { [1] = KD_VK_TEXELS_R } },
+                                     { [2] = KD_VK_TEXELS_R } },
+    [KD_KERNEL_LENS_CELLS] = { "lens cells",
+                               kd_spv_lens_cells,
+                               sizeof kd_spv_lens_cells,
+                               4,
+                               sizeof(struct kd_sample_push),
+                               { [3] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LENS_FILL] = { "lens fill",
+                              kd_spv_lens_fill,
+                              sizeof kd_spv_lens_fill,
+                              5,
+                              sizeof(struct kd_sample_push),
+                              { [3] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LENS_FILL_TEXELS] = { "lens fill, texels",
+                                     kd_spv_lens_fill_texels,
+                                     sizeof kd_spv_lens_fill_texels,
+                                     5,
+                                     sizeof(struct kd_sample_push),
+                                     { [1] = KD_VK_TEXELS_WORD, [2] = KD_VK_TEXELS_R, [3] = KD_VK_UNIFORM } },
     [KD_KERNEL_BETWEEN] = { "between", kd_spv_between, sizeof kd_spv_between, 2, sizeof(struct kd_between_push) },
     [KD_KERNEL_SETTLE] = { "settle", kd_spv_settle, sizeof kd_spv_settle, 2, 12 },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },

@@ -10,6 +10,9 @@ enum kd_kernel {
     KD_KERNEL_LENS_MAP,
     KD_KERNEL_FOOTPRINT,
     KD_KERNEL_FOOTPRINT_TEXELS, /* the same, reading the lens map as texels */
+    KD_KERNEL_LENS_CELLS,
+    KD_KERNEL_LENS_FILL,
+    KD_KERNEL_LENS_FILL_TEXELS, /* the same, reading nodes as texels */
     KD_KERNEL_BETWEEN,
     KD_KERNEL_SETTLE,
     KD_KERNEL_RAYS_F32,

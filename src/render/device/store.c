@@ -341,6 +341,7 @@ uint64_t kd_store_bytes(const struct kd_store *store)
     sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) +
            bytes_of(store->palette);
     sum += bytes_of(store->star_pairs) + bytes_of(store->star_rays);
+    sum += bytes_of(store->sample) + bytes_of(store->sample_index) + bytes_of(store->nodes);
     return sum + bytes_of(store->listed) + bytes_of(store->bloom) + bytes_of(store->light) +
            bytes_of(store->light_host);
 }
@@ -408,4 +409,8 @@ static void finish_frame(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->undecided);
     kd_vk_buffer_destroy(store->vk, store->undecided_host);
     kd_vk_buffer_destroy(store->vk, store->listed);
+    kd_vk_buffer_destroy(store->vk, store->sample);
+    kd_vk_buffer_destroy(store->vk, store->sample_index);
+    kd_vk_buffer_destroy(store->vk, store->nodes);
+    kd_vk_buffer_destroy(store->vk, store->sample_head);
 }

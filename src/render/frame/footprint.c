@@ -25,18 +25,39 @@ enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *j, const struct kd
                           &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
+static enum kd_status dispatch(struct kd_frame_job *j, const struct kd_footprint_area *area, struct kd_vk_dispatch *d)
+{
+    d->pass = kd_passes[KD_PASS_FOOTPRINT].name;
+    d->push = &area->push;
+    d->bindings[0] = (struct kd_vk_binding) { area->lens, 0, 0, true };
+    d->bindings[KD_FOOTPRINT_PLACES].buffer = d->counts ? d->counts : j->store->undecided; /* read with counts alone */
+    d->bindings[2] = (struct kd_vk_binding) { area->lens, 0, 0, false };
+    const enum kd_status status = kd_frame_footprint_kernel(j, area->lattice, &d->pipeline);
+    return status ? status : kd_vk_dispatch(j->r->vk, d, j->error);
+}
+
 enum kd_status kd_frame_footprint(struct kd_frame_job *j, const struct kd_footprint_area *area)
 {
     if (!kd_plan_has_footprints(j->plan) || area->push.first == area->push.end)
         return KD_OK;
-    struct kd_vk_dispatch d = { kd_passes[KD_PASS_FOOTPRINT].name,
-                                NULL,
-                                { { area->lens, 0, 0, true }, { area->lens, 0, 0, false } },
-                                &area->push,
-                                { 0 } };
     const uint32_t n = area->push.end - area->push.first;
-    d.groups[0] = kd_frame_groups(area->lattice ? n : area->push.width);
-    d.groups[1] = area->lattice ? 1 : n;
-    enum kd_status status = kd_frame_footprint_kernel(j, area->lattice, &d.pipeline);
-    return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
+    struct kd_vk_dispatch d = { .groups = { kd_frame_groups(area->lattice ? n : area->push.width),
+                                            area->lattice ? 1 : n } };
+    return dispatch(j, area, &d);
+}
+
+enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *j, const struct kd_footprint_area *area, uint32_t row0,
+                                          uint32_t traced)
+{
+    struct kd_footprint_area alone = *area, held = *area;
+    struct kd_vk_dispatch d = { .counts = j->store->sample, .counts_at = 16 * KD_STAGE_ALONE };
+    if (!kd_plan_has_footprints(j->plan))
+        return KD_OK;
+    alone.push.alone = 1;
+    alone.push.row0 = row0;
+    alone.push.list = j->store->alone;
+    enum kd_status status = dispatch(j, &alone, &d);
+    held.push.alone = 2;
+    held.push.end = traced < area->push.end ? traced : area->push.end;
+    return status || held.push.first >= held.push.end ? status : kd_frame_footprint(j, &held);
 }

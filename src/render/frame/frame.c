@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "render/device/prepare.h"
 #include "render/frame/lens.h"
+#include "render/frame/sample.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -77,6 +78,8 @@ enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
     }
     for (size_t i = 0; i < j->plan->n_layers; i++)
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], (int)i, &later));
+    if (j->plan->interpolates > 0 && !there)
+        KD_TRY(kd_frame_sample_kernels(j));
     if (j->plan->told.on && (j->plan->planes || j->plan->march.steps))
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], KD_MAKES_TOLD, &later));
     if (j->plan->points)

@@ -6,6 +6,8 @@
 #include "render/view/critical_kept.h"
 #include "render/lens/listed.h"
 #include "render/device/prepare.h"
+#include "render/frame/sample.h"
+#include "render/plan/sample.h"
 #include "base/clock.h"
 
 #include <math.h>
@@ -15,6 +17,21 @@
 #define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
 
 static const struct kd_critical_lattice on_grid; /* none */
+
+/* Rows of pixels of a band from `row` on that one submission takes. A sampled map's slices end where its blocks do, so
+ * that none of them is followed twice. */
+static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
+{
+    const struct kd_plan *p = j->plan;
+    const uint32_t left = kd_frame_band_rows(j, band) - row, rows = kd_frame_slice(ns_per_row, left);
+    if (!maps || !(p->interpolates > 0))
+        return rows;
+    const uint32_t most = kd_sample_rows(p), block = KD_CELL_BLOCK / p->side ? KD_CELL_BLOCK / p->side : 1,
+                   first = kd_scene_window(j->scene).top + kd_frame_band_first(j, band) + row,
+                   end = (first + (rows < most ? rows : most)) / block * block;
+    const uint32_t n = end > first ? end - first : block - first % block;
+    return n < left ? n : left;
+}
 
 /* Kernels are looked up for each slice: while others had the device theirs may have taken their places. */
 
@@ -33,12 +50,13 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
     *out = NULL;
     if (p->path == KD_LENS_LISTED)
         return KD_OK;
+    const uint32_t rays = l->rays || !(p->interpolates > 0) ? l->rays : KD_RAYS_BY_PLACE;
     if (p->path == KD_LENS_CLOSED) {
         const struct kd_spec_lens_closed spec = {
             .QUANTITIES = p->quantities,
             .ORDERS = p->orders,
             .SIGHT = kd_camera_sight(j->scene),
-            .CRITICAL = l->rays,
+            .CRITICAL = rays,
             .GENERATOR = l->generator,
             .SHIFT = l->shift,
         };
@@ -51,7 +69,7 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
         .STEPS = p->setting.steps,
         .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6,
         .SIGHT = kd_camera_sight(j->scene),
-        .CRITICAL = l->rays,
+        .CRITICAL = rays,
         .GENERATOR = l->generator,
         .SHIFT = l->shift,
         .INGOING = p->ingoing,
@@ -194,9 +212,10 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct 
     return (struct kd_vk_dispatch) {
         kd_passes[KD_PASS_TRACE].name,
         pipeline,
-        { { lens, 0, 0, true }, { j->store->undecided, 0, 0, true }, camera_binding(j, camera) },
-        NULL,
-        { 0 },
+        { { lens, 0, 0, true },
+          { j->store->undecided, 0, 0, true },
+          camera_binding(j, camera),
+          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* of rays by their places it is another */
     };
 }
 
@@ -205,6 +224,8 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
 {
     if (j->plan->path == KD_LENS_LISTED)
         return list_slice(j, s);
+    if (j->plan->interpolates > 0)
+        return kd_frame_sample(j, s->band, s->first, s->count);
     struct kd_vk_dispatch d = kd_frame_trace(j, pipeline, kd_frame_band_lens(j, s->band), KD_CAMERA_GRID);
     return record(j, s, &d, KD_MAKES_RAYS);
 }
@@ -250,19 +271,23 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s)
+/* s: what can be finished; traced: of it these rows are new. In a sampled map they are those of rays that were followed
+ * alone, and of the rows that were held back, those that were marked. */
+static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
-    const uint32_t row0 = s->first - kd_frame_band_first(j, s->band), width = p->width * p->side;
-    const struct kd_footprint_area area = {
+    const uint32_t first = kd_frame_band_first(j, s->band), width = p->width * p->side;
+    struct kd_footprint_area area = {
         .lens = kd_frame_band_lens(j, s->band),
         .push = { .width = width,
                   .rows = kd_frame_band_rows(j, s->band) * p->side,
-                  .first = row0 * p->side,
-                  .end = (row0 + s->count) * p->side,
+                  .first = (s->first - first) * p->side,
+                  .end = (s->first + s->count - first) * p->side,
                   .stride = width * p->band_rows * p->side },
     };
-    return kd_frame_footprint(j, &area);
+    if (!(p->interpolates > 0))
+        return kd_frame_footprint(j, &area);
+    return kd_frame_footprint_sampled(j, &area, first * p->side, (traced->first - first) * p->side);
 }
 
 /* Trace a slice, settle what that leaves open, and finish what then can be. */
@@ -274,7 +299,9 @@ static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *trac
     KD_TRY(kd_frame_forget_open(j, NULL));
     KD_TRY(trace_slice(j, traced, trace));
     KD_TRY(kd_frame_settle(j, NULL, traced->band));
-    KD_TRY(footprint_slice(j, whole));
+    if (j->plan->interpolates > 0)
+        kd_frame_count_sampled(j, traced->count);
+    KD_TRY(footprint_slice(j, whole, traced));
 done:
     return status;
 }
@@ -343,10 +370,11 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
-    uint32_t step = kd_frame_slice(ns * p->width * p->side * p->side, rows);
+    const double ns_per_row = ns * p->width * p->side * p->side;
     enum kd_status status = KD_OK;
-    for (uint32_t row = 0; row < rows && !status; row += step) {
-        const struct slice s = { band, first + row, rows - row < step ? rows - row : step };
+    for (uint32_t row = 0, step; row < rows && !status; row += step) {
+        step = rows_of_slice(j, band, row, ns_per_row, needed);
+        const struct slice s = { band, first + row, step };
         const struct slice whole = needed ? complete(j, &s) : s;
         if (needed)
             KD_TRY(map_slice(j, &s, &whole));
@@ -382,10 +410,11 @@ static enum kd_status map_band(struct kd_frame_job *j, uint32_t band, double ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
-    uint32_t step = kd_frame_slice(ns * p->width * p->side * p->side, rows);
+    const double ns_per_row = ns * p->width * p->side * p->side;
     enum kd_status status = KD_OK;
-    for (uint32_t row = 0; row < rows && !status; row += step) {
-        const struct slice s = { band, first + row, rows - row < step ? rows - row : step }, whole = complete(j, &s);
+    for (uint32_t row = 0, step; row < rows && !status; row += step) {
+        step = rows_of_slice(j, band, row, ns_per_row, true);
+        const struct slice s = { band, first + row, step }, whole = complete(j, &s);
         KD_TRY(map_slice(j, &s, &whole));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, s.count));
@@ -469,10 +498,10 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     KD_TRY(kd_frame_send_cameras(&job));
     for (uint32_t band = 0; band < plan->bands; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
-        uint32_t step = kd_frame_slice(plan->trace_ns * plan->width * plan->side * plan->side, rows);
-        for (uint32_t done = 0; done < rows && !status; done += step) {
-            const struct slice s = { band, kd_frame_band_first(&job, band) + done,
-                                     rows - done < step ? rows - done : step };
+        const double ns_per_row = plan->trace_ns * plan->width * plan->side * plan->side;
+        for (uint32_t done = 0, step; done < rows && !status; done += step) {
+            step = rows_of_slice(&job, band, done, ns_per_row, true);
+            const struct slice s = { band, kd_frame_band_first(&job, band) + done, step };
             const struct slice whole = complete(&job, &s);
             KD_TRY(map_slice(&job, &s, &whole));
             KD_TRY(kd_vk_submit(renderer->vk, NULL, error));

@@ -30,10 +30,10 @@ enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *sce
     struct kd_buffer text = { 0 };
     const struct kd_setting *by = &plan->setting;
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d times and %u at the curve, by %d %d %u %d, ",
+    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d times and %u at the curve, by %d %d %u %d %a, ",
                             plan->quantities, plan->orders, scene->image.width, scene->image.height, (int)plan->side,
                             scene->image.critical_factor, plan->critical, (int)by->engine, (int)by->precision,
-                            by->steps, (int)plan->path));
+                            by->steps, (int)plan->path, plan->interpolates));
     KD_TRY(write_view(scene, &text));
     kd_sha256(text.data, text.size, plan->lens_key);
 done:

@@ -12,6 +12,7 @@
 #include "render/plan/lens_key.h"
 #include "render/plan/parts.h"
 #include "render/plan/room.h"
+#include "render/plan/sample.h"
 
 #include <math.h>
 #include <string.h>
@@ -411,6 +412,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     if (needs->sketch && kd_emit_along(scene))
         plan.march = kd_march_sketch(plan.march, scene);
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
+    plan.interpolates = needs->followed ? 0 : kd_sample_tolerance(&plan, scene);
     kd_plan_adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;

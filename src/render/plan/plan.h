@@ -68,6 +68,8 @@ struct kd_plan {
         KD_LENS_MAP,    /* lens_map.comp: by steps */
         KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine, in either precision */
     } path;
+    double interpolates;               /* the relative error that a map interpolated between nodes may have from that
+                                        * (plan/sample.h); 0: every ray is followed */
     struct kd_setting setting;         /* engine, precision and steps of a half period (0: closed form) */
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
     bool points;                       /* some emitter has points of light, */
@@ -282,6 +284,7 @@ struct kd_needs {
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
     bool unseen;   /* and that nobody sees the picture: it has no pixels, and no layers, whatever image.layers says */
     bool radiance; /* and that linear light be among the layers, where the picture is asked for */
+    bool followed; /* and that every ray be followed, whatever the profile would interpolate, */
     bool sketch;   /* and that volumes be followed as coarsely as kd_march_sketch has it, */
     bool bright;   /* and that points of light be sought as plan.bright says, */
     bool held;     /* and that volume.normalise_to_jy has the density that was found for the same matter before, from

@@ -27,6 +27,7 @@ static inline double kd_lifted(double x)
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 struct kd_footprint_push { KD_FOOTPRINT_FIELDS_(F, U) };
+struct kd_sample_push { KD_SAMPLE_FIELDS_(F, U) };
 struct kd_stars_push { KD_STARS_FIELDS_(F, U) };
 struct kd_between_push { KD_BETWEEN_FIELDS_(F, U) };
 struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
@@ -87,6 +88,8 @@ _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next came
 #define CHECK_MAP(id, name, value) SPEC_CHECK(kd_spec_lens_map, id, name)
 #define CHECK_FOOTPRINT(id, name, value) SPEC_CHECK(kd_spec_footprint, id, name)
 #define CHECK_BETWEEN(id, name, value) SPEC_CHECK(kd_spec_between, id, name)
+#define CHECK_SAMPLE(id, name, value) SPEC_CHECK(kd_spec_sample, id, name)
+#define CHECK_FILL(id, name, value) SPEC_CHECK(kd_spec_fill, id, name)
 #define CHECK_TRANSFER(id, name, value) SPEC_CHECK(kd_spec_transfer, id, name)
 #define CHECK_RAYS(id, name, value) SPEC_CHECK(kd_spec_rays, id, name)
 #define CHECK_PARTICLES(id, name, value) SPEC_CHECK(kd_spec_particles, id, name)
@@ -103,6 +106,8 @@ SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
 SPEC(kd_spec_footprint, KD_SPEC_FOOTPRINT, CHECK_FOOTPRINT, )
 SPEC(kd_spec_between, KD_SPEC_BETWEEN, CHECK_BETWEEN, )
+SPEC(kd_spec_sample, KD_SPEC_SAMPLE, CHECK_SAMPLE, )
+SPEC(kd_spec_fill, KD_SPEC_FILL, CHECK_FILL, )
 SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER,
      uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT, TRAIT, TRAIT)];)
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
@@ -124,6 +129,8 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS,
 #undef CHECK_MAP
 #undef CHECK_FOOTPRINT
 #undef CHECK_BETWEEN
+#undef CHECK_SAMPLE
+#undef CHECK_FILL
 #undef CHECK_TRANSFER
 #undef CHECK_RAYS
 #undef CHECK_PARTICLES

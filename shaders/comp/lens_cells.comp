@@ -1,0 +1,278 @@
+/* This kernel decides where a lens map is followed ray by ray and where it is interpolated. An invocation is a cell
+ * (ray/cells.glsl) of one level, all of whose nodes are followed: if the polynomials through them tell two more rays of
+ * it, it is done; else its four quarters are cells of the next level, whose nodes are listed, and a cell of the last
+ * level is followed ray by ray. The map is analytic in a cell but where orders or fates change, and whether they do the
+ * nodes say. What a cell becomes depends on its own rays alone: a tile's cells are those of its picture.
+ *
+ * The tolerance is relative, of w, an angle and a direction alike; where the map is so steep that the rounding of the
+ * camera's directions to 32 bits moves it more, it is CONDITION of that: of the change of ln w, or of the angle, that
+ * a direction twice as far from the hole would have. A strict one fails by noise. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_SAMPLE(KD_SPEC_U_, KD_SPEC_B_)
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+layout(set = 0, binding = 0) buffer Sample { uint words[]; };
+layout(set = 0, binding = 1) buffer Index { uint number[]; };
+layout(set = 0, binding = 2) readonly buffer Nodes { float nodes[]; };
+#define KD_SAMPLE_CAMERA_BINDING 3
+#define NODE_AT(i) nodes[i]
+#include "ray/cells.glsl"
+#include "ray/places.glsl"
+
+const float CONDITION = 0.3;
+
+/* The lists of cells, those of a level four times as long as those of the level before; and places. */
+uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * (level - 1u))) - 1u) / 3u); }
+uint places_of_nodes() { return units_of(2u); }
+uint places_alone() { return places_of_nodes() + 2u * push.room; }
+
+/* Takes so many numbers of a list whose counts begin there, and asks for workgroups of so many each. */
+uint take(uint counts, uint n, uint each)
+{
+    uint first = atomicAdd(words[counts + 3u], n);
+    atomicMax(words[counts], (first + n + each - 1u) / each);
+    return first;
+}
+
+void list_node(uint node, uvec2 at)
+{
+    ivec2 place = place_of(at);
+    uint word = places_of_nodes() + 2u * node;
+    words[word] = uint(place.x);
+    words[word + 1u] = uint(place.y);
+}
+
+/* Part of the picture, or of the rows of it that are wanted. */
+bool is_wanted(uvec2 corner, uint side)
+{
+    ivec2 low = place_of(corner), high = low + ivec2(int(side));
+    int row0 = int(push.row0);
+    return low.x < int(push.width) && high.x > 0 && low.y < row0 + int(push.rows) && high.y > row0;
+}
+
+void list_cell(uint level, uvec2 cell)
+{
+    if (is_wanted(cell * side_of(level), side_of(level)))
+        words[queue_of(level) + take(KD_SAMPLE_CELLS + 4u * (level - 1u), 1u, KD_GROUP_SIZE)] = cell.x | (cell.y << 16);
+}
+
+/* The two rays that a cell is checked by, next to the middles of two of its sides: where polynomials are furthest off.
+ * Of all levels but the last they lie at even places. */
+uvec2 check_of(uvec2 corner, uint side, uint i)
+{
+    return corner + (i == 0u ? uvec2(side / 8u, side / 2u) : uvec2(side / 2u, side / 8u));
+}
+
+bool is_edge(uvec2 k, uint n) { return k.x == 0u || k.y == 0u || k.x == n || k.y == n; }
+
+/* Lists those of the places (i, j) of n + 1 by n + 1, `step_` rays apart, that are no nodes yet, and the rays by which
+ * the cells of such a side in there are checked. Only places on the edge are others' too. stage: of these rays. */
+void list_nodes(uint stage, uvec2 corner, uint n, uint step_, uint side)
+{
+    uint mine[3] = uint[](0u, 0u, 0u), count = 0u;
+    for (uint k = 0u; k < (n + 1u) * (n + 1u); k++) {
+        uvec2 at = uvec2(k % (n + 1u), k / (n + 1u));
+        uint word = index_of((corner + at * step_) / 2u);
+        bool new_ = is_edge(at, n) ? atomicCompSwap(number[word], 0u, 0xffffffffu) == 0u : number[word] == 0u;
+        mine[k / 32u] |= new_ ? 1u << (k % 32u) : 0u;
+        count += new_ ? 1u : 0u;
+    }
+    const uint cells = n * step_ / side; /* along an axis */
+    uint node = kd_stage_first(stage) + take(4u * stage, count + 2u * cells * cells, KD_GROUP_SIZE);
+    for (uint k = 0u; k < (n + 1u) * (n + 1u); k++) {
+        uvec2 at = corner + uvec2(k % (n + 1u), k / (n + 1u)) * step_;
+        if ((mine[k / 32u] & (1u << (k % 32u))) != 0u) {
+            number[index_of(at / 2u)] = node + 1u;
+            list_node(node++, at);
+        }
+    }
+    for (uint k = 0u; k < 2u * cells * cells; k++) {
+        uvec2 cell = corner + uvec2((k / 2u) % cells, k / 2u / cells) * side, at = check_of(cell, side, k % 2u);
+        number[side == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u)] = node + 1u;
+        list_node(node++, at);
+    }
+}
+
+/* The nodes that a cell's polynomials are checked by: along its middle row and its middle column, the middle one twice;
+ * and the two rays. */
+struct kd_cross { uint at[12]; };
+uint node_of_cross(kd_cross c, uint axis, uint i) { return c.at[5u * axis + i]; }
+uint check_node(kd_cross c, uint axis) { return c.at[10u + axis]; }
+
+kd_cross cross_of(uvec2 corner, uint side)
+{
+    kd_cross c;
+    for (uint i = 0u; i < 5u; i++) {
+        c.at[i] = number[index_of_node(corner, side, i, 2u)] - 1u;
+        c.at[5u + i] = number[index_of_node(corner, side, 2u, i)] - 1u;
+    }
+    for (uint i = 0u; i < 2u; i++)
+        c.at[10u + i] = number[side == 8u ? index_checks() + 2u * index_of_last(corner / 8u) + i
+                                          : index_of(check_of(corner, side, i) / 2u)] -
+                        1u;
+    return c;
+}
+
+/* What an axis of a cross tells of a quantity: what its polynomial is off by at the ray next to its first node, the
+ * slope in the middle and the largest second difference, both of a quarter of the side. */
+struct kd_told { vec3 off, slope, bend; };
+
+kd_told told_of(vec3 v[6])
+{
+    kd_told t;
+    vec3 a = v[0] - v[2], b = v[1] - v[2], d = v[3] - v[2], e = v[4] - v[2];
+    t.off = v[5] - v[2] - (35.0 * a + 140.0 * b + 28.0 * d - 5.0 * e) / 128.0;
+    t.slope = 0.5 * (d - b);
+    t.bend = max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d));
+    return t;
+}
+
+bool is_told(vec3 off, vec3 most) { return all(lessThanEqual(off, most)); } /* false of what is no number */
+
+/* How far a step from ray to ray is from the direction to the hole, at most: what rounding moves a ray by is a part of
+ * that. In such steps. */
+float steps_to_hole(uvec2 corner, uint side)
+{
+    ivec2 middle = place_of(corner + uvec2(side / 2u));
+    float x = float(middle.x) - cam.middle_x, y = cam.middle_y - float(middle.y);
+    if (cam.sight >= KD_SIGHT_SPHERE)
+        return 1.0 / (0.5 * KD_PI * min(cam.turn_x, cam.turn_y));
+    float step_ = sqrt(cam.cxx * cam.cxx + cam.cxy * cam.cxy + cam.cxz * cam.cxz);
+    vec3 k = vec3(cam.c0x + x * cam.cxx + y * cam.cyx, cam.c0y + x * cam.cxy + y * cam.cyy,
+                  cam.c0z + x * cam.cxz + y * cam.cyz);
+    return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
+}
+
+/* Whether the polynomials of a quantity tell both rays. scale: what the tolerance is relative to. */
+bool tells(kd_told x, kd_told y, vec3 scale, float far)
+{
+    vec3 steep = CONDITION * far * sqrt(x.slope * x.slope + y.slope * y.slope) / scale,
+         most = push.tolerance * scale * max(vec3(1.0), steep);
+    return is_told(abs(x.off), most) && is_told(abs(y.off), most);
+}
+
+bool crossing_is_smooth(kd_cross c, uint n, uint side, float far)
+{
+    kd_told t[2];
+    vec3 middle = crossing_of(c.at[2], n);
+    float least = middle.x, most = middle.x, steepest = abs(middle.z);
+    for (uint axis = 0u; axis < 2u; axis++) {
+        vec3 v[6];
+        for (uint i = 0u; i < 6u; i++) {
+            v[i] = crossing_of(i < 5u ? node_of_cross(c, axis, i) : check_node(c, axis), n);
+            least = min(least, v[i].x);
+            most = max(most, v[i].x);
+            steepest = max(steepest, abs(v[i].z));
+            v[i].y = turned(v[i].y - middle.y);
+        }
+        t[axis] = told_of(v);
+    }
+    /* Between nodes a curve leaves them by an eighth of its second difference. */
+    float bend = 0.25 * max(t[0].bend.x, t[1].bend.x);
+    return least > bend && most + bend < max(cam.horizon, 1.1 * cam.w0) &&
+           tells(t[0], t[1], vec3(middle.x, 1.0, max(steepest, 1e-30)), 4.0 * far / float(side));
+}
+
+bool sky_is_smooth(kd_cross c, uint side, float far)
+{
+    kd_told t[2];
+    vec3 middle = direction_of(c.at[2]);
+    for (uint axis = 0u; axis < 2u; axis++) {
+        vec3 v[6];
+        for (uint i = 0u; i < 6u; i++)
+            v[i] = direction_of(i < 5u ? node_of_cross(c, axis, i) : check_node(c, axis)) - middle;
+        t[axis] = told_of(v);
+    }
+    vec3 dx = t[0].slope, dy = t[1].slope;
+    float steep = CONDITION * 4.0 * far / float(side) * sqrt(dot(dx, dx) + dot(dy, dy)),
+          most = push.tolerance * max(1.0, steep);
+    return length(t[0].off) <= most && length(t[1].off) <= most;
+}
+
+/* Whether all rays of a cell cross as often and end alike, and its polynomials tell those between its nodes. */
+bool is_smooth(uvec2 corner, uint side, out float state)
+{
+    kd_cross c = cross_of(corner, side);
+    state = state_of(c.at[2]);
+    bool same = state != KD_NODE_OPEN && state_of(c.at[10]) == state && state_of(c.at[11]) == state;
+    for (uint k = 0u; k < 25u; k++)
+        same = same && state_of(number[index_of_node(corner, side, k % 5u, k / 5u)] - 1u) == state;
+    float far = steps_to_hole(corner, side);
+    const uint crossings = same ? min(crossings_of(state), ORDERS) : 0u;
+    for (uint n = 0u; n < crossings; n++)
+        same = same && crossing_is_smooth(c, n, side, far);
+    return same && (!SKY || captured(state) || sky_is_smooth(c, side, far));
+}
+
+/* Lists a cell's units of a kind. */
+void list_units(uint kind, uvec2 corner, uint level)
+{
+    const uint n = side_of(level) / 8u, word = units_of(kind) + take(KD_SAMPLE_FILLS + 4u * kind, n, KD_GROUP_SIZE / 8u);
+    for (uint i = 0u; i < n; i++)
+        words[word + i] = kd_unit(corner / 8u, i, level);
+}
+
+/* A cell of the last level whose rays are followed one by one. */
+void follow_alone(uvec2 corner)
+{
+    uint count = 0u;
+    for (uint k = 0u; k < 64u; k++)
+        count += is_wanted(corner + uvec2(k % 8u, k / 8u), 1u) ? 1u : 0u;
+    uint word = places_alone() + 2u * take(4u * KD_STAGE_ALONE, count, KD_GROUP_SIZE);
+    for (uint k = 0u; k < 64u; k++) {
+        uvec2 ray = corner + uvec2(k % 8u, k / 8u);
+        ivec2 place = place_of(ray);
+        if (is_wanted(ray, 1u)) {
+            words[word++] = uint(place.x);
+            words[word++] = uint(place.y);
+        }
+    }
+}
+
+/* The first level: a block is a cell. */
+void begin(uint block)
+{
+    uvec2 cell = uvec2(block % push.blocks_x, block / push.blocks_x);
+    list_nodes(0u, cell * KD_CELL_BLOCK, 4u, KD_CELL_BLOCK / 4u, KD_CELL_BLOCK);
+    list_cell(1u, cell);
+}
+
+void look_at(uint entry, uint level)
+{
+    uint side = side_of(level);
+    uvec2 cell = uvec2(entry & 0xffffu, entry >> 16), corner = cell * side;
+    float state;
+    if (is_smooth(corner, side, state)) {
+        if (crossings_of(state) > 0u)
+            list_units(0u, corner, level);
+        if (SKY && !captured(state))
+            list_units(1u, corner, level);
+    } else if (level == KD_CELL_LEVELS) {
+        follow_alone(corner);
+    } else {
+        list_nodes(level, corner, 8u, side / 8u, side / 2u);
+        for (uint k = 0u; k < 4u; k++)
+            list_cell(level + 1u, 2u * cell + uvec2(k % 2u, k / 2u));
+    }
+}
+
+void main()
+{
+    push = push_;
+    cam = camera_;
+    uint i = gl_GlobalInvocationID.x;
+    if (push.level == 0u && i == 0u) /* workgroups along the other axes */
+        for (uint k = 0u; k < KD_SAMPLE_COUNTED / 4u; k++) {
+            words[4u * k + 1u] = 1u;
+            words[4u * k + 2u] = 1u;
+        }
+    if (push.level == 0u) {
+        if (i < blocks())
+            begin(i);
+    } else if (i < words[KD_SAMPLE_CELLS + 4u * (push.level - 1u) + 3u]) {
+        look_at(words[queue_of(push.level) + i], push.level);
+    }
+}

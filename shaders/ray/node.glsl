@@ -1,0 +1,38 @@
+/* This leaves a ray that a kernel has followed as whoever comes next takes it: the node of a sampled map
+ * (ray/cells.glsl), or a ray of the map. Needs ray/place.glsl and ray/open.glsl. */
+#ifndef KD_NODE_GLSL
+#define KD_NODE_GLSL
+
+#include "ray/fall.glsl"
+
+/* A node has what is smooth from ray to ray: of a captured ray azimuths without the logarithm that they end in at the
+ * horizon, and instead of angles in the sky, and of a fate, a unit vector: x, y and z in the planes of SKY_PHI, FATE and
+ * SKY_U. */
+void kd_finish_node(uint at, uint crossings, bool captured)
+{
+    lens[slice.list + at] = float(crossings) + (captured ? KD_NODE_CAPTURED : 0.0);
+    if (PHI && captured)
+        for (uint n = 0u; n < ORDERS; n++)
+            lens[at + (kd_plane(KD_LENS_PHI) + n) * slice.stride] +=
+                cam.spin * kd_fall(lens[at + n * slice.stride], cam.root);
+    if (SKY) {
+        float u = lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride], s = sqrt(max(1.0 - u * u, 0.0));
+        kd_phasor phi = kd_cos_sin(lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride]);
+        lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = s * phi.c;
+        lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = s * phi.s;
+    }
+}
+
+/* A node is not listed as open: its state says that it is, and its cells are followed ray by ray. */
+void kd_finish_ray(bool open, uint at, uint crossings, bool captured)
+{
+    const bool node = BY_PLACE && slice.stage != KD_STAGE_ALONE;
+    if (node)
+        kd_finish_node(at, crossings, captured);
+    if (node && open)
+        lens[slice.list + at] = KD_NODE_OPEN;
+    if (!node)
+        kd_leave_open(open, at);
+}
+
+#endif

@@ -1,0 +1,67 @@
+#include "render/plan/sample.h"
+
+#include "interface.h"
+
+#include <math.h>
+
+enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 }; /* along the side of a block: places, and cells of the last
+                                                               level */
+#define RAYS_AT_ONCE (1u << 21)
+
+/* The first of the block that a place lies in. */
+static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
+
+static uint32_t blocks(int64_t origin, int64_t end) { return (uint32_t)((end - origin - 1) / KD_CELL_BLOCK + 1); }
+
+struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
+                                     uint32_t rows)
+{
+    const int64_t width = (int64_t)plan->width * plan->side, y = (int64_t)top + row0;
+    struct kd_sample_grid grid = {
+        .origin_x = (int32_t)(block_of(left) - left),
+        .origin_y = (int32_t)(block_of(y) - top),
+        .blocks_x = blocks(block_of(left), left + width),
+        .blocks_y = blocks(block_of(y), y + rows),
+    };
+    const uint64_t n = (uint64_t)grid.blocks_x * grid.blocks_y,
+                   even = (uint64_t)(EVEN * grid.blocks_x + 1) * (EVEN * grid.blocks_y + 1);
+    grid.room = (uint32_t)(even + 2ull * LAST * LAST * n);
+    grid.places = (uint32_t)(KD_SAMPLE_QUEUES + (KD_SAMPLE_QUEUED + 2 * KD_SAMPLE_UNITS) * n);
+    grid.alone = grid.places + 2 * grid.room;
+    grid.list_bytes = 4 * (grid.alone + 2 * (uint64_t)width * rows);
+    grid.index_bytes = 4 * (even + 2ull * LAST * LAST * n);
+    grid.node_bytes = 4ull * (plan->planes + 1) * grid.room;
+    return grid;
+}
+
+uint32_t kd_sample_rows(const struct kd_plan *plan)
+{
+    const uint64_t row = (uint64_t)plan->width * plan->side * plan->side, least = KD_CELL_BLOCK / plan->side + 1;
+    const uint64_t rows = RAYS_AT_ONCE / row > least ? RAYS_AT_ONCE / row : least;
+    return (uint32_t)(rows < plan->band_rows ? rows : plan->band_rows);
+}
+
+uint64_t kd_sample_bytes(const struct kd_plan *plan)
+{
+    if (!(plan->interpolates > 0))
+        return 0;
+    const struct kd_sample_grid most = kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0,
+                                                      kd_sample_rows(plan) * plan->side);
+    return most.list_bytes + most.index_bytes + most.node_bytes;
+}
+
+/* What interpolation holds: below it a tolerance means that each ray is followed. */
+#define HOLDS 1e-5
+
+double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene)
+{
+    static const double by_profile[] = { [KD_PROFILE_DRAFT] = 1e-5, [KD_PROFILE_INTERACTIVE] = 1e-5,
+                                         [KD_PROFILE_BALANCED] = 2e-6, [KD_PROFILE_HIGH] = 0,
+                                         [KD_PROFILE_REFERENCE] = 0 };
+    const struct kd_wish wish = kd_wish_of(scene);
+    if (plan->path == KD_LENS_LISTED || !plan->planes || wish.engine >= 0 || wish.steps || wish.precision >= 0)
+        return 0;
+    if (isfinite(wish.tolerance))
+        return wish.tolerance >= HOLDS ? by_profile[KD_PROFILE_BALANCED] : 0;
+    return by_profile[wish.profile];
+}
