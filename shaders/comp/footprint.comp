@@ -214,8 +214,8 @@ bool this_ray(out kd_grid grid, out uint at)
         return at < push.end;
     }
     const bool alone = push.alone == 1u;
-    uint word = push.list + 2u * x;
-    grid = kd_grid(alone ? words[word] : x, alone ? words[word + 1u] - push.row0 : y, push.width, push.rows);
+    uvec2 place = kd_place_at(words[push.list + x]) + uvec2(push.origin_x, push.origin_y);
+    grid = kd_grid(alone ? place.x : x, alone ? place.y : y, push.width, push.rows);
     at = grid.y * push.width + grid.x;
     return alone ? x < kd_stage_count(KD_STAGE_ALONE) : x < push.width && (push.alone == 0u || is_marked(at));
 }

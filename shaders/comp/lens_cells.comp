@@ -27,7 +27,7 @@ const float CONDITION = 0.3;
 /* The lists of cells, those of a level four times as long as those of the level before; and places. */
 uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * (level - 1u))) - 1u) / 3u); }
 uint places_of_nodes() { return units_of(2u); }
-uint places_alone() { return places_of_nodes() + 2u * push.room; }
+uint places_alone() { return places_of_nodes() + push.room; }
 
 /* Takes so many numbers of a list whose counts begin there, and asks for workgroups of so many each. */
 uint take(uint counts, uint n, uint each)
@@ -35,14 +35,6 @@ uint take(uint counts, uint n, uint each)
     uint first = atomicAdd(words[counts + 3u], n);
     atomicMax(words[counts], (first + n + each - 1u) / each);
     return first;
-}
-
-void list_node(uint node, uvec2 at)
-{
-    ivec2 place = place_of(at);
-    uint word = places_of_nodes() + 2u * node;
-    words[word] = uint(place.x);
-    words[word + 1u] = uint(place.y);
 }
 
 /* Part of the picture, or of the rows of it that are wanted. */
@@ -66,33 +58,63 @@ uvec2 check_of(uvec2 corner, uint side, uint i)
     return corner + (i == 0u ? uvec2(side / 8u, side / 2u) : uvec2(side / 2u, side / 8u));
 }
 
-bool is_edge(uvec2 k, uint n) { return k.x == 0u || k.y == 0u || k.x == n || k.y == n; }
-
-/* Lists those of the places (i, j) of n + 1 by n + 1, `step_` rays apart, that are no nodes yet, and the rays by which
- * the cells of such a side in there are checked. Only places on the edge are others' too. stage: of these rays. */
-void list_nodes(uint stage, uvec2 corner, uint n, uint step_, uint side)
+/* Places that become nodes where a cell is divided: among 9 x 9 those 16 on the edge that were none, which the cells
+ * beside it may list as well, and 38 within, all of which it lists itself; two there were what the cell was checked by. */
+uvec2 edge_of_nine(uint k)
 {
-    uint mine[3] = uint[](0u, 0u, 0u), count = 0u;
-    for (uint k = 0u; k < (n + 1u) * (n + 1u); k++) {
-        uvec2 at = uvec2(k % (n + 1u), k / (n + 1u));
-        uint word = index_of((corner + at * step_) / 2u);
-        bool new_ = is_edge(at, n) ? atomicCompSwap(number[word], 0u, 0xffffffffu) == 0u : number[word] == 0u;
-        mine[k / 32u] |= new_ ? 1u << (k % 32u) : 0u;
-        count += new_ ? 1u : 0u;
+    uint along = 2u * (k % 4u) + 1u, far = 8u * (k / 4u & 1u);
+    return k < 8u ? uvec2(along, far) : uvec2(far, along);
+}
+uvec2 within_nine(uint k)
+{
+    if (k < 6u)
+        return uvec2(k < 3u ? k + 1u : k + 2u, 1u);
+    if (k < 27u)
+        return uvec2((k - 6u) % 7u + 1u, 3u + 2u * ((k - 6u) / 7u));
+    uint i = k < 31u ? k - 27u : k < 34u ? k - 30u : k - 34u;
+    return uvec2(2u * i + 1u, k < 31u ? 2u : k < 34u ? 4u : 6u);
+}
+/* And where a block is begun: 16 and 9 of 5 x 5. */
+uvec2 edge_of_five(uint k)
+{
+    uint i = k % 4u, side = k / 4u;
+    return side == 0u ? uvec2(i, 0u) : side == 1u ? uvec2(4u, i) : side == 2u ? uvec2(4u - i, 4u) : uvec2(0u, 4u - i);
+}
+uvec2 within_five(uint k) { return uvec2(k % 3u + 1u, k / 3u + 1u); }
+
+/* This makes a place a node. word: of the index. */
+void make_node(uint node, uint word, uvec2 at)
+{
+    number[word] = node + 1u;
+    words[places_of_nodes() + node] = kd_place_word(at);
+}
+
+/* Lists the nodes of a cell's four quarters, or of a block, that are none yet, and the two rays by which each of these
+ * is checked. stage: of these rays. */
+void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
+{
+    const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u, checked = divided ? side / 2u : side,
+               cells = side / checked;
+    uint mine = 0u;
+    for (uint k = 0u; k < 16u; k++) {
+        uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
+        mine |= atomicCompSwap(number[index_of(at / 2u)], 0u, 0xffffffffu) == 0u ? 1u << k : 0u;
     }
-    const uint cells = n * step_ / side; /* along an axis */
-    uint node = kd_stage_first(stage) + take(4u * stage, count + 2u * cells * cells, KD_GROUP_SIZE);
-    for (uint k = 0u; k < (n + 1u) * (n + 1u); k++) {
-        uvec2 at = corner + uvec2(k % (n + 1u), k / (n + 1u)) * step_;
-        if ((mine[k / 32u] & (1u << (k % 32u))) != 0u) {
-            number[index_of(at / 2u)] = node + 1u;
-            list_node(node++, at);
-        }
+    uint node = kd_stage_first(stage) +
+                take(4u * stage, uint(bitCount(mine)) + within + 2u * cells * cells, KD_GROUP_SIZE);
+    for (uint k = 0u; k < 16u; k++) {
+        uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
+        if ((mine & (1u << k)) != 0u)
+            make_node(node++, index_of(at / 2u), at);
+    }
+    for (uint k = 0u; k < within; k++) {
+        uvec2 at = corner + (divided ? within_nine(k) : within_five(k)) * step_;
+        make_node(node++, index_of(at / 2u), at);
     }
     for (uint k = 0u; k < 2u * cells * cells; k++) {
-        uvec2 cell = corner + uvec2((k / 2u) % cells, k / 2u / cells) * side, at = check_of(cell, side, k % 2u);
-        number[side == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u)] = node + 1u;
-        list_node(node++, at);
+        uvec2 cell = corner + uvec2((k / 2u) % cells, k / 2u / cells) * checked, at = check_of(cell, checked, k % 2u);
+        make_node(node++,
+                  checked == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u), at);
     }
 }
 
@@ -218,25 +240,18 @@ void list_units(uint kind, uvec2 corner, uint level)
 /* A cell of the last level whose rays are followed one by one. */
 void follow_alone(uvec2 corner)
 {
-    uint count = 0u;
-    for (uint k = 0u; k < 64u; k++)
-        count += is_wanted(corner + uvec2(k % 8u, k / 8u), 1u) ? 1u : 0u;
-    uint word = places_alone() + 2u * take(4u * KD_STAGE_ALONE, count, KD_GROUP_SIZE);
-    for (uint k = 0u; k < 64u; k++) {
-        uvec2 ray = corner + uvec2(k % 8u, k / 8u);
-        ivec2 place = place_of(ray);
-        if (is_wanted(ray, 1u)) {
-            words[word++] = uint(place.x);
-            words[word++] = uint(place.y);
-        }
-    }
+    ivec2 place = place_of(corner), low = max(place, ivec2(0, int(push.row0))),
+          high = min(place + 8, ivec2(int(push.width), int(push.row0 + push.rows))), n = high - low;
+    uint word = places_alone() + take(4u * KD_STAGE_ALONE, uint(n.x * n.y), KD_GROUP_SIZE);
+    for (int k = 0; k < n.x * n.y; k++)
+        words[word++] = kd_place_word(uvec2(low - place_of(uvec2(0u)) + ivec2(k % n.x, k / n.x)));
 }
 
 /* The first level: a block is a cell. */
 void begin(uint block)
 {
     uvec2 cell = uvec2(block % push.blocks_x, block / push.blocks_x);
-    list_nodes(0u, cell * KD_CELL_BLOCK, 4u, KD_CELL_BLOCK / 4u, KD_CELL_BLOCK);
+    list_nodes(0u, cell * KD_CELL_BLOCK, KD_CELL_BLOCK, false);
     list_cell(1u, cell);
 }
 
@@ -253,7 +268,7 @@ void look_at(uint entry, uint level)
     } else if (level == KD_CELL_LEVELS) {
         follow_alone(corner);
     } else {
-        list_nodes(level, corner, 8u, side / 8u, side / 2u);
+        list_nodes(level, corner, side, true);
         for (uint k = 0u; k < 4u; k++)
             list_cell(level + 1u, 2u * cell + uvec2(k % 2u, k / 2u));
     }

@@ -7,6 +7,7 @@
  * What no ray has is there already: the planes of w are 0, and all fates captured. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_FILL(KD_SPEC_U_, KD_SPEC_B_)
@@ -74,9 +75,9 @@ vec3 value_of(uint node, uint n) { return OF_SKY ? direction_of(node) : crossing
 kd_lines lines_of(kd_column c, uint n, vec3 middle)
 {
     kd_lines l;
-    for (uint j = 0u; j < 5u; j++) {
+    [[unroll]] for (uint j = 0u; j < 5u; j++) {
         vec3 v[5];
-        for (uint i = 0u; i < 5u; i++) {
+        [[unroll]] for (uint i = 0u; i < 5u; i++) {
             v[i] = value_of(c.node[5u * j + i], n) - middle;
             if (!OF_SKY && PHI)
                 v[i].y = turned(v[i].y);
@@ -88,7 +89,8 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = value; }
+/* A value that is nothing but stored lavapipe computes lane by lane, in the loop that stores it; not what comes of max. */
+void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* A ray's place in the cell's polynomials: the value there, and how it changes from ray to ray. */
 struct kd_spot { vec3 v, i, j; };
@@ -163,7 +165,7 @@ void main()
     rows.n = uint(end - first);
     rows.at = uint(first - int(push.band0)) * push.width + uint(place.x);
     kd_column c;
-    for (uint k = 0u; k < 25u; k++)
+    [[unroll]] for (uint k = 0u; k < 25u; k++)
         c.node[k] = NUMBER_AT(index_of_node(corner, side, k % 5u, k / 5u)) - 1u;
     c.by = weigh(float(ray.x - corner.x) * rows.unit);
     const float state = state_of(c.node[12]);

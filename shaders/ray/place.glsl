@@ -43,10 +43,10 @@ bool kd_this_ray(out uvec2 ray, out uint at)
 #ifdef KD_BY_PLACE_BINDING
     if (BY_PLACE) {
         bool alone = slice.stage == KD_STAGE_ALONE;
-        uint number = x + (alone ? 0u : kd_stage_first(slice.stage)), word = slice.places + 2u * number;
+        uint number = x + (alone ? 0u : kd_stage_first(slice.stage)), word = slice.places + number;
         if (x >= kd_stage_count(slice.stage))
             return false;
-        ray = uvec2(words[word], words[word + 1u]);
+        ray = kd_place_at(words[word]) + uvec2(slice.origin_x, slice.origin_y); /* may wrap round, to before 0 */
         at = alone ? (ray.y - slice.band0) * cam.width + ray.x : number;
         return true;
     }

@@ -3,6 +3,10 @@
 #ifndef KD_PLACES_GLSL
 #define KD_PLACES_GLSL
 
+/* A place counted from the first block's first ray, in a word: KD_PLACE_BITS for x. */
+uint kd_place_word(uvec2 at) { return at.x | at.y << KD_PLACE_BITS; }
+uvec2 kd_place_at(uint word) { return uvec2(word & ((1u << KD_PLACE_BITS) - 1u), word >> KD_PLACE_BITS); }
+
 /* How many rays a stage has. */
 uint kd_stage_count(uint stage) { return words[4u * stage + 3u]; }
 

@@ -52,7 +52,8 @@
     U(band0)                /* first row of the band that the buffers hold */ \
     U(stride)               /* rays of the band: distance between planes of the lens map */ \
     U(list)                 /* of listed pixels, where it begins in the lens map; of nodes, where their states do */ \
-    U(stage) U(places)      /* of rays by their places: which, and where the places of their list begin */ \
+    /* of rays by their places: which, where the places of their list begin, and the ray that these are counted from */ \
+    U(stage) U(places) U(origin_x) U(origin_y) \
     U(steps) U(fine)        /* of the march (light/march.glsl): steps a half period; quarters of a stretch a grain; */ \
     F(opaque)               /* what of the light behind need not come through for the ray to go on */ \
     F(unseen)               /* octaves of noise whose part is less than this one of the first are left out */ \
@@ -75,7 +76,7 @@
     U(list)                 /* where the listed pixels are; of rays that are followed alone, where their places are */ \
     U(alone)                /* 1: of these; and of those in rows from `end` on, whose next rows are not there yet, */ \
                             /* mark that they are wanted. 2: of those that are marked so */ \
-    U(row0)                 /* the first row of the buffer in the picture */
+    U(origin_x) U(origin_y) /* what their places are counted from, in rows and columns of the buffer */
 /* clang-format on */
 /* lens_cells.comp and lens_fill.comp take these: a lens map that is followed in nodes and interpolated between them
  * (src/render/frame/sample.c). Places are those of rays in the picture at hand; cells begin where those of the whole
@@ -105,6 +106,7 @@
 #define KD_SAMPLE_QUEUED 85
 #define KD_SAMPLE_UNITS 64 /* units that are filled, eight columns of a cell each, twice at most so many a block; then
                               places */
+#define KD_PLACE_BITS 17
 #define KD_FOOTPRINT_PLACES 1
 #define KD_PLACES_BINDING 3 /* of the kernels that trace */
 #define KD_RAYS_BY_PLACE 0xffffffffu /* the specialisation constant CRITICAL of kernels that take stages */

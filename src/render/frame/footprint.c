@@ -54,7 +54,8 @@ enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *j, const struct k
     if (!kd_plan_has_footprints(j->plan))
         return KD_OK;
     alone.push.alone = 1;
-    alone.push.row0 = row0;
+    alone.push.origin_x = (uint32_t)j->store->alone_x;
+    alone.push.origin_y = (uint32_t)j->store->alone_y - row0;
     alone.push.list = j->store->alone;
     enum kd_status status = dispatch(j, &alone, &d);
     held.push.alone = 2;

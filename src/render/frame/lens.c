@@ -427,13 +427,13 @@ done:
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;
-    double ns = transfer_ns + (needed ? p->trace_ns : 0);
+    double ns = transfer_ns + (needed ? kd_plan_map_ns(p) : 0);
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; p->points && needed && p->cacheable && band < p->bands; band++)
-        KD_TRY(map_band(j, band, p->trace_ns));
+        KD_TRY(map_band(j, band, kd_plan_map_ns(p)));
     for (uint32_t band = 0; band < p->bands; band++) {
         if (p->points && needed && !p->cacheable)
-            KD_TRY(map_band(j, band, p->trace_ns));
+            KD_TRY(map_band(j, band, kd_plan_map_ns(p)));
         if (p->points)
             KD_TRY(kd_frame_stars(j, band));
         KD_TRY(light_band(j, band, needed && !p->points, p->points ? transfer_ns : ns));
@@ -498,7 +498,7 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     KD_TRY(kd_frame_send_cameras(&job));
     for (uint32_t band = 0; band < plan->bands; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
-        const double ns_per_row = plan->trace_ns * plan->width * plan->side * plan->side;
+        const double ns_per_row = kd_plan_map_ns(plan) * plan->width * plan->side * plan->side;
         for (uint32_t done = 0, step; done < rows && !status; done += step) {
             step = rows_of_slice(&job, band, done, ns_per_row, true);
             const struct slice s = { band, kd_frame_band_first(&job, band) + done, step };

@@ -110,6 +110,8 @@ static enum kd_status trace(struct run *run, uint32_t stage)
         .stride = alone ? run->push.stride : run->grid.room,
         .list = j->plan->planes * run->grid.room,
         .stage = stage,
+        .origin_x = run->push.origin_x,
+        .origin_y = run->push.origin_y,
         .places = alone ? run->grid.alone : run->grid.places,
     };
     d.push = &push;
@@ -182,6 +184,8 @@ enum kd_status kd_frame_sample(struct kd_frame_job *j, uint32_t band, uint32_t f
     enum kd_status status;
     KD_TRY(make_buffers(&run));
     j->store->alone = run.grid.alone;
+    j->store->alone_x = run.grid.origin_x;
+    j->store->alone_y = run.grid.origin_y;
     KD_TRY(clear(&run));
     KD_TRY(fill_nothing(&run));
     for (uint32_t level = 0; level <= KD_CELL_LEVELS; level++) {

@@ -96,9 +96,9 @@ static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capa
     { \
         return (void)plan, (void)scene, n; \
     }
-INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
+INVOCATIONS(traced, plan->planes ? kd_plan_followed(plan) : 0)
 INVOCATIONS(interpolated, plan->interpolates > 0 ? plan->rays : 0)
-INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
+INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_followed(plan) : 0)
 INVOCATIONS(audited, plan->audit)
 INVOCATIONS(lit, plan->march.steps ? 0 : kd_plan_rays(plan))
 INVOCATIONS(marched, plan->march.steps ? kd_plan_rays(plan) : 0)

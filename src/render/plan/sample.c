@@ -6,10 +6,14 @@
 
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 }; /* along the side of a block: places, and cells of the last
                                                                level */
+#define MOST_COLUMNS (1u << KD_PLACE_BITS)
+#define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
 #define RAYS_AT_ONCE (1u << 21)
 
 /* The first of the block that a place lies in. */
 static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
+
+static uint64_t least_of(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
 static uint32_t blocks(int64_t origin, int64_t end) { return (uint32_t)((end - origin - 1) / KD_CELL_BLOCK + 1); }
 
@@ -27,8 +31,8 @@ struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, 
                    even = (uint64_t)(EVEN * grid.blocks_x + 1) * (EVEN * grid.blocks_y + 1);
     grid.room = (uint32_t)(even + 2ull * LAST * LAST * n);
     grid.places = (uint32_t)(KD_SAMPLE_QUEUES + (KD_SAMPLE_QUEUED + 2 * KD_SAMPLE_UNITS) * n);
-    grid.alone = grid.places + 2 * grid.room;
-    grid.list_bytes = 4 * (grid.alone + 2 * (uint64_t)width * rows);
+    grid.alone = grid.places + grid.room;
+    grid.list_bytes = 4 * (grid.alone + (uint64_t)width * rows);
     grid.index_bytes = 4 * (even + 2ull * LAST * LAST * n);
     grid.node_bytes = 4ull * (plan->planes + 1) * grid.room;
     return grid;
@@ -38,7 +42,8 @@ uint32_t kd_sample_rows(const struct kd_plan *plan)
 {
     const uint64_t row = (uint64_t)plan->width * plan->side * plan->side, least = KD_CELL_BLOCK / plan->side + 1;
     const uint64_t rows = RAYS_AT_ONCE / row > least ? RAYS_AT_ONCE / row : least;
-    return (uint32_t)(rows < plan->band_rows ? rows : plan->band_rows);
+    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* by the words of places */
+    return (uint32_t)least_of(least_of(rows, held), plan->band_rows);
 }
 
 uint64_t kd_sample_bytes(const struct kd_plan *plan)
@@ -59,7 +64,8 @@ double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *sc
                                          [KD_PROFILE_BALANCED] = 2e-6, [KD_PROFILE_HIGH] = 0,
                                          [KD_PROFILE_REFERENCE] = 0 };
     const struct kd_wish wish = kd_wish_of(scene);
-    if (plan->path == KD_LENS_LISTED || !plan->planes || wish.engine >= 0 || wish.steps || wish.precision >= 0)
+    if (plan->path == KD_LENS_LISTED || !plan->planes || wish.engine >= 0 || wish.steps || wish.precision >= 0 ||
+        (uint64_t)plan->width * plan->side > MOST_COLUMNS - 2 * KD_CELL_BLOCK)
         return 0;
     if (isfinite(wish.tolerance))
         return wish.tolerance >= HOLDS ? by_profile[KD_PROFILE_BALANCED] : 0;
