@@ -66,7 +66,8 @@ def main():
             check=True,
         )
         subprocess.run(
-            [spirv_opt, "--target-env=vulkan1.2", *FUNCTIONS, *BLOCKS, *VALUES, *UNROLLED, plain, "-o", better], check=True
+            [spirv_opt, "--target-env=vulkan1.2", *FUNCTIONS, *BLOCKS, *VALUES, *UNROLLED, plain, "-o", better],
+            check=True,
         )
         as_read = f"#ifdef KD_SPIRV_PLAIN\n{array(name + '_plain', plain.read_bytes())}#endif\n"
         pathlib.Path(output).write_text("#pragma once\n" + array(name, better.read_bytes()) + as_read)

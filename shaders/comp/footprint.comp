@@ -178,10 +178,11 @@ kd_oval on_lattice(uint n, uint at)
     float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
-    kd_oval o = kd_oval(kd_longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
+    kd_oval o =
+        kd_oval(kd_longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
     if (SHAPED && n < ORDERS)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
-                       area * (i.x * i.y + j.x * j.y))
+                             area * (i.x * i.y + j.x * j.y))
                       .shape;
     /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all
      * directions. */

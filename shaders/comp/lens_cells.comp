@@ -59,7 +59,8 @@ uvec2 check_of(uvec2 corner, uint side, uint i)
 }
 
 /* Places that become nodes where a cell is divided: among 9 x 9 those 16 on the edge that were none, which the cells
- * beside it may list as well, and 38 within, all of which it lists itself; two there were what the cell was checked by. */
+ * beside it may list as well, and 38 within, all of which it lists itself; two there were what the cell was checked by.
+ */
 uvec2 edge_of_nine(uint k)
 {
     uint along = 2u * (k % 4u) + 1u, far = 8u * (k / 4u & 1u);
@@ -93,15 +94,15 @@ void make_node(uint node, uint word, uvec2 at)
  * is checked. stage: of these rays. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
-    const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u, checked = divided ? side / 2u : side,
-               cells = side / checked;
+    const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
+               checked = divided ? side / 2u : side, cells = side / checked;
     uint mine = 0u;
     for (uint k = 0u; k < 16u; k++) {
         uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
         mine |= atomicCompSwap(number[index_of(at / 2u)], 0u, 0xffffffffu) == 0u ? 1u << k : 0u;
     }
-    uint node = kd_stage_first(stage) +
-                take(4u * stage, uint(bitCount(mine)) + within + 2u * cells * cells, KD_GROUP_SIZE);
+    uint node =
+        kd_stage_first(stage) + take(4u * stage, uint(bitCount(mine)) + within + 2u * cells * cells, KD_GROUP_SIZE);
     for (uint k = 0u; k < 16u; k++) {
         uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
         if ((mine & (1u << k)) != 0u)
@@ -113,8 +114,8 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     }
     for (uint k = 0u; k < 2u * cells * cells; k++) {
         uvec2 cell = corner + uvec2((k / 2u) % cells, k / 2u / cells) * checked, at = check_of(cell, checked, k % 2u);
-        make_node(node++,
-                  checked == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u), at);
+        make_node(node++, checked == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u),
+                  at);
     }
 }
 
@@ -232,7 +233,8 @@ bool is_smooth(uvec2 corner, uint side, out float state)
 /* Lists a cell's units of a kind. */
 void list_units(uint kind, uvec2 corner, uint level)
 {
-    const uint n = side_of(level) / 8u, word = units_of(kind) + take(KD_SAMPLE_FILLS + 4u * kind, n, KD_GROUP_SIZE / 8u);
+    const uint n = side_of(level) / 8u,
+               word = units_of(kind) + take(KD_SAMPLE_FILLS + 4u * kind, n, KD_GROUP_SIZE / 8u);
     for (uint i = 0u; i < n; i++)
         words[word + i] = kd_unit(corner / 8u, i, level);
 }

@@ -1,8 +1,8 @@
 /* This kernel fills a lens map from the nodes of its smooth cells (ray/cells.glsl): w, azimuth and slope of each ray's
  * crossings, or where in the sky it ends, by the polynomials through the nodes, and the footprints that the derivatives
- * of these tell. An invocation is a column of rays of a cell: 25 nodes become five numbers for the column, and these one
- * number for each of its rays. All is counted from the cell's middle node, so that rounding is that of what changes in
- * the cell.
+ * of these tell. An invocation is a column of rays of a cell: 25 nodes become five numbers for the column, and these
+ * one number for each of its rays. All is counted from the cell's middle node, so that rounding is that of what changes
+ * in the cell.
  *
  * What no ray has is there already: the planes of w are 0, and all fates captured. */
 #version 450
@@ -89,7 +89,8 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* A value that is nothing but stored lavapipe computes lane by lane, in the loop that stores it; not what comes of max. */
+/* A value that is nothing but stored lavapipe computes lane by lane, in the loop that stores it; not what comes of max.
+ */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* A ray's place in the cell's polynomials: the value there, and how it changes from ray to ray. */

@@ -50,11 +50,11 @@ uint side_of(uint level) { return KD_CELL_BLOCK >> (level - 1u); }
 uint units_of(uint kind) { return KD_SAMPLE_QUEUES + blocks() * (KD_SAMPLE_QUEUED + kind * KD_SAMPLE_UNITS); }
 
 /* A unit: the cell's corner in eights of rays, which eight of its columns, and its level, in a word. */
-uint kd_unit(uvec2 corner, uint eight, uint level)
+uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | corner.y << 15 | (level - 1u) << 29; }
+uvec2 kd_unit_corner(uint unit)
 {
-    return corner.x + eight | corner.y << 15 | (level - 1u) << 29;
-}
-uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); } /* of the eight columns */
+    return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu);
+} /* of the eight columns */
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }

@@ -6,8 +6,8 @@
 #include "ray/fall.glsl"
 
 /* A node has what is smooth from ray to ray: of a captured ray azimuths without the logarithm that they end in at the
- * horizon, and instead of angles in the sky, and of a fate, a unit vector: x, y and z in the planes of SKY_PHI, FATE and
- * SKY_U. */
+ * horizon, and instead of angles in the sky, and of a fate, a unit vector: x, y and z in the planes of SKY_PHI, FATE
+ * and SKY_U. */
 void kd_finish_node(uint at, uint crossings, bool captured)
 {
     lens[slice.list + at] = float(crossings) + (captured ? KD_NODE_CAPTURED : 0.0);

@@ -1,11 +1,11 @@
 /* This finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
  * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: kernels that trace have one for places.
  *
- * CRITICAL = KD_RAYS_BY_PLACE: rays are those of a stage of a list of places (ray/places.glsl): nodes, whose map is that
- * list's own and has their states behind its planes, or rays of the grid that are followed alone.
- * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the
- * listed pixels, CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid
- * (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
+ * CRITICAL = KD_RAYS_BY_PLACE: rays are those of a stage of a list of places (ray/places.glsl): nodes, whose map is
+ * that list's own and has their states behind its planes, or rays of the grid that are followed alone. CRITICAL = 0:
+ * rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
+ * CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x
+ * and y of each pixel, is in the lens map behind its planes. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 

@@ -92,11 +92,11 @@
     U(level)                /* of lens_cells.comp: 0 makes the first nodes, 1 to KD_CELL_LEVELS look at cells */ \
     F(tolerance)
 /* clang-format on */
-#define KD_CELL_BLOCK 64  /* rays along the side of a cell of level 1, which half of them halve at each level */
+#define KD_CELL_BLOCK 64 /* rays along the side of a cell of level 1, which half of them halve at each level */
 #define KD_CELL_LEVELS 4
 /* The head of what the nodes' kernels count, in words: for each stage of rays, which are the nodes of the levels and
- * the rays that are followed alone, for each level of cells, and for what is filled of smooth cells, their crossings and
- * their sky, the workgroups along three axes of the dispatch that takes them, and how many they are. */
+ * the rays that are followed alone, for each level of cells, and for what is filled of smooth cells, their crossings
+ * and their sky, the workgroups along three axes of the dispatch that takes them, and how many they are. */
 #define KD_STAGE_ALONE KD_CELL_LEVELS
 #define KD_SAMPLE_STAGES (KD_CELL_LEVELS + 1)
 #define KD_SAMPLE_CELLS (4 * KD_SAMPLE_STAGES)
@@ -104,11 +104,12 @@
 #define KD_SAMPLE_COUNTED (KD_SAMPLE_FILLS + 4 * 2)
 #define KD_SAMPLE_QUEUES 64 /* where the lists begin, behind that: cells of each level, at most 85 a block; */
 #define KD_SAMPLE_QUEUED 85
-#define KD_SAMPLE_UNITS 64 /* units that are filled, eight columns of a cell each, twice at most so many a block; then
-                              places */
+#define KD_SAMPLE_UNITS \
+    64 /* units that are filled, eight columns of a cell each, twice at most so many a block; then \
+          places */
 #define KD_PLACE_BITS 17
 #define KD_FOOTPRINT_PLACES 1
-#define KD_PLACES_BINDING 3 /* of the kernels that trace */
+#define KD_PLACES_BINDING 3          /* of the kernels that trace */
 #define KD_RAYS_BY_PLACE 0xffffffffu /* the specialisation constant CRITICAL of kernels that take stages */
 /* How a node counts: its crossings, and so much more if it is captured; below 0: the ray is open. */
 #define KD_NODE_CAPTURED 16.0

@@ -137,8 +137,8 @@ struct kd_vk_dispatch {
     struct kd_vk_binding bindings[KD_VK_MAX_BINDINGS];
     const void *push;
     uint32_t groups[3]; /* 0 counts as 1 */
-    /* Three words at this offset of a buffer, a multiple of 4, instead of `groups`: kernels before this one have written
-     * them, within what the device dispatches; a 0 among them is no dispatch. NULL: `groups` says */
+    /* Three words at this offset of a buffer, a multiple of 4, instead of `groups`: kernels before this one have
+     * written them, within what the device dispatches; a 0 among them is no dispatch. NULL: `groups` says */
     struct kd_vk_buffer *counts;
     uint64_t counts_at;
 };

@@ -7,12 +7,11 @@
  * Without arguments it is short. A camera's number, which is printed with what is wrong, is FIRST of a run of one. A
  * ray on which two paths in double disagree, or whose crossings come and go when its labels move by 1e-11, judges
  * nothing. */
+#include "random_camera.h"
 #include "render_support.h"
 
-#include "base/random.h"
 #include "physics/critical.h"
 #include "physics/kerr.h"
-#include "physics/observer.h"
 #include "render/rays/closed.h"
 #include "render/view/camera.h"
 
@@ -22,71 +21,6 @@ enum { SIDE = 24, RAYS = SIDE * SIDE, MOST_ORDERS = 3 };
 
 static unsigned cameras = 40, first;
 static uint64_t seed = 36;
-
-static double between(struct kd_random *random, double low, double high)
-{
-    return low + (high - low) * kd_random(random);
-}
-static double decades(struct kd_random *random, double low, double high) { return pow(10, between(random, low, high)); }
-static uint32_t below(struct kd_random *random, uint32_t n) { return (uint32_t)(kd_random(random) * n); }
-
-static double random_spin(struct kd_random *random)
-{
-    const double size = below(random, 2) ? kd_random(random) : 1 - decades(random, -12, -0.3);
-    return below(random, 3) ? size : -size;
-}
-
-/* From just outside the place where there is this observer to 1e7 M; what falls is within the outer horizon now and
- * then. */
-static double random_radius(struct kd_random *random, enum kd_observer observer, double spin, double inclination_deg)
-{
-    const double u = cos(inclination_deg * (M_PI / 180)), horizon = kd_kerr_horizon(spin),
-                 inner = kd_kerr_inner_horizon(spin);
-    if (observer == KD_OBSERVER_INFALL && !below(random, 3))
-        return fmax(inner + (horizon - inner) * between(random, 0.05, 1), 0.02);
-    const double edge = observer == KD_OBSERVER_INFALL ? horizon : kd_observers[observer].outside(spin, u);
-    return fmin(edge * (1 + decades(random, -6, below(random, 2) ? 1.5 : 7)), 1e7);
-}
-
-static void random_motion(struct kd_random *random, struct kd_camera *c)
-{
-    const double speed = fmin(1 - decades(random, -6, 0), 0.999999), u = between(random, -1, 1),
-                 phi = between(random, 0, 2 * M_PI);
-    const bool along = below(random, 2); /* an axis, else any direction */
-    c->velocity_r = along ? 0 : speed * u;
-    c->velocity_theta = along ? 0 : speed * sqrt(1 - u * u) * cos(phi);
-    c->velocity_phi = along ? (below(random, 2) ? speed : -speed) : speed * sqrt(1 - u * u) * sin(phi);
-}
-
-static void random_camera(struct kd_random *random, struct kd_scene *s)
-{
-    static const double angles[] = { 0, 90, 180, 1e-4, 60 };
-    struct kd_camera *c = &s->camera;
-    kd_scene_smooth(s);
-    s->spacetime.spin = random_spin(random);
-    c->inclination_deg = below(random, 3) ? between(random, 0, 180) : angles[below(random, 5)];
-    s->image.width = s->image.height = SIDE;
-    s->image.critical_factor = 1;
-    s->accuracy.orders = below(random, 2) ? 1 : MOST_ORDERS; /* few kernels to compile */
-    s->sky.model = KD_SKY_GRID;
-    if (!below(random, 8)) {
-        c->r = INFINITY;
-        c->field_m = decades(random, 0, 3);
-        return;
-    }
-    c->observer = (enum kd_observer)below(random, KD_OBSERVER_COUNT);
-    c->r = random_radius(random, c->observer, s->spacetime.spin, c->inclination_deg);
-    if (c->observer == KD_OBSERVER_VELOCITY)
-        random_motion(random, c);
-    c->projection =
-        (int[]) { KD_PROJECTION_PINHOLE, KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME }[below(random, 3)];
-    c->fov_deg = below(random, 2) ? between(random, 10, 150) : fmin(150, 600 / c->r);
-    if (below(random, 2)) {
-        c->yaw_deg = below(random, 2) ? between(random, -180, 180) : 90 * (double)below(random, 4) - 180;
-        c->pitch_deg = below(random, 2) ? between(random, -90, 90) : 90 * (double)below(random, 3) - 90;
-        c->roll_deg = between(random, -180, 180);
-    }
-}
 
 /* What the fates and orders of a picture must be; -1: not to be told. */
 struct truth {
@@ -282,7 +216,7 @@ static void pictures_that_were_wrong_once(void **state)
     const unsigned circles = 998;
     struct kd_random random = { 7 + circles * UINT64_C(0x100000001) };
     struct kd_scene scene;
-    random_camera(&random, &scene);
+    random_camera(&random, SIDE, &scene);
     judge(&scene, circles, &t);
     tell_tally(&t, sizeof once / sizeof *once + 1);
 }
@@ -294,7 +228,7 @@ static void fates_are_those_of_double_precision(void **state)
     for (unsigned i = first; i < first + cameras; i++) {
         struct kd_random random = { seed + i * UINT64_C(0x100000001) };
         struct kd_scene scene;
-        random_camera(&random, &scene);
+        random_camera(&random, SIDE, &scene);
         judge(&scene, i, &t);
     }
     tell_tally(&t, cameras);

@@ -74,11 +74,11 @@ struct kd_store {
     struct kd_vk_buffer *star_pairs; /* rays, and stars that they may see; NULL: no frame had points of light */
     struct kd_vk_buffer *star_rays;  /* rays whose stars are sought one by one */
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, part by part: nothing is kept in it */
-    struct kd_vk_buffer *sample, *sample_index, *nodes; /* of a sampled map (frame/sample.c): its lists, index and nodes;
-                                                           NULL: no frame had any */
-    uint32_t alone;                                     /* where the lists have the places of rays that are followed alone, */
-    int32_t alone_x, alone_y;                           /* and the ray that these are counted from */
-    struct kd_vk_buffer *sample_head;                   /* the lists' head on the host */
+    struct kd_vk_buffer *sample, *sample_index, *nodes; /* of a sampled map (frame/sample.c): its lists, index and
+                                                           nodes; NULL: no frame had any */
+    uint32_t alone;                   /* where the lists have the places of rays that are followed alone, */
+    int32_t alone_x, alone_y;         /* and the ray that these are counted from */
+    struct kd_vk_buffer *sample_head; /* the lists' head on the host */
     struct kd_vk_buffer
         *undecided; /* rays that the kernels leave open: a counter, then the places of KD_GIVEN_MOST of them; and */
     struct kd_vk_buffer *undecided_host; /* both on the host */

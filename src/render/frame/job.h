@@ -21,11 +21,11 @@ struct kd_frame_job {
     const struct kd_light_sum *others; /* whose mean with the picture's light is shown; NULL: none's */
     struct kd_vk_buffer *marched; /* light of a sample, as the picture has it and more closely followed; NULL: none */
     struct kd_lens_map *lens;
-    struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
-    bool stars_kept;             /* and whether it is there already */
-    uint64_t undecided;          /* rays of the lens map that are given up */
+    struct kd_star_key star_key;   /* what the light of stars is made of in this frame, */
+    bool stars_kept;               /* and whether it is there already */
+    uint64_t undecided;            /* rays of the lens map that are given up */
     uint64_t traced, interpolated; /* rays of a sampled map that were followed, and the others */
-    double listed_ms, audit_ms;  /* the host's time for them, and for the audit */
+    double listed_ms, audit_ms;    /* the host's time for them, and for the audit */
     double
         kernels_ms; /* and for making kernels that were not there, as the driver makes them before they are run first */
     kd_progress_fn progress;
@@ -117,8 +117,8 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* The same of a sampled map whose rows from `traced` on were sampled just now, that buffer's first row being row0 of the
- * picture's rays: of the rays that were followed alone, and of those before that were marked as not finished. */
+/* The same of a sampled map whose rows from `traced` on were sampled just now, that buffer's first row being row0 of
+ * the picture's rays: of the rays that were followed alone, and of those before that were marked as not finished. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
 /* Its kernel; lattice: of listed pixels, NULL: of the grid. *out is NULL where no light needs footprints. */

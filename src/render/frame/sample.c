@@ -17,9 +17,8 @@ static enum kd_status cells_kernel(struct kd_frame_job *j, const struct kd_vk_pi
 static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const struct kd_vk_pipeline **out)
 {
     const struct kd_spec_fill spec = { .QUANTITIES = j->plan->quantities, .ORDERS = j->plan->orders, .OF_SKY = of_sky };
-    return kd_kernels_get(&j->r->kernels, j->r->vk,
-                          KD_KERNEL_LENS_FILL + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0), &spec.QUANTITIES,
-                          sizeof spec / 4, out, j->error);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_FILL + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0),
+                          &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
 /* What of smooth cells is filled: crossings, and where rays end. */
@@ -56,10 +55,11 @@ static enum kd_status make_buffers(struct run *run)
     struct kd_vk *vk = j->r->vk;
     enum kd_status status;
     KD_TRY(kd_store_at_least(vk, &store->sample, run->grid.list_bytes, KD_VK_DEVICE, "cells and places", j->error));
-    KD_TRY(kd_store_at_least(vk, &store->sample_index, run->grid.index_bytes, KD_VK_DEVICE, "index of nodes", j->error));
+    KD_TRY(
+        kd_store_at_least(vk, &store->sample_index, run->grid.index_bytes, KD_VK_DEVICE, "index of nodes", j->error));
     KD_TRY(kd_store_at_least(vk, &store->nodes, run->grid.node_bytes, KD_VK_DEVICE, "nodes", j->error));
-    KD_TRY(kd_store_at_least(vk, &store->sample_head, 4 * KD_SAMPLE_QUEUES, KD_VK_READBACK, "counts of nodes",
-                             j->error));
+    KD_TRY(
+        kd_store_at_least(vk, &store->sample_head, 4 * KD_SAMPLE_QUEUES, KD_VK_READBACK, "counts of nodes", j->error));
 done:
     return status;
 }
@@ -148,8 +148,8 @@ static enum kd_status fill_nothing(struct run *run)
     enum kd_status status = KD_OK;
     memcpy(&word, &captured, sizeof word);
     for (uint32_t n = 0; n < p->orders && !status; n++)
-        status = kd_vk_fill(run->j->r->vk, name(KD_PASS_INTERPOLATE), run->lens, n * plane + first, bytes, 0,
-                            run->j->error);
+        status =
+            kd_vk_fill(run->j->r->vk, name(KD_PASS_INTERPOLATE), run->lens, n * plane + first, bytes, 0, run->j->error);
     if (!status && kd_plan_holds(p, KD_LENS_FATE))
         status = kd_vk_fill(run->j->r->vk, name(KD_PASS_INTERPOLATE), run->lens,
                             kd_lens_plane(p->quantities, p->orders, KD_LENS_FATE) * plane + first, bytes, word,

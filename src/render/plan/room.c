@@ -107,9 +107,9 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) +
                         (plan->radiance ? 12ull * plan->width : 0)) *
                        plan->height;
-    uint64_t fixed = plan->listed_bytes + kd_sample_bytes(plan) + kd_emit_device_bytes(scene) + row_light * plan->height +
-                     2 * (row_shown * plan->band_rows + 64) + (1 << 20) + plan->bloom.bytes + beam_bytes(plan) +
-                     (plan->light ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->height +
+    uint64_t fixed = plan->listed_bytes + kd_sample_bytes(plan) + kd_emit_device_bytes(scene) +
+                     row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) + (1 << 20) + plan->bloom.bytes +
+                     beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->height +
                      (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;

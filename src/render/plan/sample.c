@@ -4,8 +4,11 @@
 
 #include <math.h>
 
-enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 }; /* along the side of a block: places, and cells of the last
-                                                               level */
+enum {
+    EVEN = KD_CELL_BLOCK / 2,
+    LAST = KD_CELL_BLOCK / 8
+}; /* along the side of a block: places, and cells of the last
+     level */
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
 #define RAYS_AT_ONCE (1u << 21)
@@ -50,8 +53,8 @@ uint64_t kd_sample_bytes(const struct kd_plan *plan)
 {
     if (!(plan->interpolates > 0))
         return 0;
-    const struct kd_sample_grid most = kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0,
-                                                      kd_sample_rows(plan) * plan->side);
+    const struct kd_sample_grid most =
+        kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0, kd_sample_rows(plan) * plan->side);
     return most.list_bytes + most.index_bytes + most.node_bytes;
 }
 
@@ -60,8 +63,10 @@ uint64_t kd_sample_bytes(const struct kd_plan *plan)
 
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene)
 {
-    static const double by_profile[] = { [KD_PROFILE_DRAFT] = 1e-5, [KD_PROFILE_INTERACTIVE] = 1e-5,
-                                         [KD_PROFILE_BALANCED] = 2e-6, [KD_PROFILE_HIGH] = 0,
+    static const double by_profile[] = { [KD_PROFILE_DRAFT] = 1e-5,
+                                         [KD_PROFILE_INTERACTIVE] = 1e-5,
+                                         [KD_PROFILE_BALANCED] = 2e-6,
+                                         [KD_PROFILE_HIGH] = 0,
                                          [KD_PROFILE_REFERENCE] = 0 };
     const struct kd_wish wish = kd_wish_of(scene);
     if (plan->path == KD_LENS_LISTED || !plan->planes || wish.engine >= 0 || wish.steps || wish.precision >= 0 ||

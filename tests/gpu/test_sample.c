@@ -1,0 +1,290 @@
+/* Lens maps that are interpolated between nodes (src/render/frame/sample.h), against the same maps with every ray
+ * followed: fates, orders and hemispheres of all rays, crossings and directions of most to the tolerance, footprints;
+ * and of tiles to the byte against the whole picture's.
+ *
+ *   test_sample [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_sample 200 7
+ *
+ * Without arguments it is short. */
+#include "random_camera.h"
+#include "render_support.h"
+
+#include "render/frame/lens.h"
+#include "render/plan/parts.h"
+#include "render/rays/closed.h"
+#include "render/view/camera.h"
+
+#include "interface.h"
+
+enum { SIDE = 200, RAYS = SIDE * SIDE };
+
+static unsigned cameras = 12, first;
+static uint64_t seed = 37;
+
+struct map {
+    struct kd_plan plan;
+    float *planes;
+};
+
+static struct map map_of(const struct kd_scene *scene, uint32_t quantities, bool followed)
+{
+    struct kd_capacity c;
+    struct map map;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_scene_validate(scene, &error));
+    const struct kd_needs needs = { .quantities = quantities, .followed = followed };
+    OK(kd_plan_one(scene, &needs, &c, &map.plan, &error)); /* of a tile without its margin */
+    assert_true(followed ? map.plan.interpolates == 0 : map.plan.interpolates > 0);
+    map.planes = test_calloc(map.plan.planes * map.plan.rays, sizeof *map.planes);
+    OK(kd_render_lens(renderer, scene, &map.plan, map.planes, NULL, &error));
+    return map;
+}
+
+static const float *plane(const struct map *m, uint32_t quantity, uint32_t order)
+{
+    return m->planes + (kd_lens_plane(m->plan.quantities, m->plan.orders, quantity) + order) * m->plan.rays;
+}
+
+static uint32_t crossings(const struct map *m, size_t i)
+{
+    uint32_t n = 0;
+    while (n < m->plan.orders && plane(m, KD_LENS_W, n)[i] > 0)
+        n++;
+    return n;
+}
+
+struct tally {
+    uint64_t rays, other_fate, other_order, other_side, same;
+    double *between, *followed, *sky; /* relative errors of w over the condition, of both maps; directions apart */
+    size_t n, n_sky;
+};
+
+/* How much w, or a direction, changes where all directions are CONDITION of them off: what the tolerance is relative
+ * to (comp/lens_cells.comp), by the neighbours. */
+static double condition(const struct map *m, uint32_t n, uint32_t x, uint32_t y)
+{
+    const float *w = plane(m, KD_LENS_W, n);
+    const size_t i = (size_t)y * SIDE + x;
+    const double dx = x + 1 < SIDE ? w[i + 1] - w[i] : w[i] - w[i - 1],
+                 dy = y + 1 < SIDE ? w[i + SIDE] - w[i] : w[i] - w[i - SIDE];
+    return fmax(1, 0.3 * SIDE * hypot(dx, dy) / w[i]);
+}
+
+static double apart(double a, double b) { return fabs(remainder(a - b, 2 * M_PI)); }
+
+/* Fates, orders and hemispheres of the two, and how far their directions are apart. */
+static void compare(const struct map *a, const struct map *b, struct tally *t)
+{
+    for (size_t i = 0; i < RAYS; i++) {
+        const float fate = plane(b, KD_LENS_FATE, 0)[i];
+        t->rays++;
+        if (fate == KD_FATE_UNDECIDED)
+            continue;
+        t->other_fate += plane(a, KD_LENS_FATE, 0)[i] != fate;
+        t->other_order += crossings(a, i) != crossings(b, i);
+        if (fate != KD_FATE_ESCAPED)
+            continue;
+        const double u = plane(a, KD_LENS_SKY_U, 0)[i], v = plane(b, KD_LENS_SKY_U, 0)[i],
+                     d = apart(plane(a, KD_LENS_SKY_PHI, 0)[i], plane(b, KD_LENS_SKY_PHI, 0)[i]);
+        t->sky[t->n_sky++] = hypot(u - v, d * sqrt(fmax(0, 1 - v * v)));
+        t->other_side += u * v < 0 && fabs(v) > 1e-4;
+    }
+}
+
+/* Radii of both against the closed form in double, on one ray in EVERY. */
+static void judge(const struct kd_scene *scene, const struct map *a, const struct map *b, struct tally *t)
+{
+    enum { EVERY = 13, JUDGED = (RAYS + EVERY - 1) / EVERY, ORDERS = 3 };
+    static double alpha_beta[2 * JUDGED];
+    static bool outward[JUDGED];
+    static struct kd_ray_crossing truth[JUDGED * ORDERS];
+    static struct kd_ray_end ends[JUDGED];
+    const struct kd_camera_exact c = kd_camera_exact(scene);
+    if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
+        return;
+    for (uint32_t i = 0; i < JUDGED; i++) {
+        struct kd_camera_label label;
+        kd_camera_label(&c, i * EVERY % SIDE, i * EVERY / SIDE, &label);
+        alpha_beta[2 * i] = label.alpha;
+        alpha_beta[2 * i + 1] = label.beta;
+        outward[i] = label.outward;
+    }
+    const struct kd_rays_params params = {
+        .spin = scene->spacetime.spin,
+        .r = scene->camera.r,
+        .inclination_deg = scene->camera.inclination_deg,
+        .orders = ORDERS,
+        .engine = KD_ENGINE_CLOSED,
+        .precision = KD_PRECISION_F64,
+    };
+    const struct kd_ray_labels rays = { alpha_beta, outward, JUDGED };
+    OK(kd_rays_closed(&params, &rays, true, truth, ends, NULL, NULL, &error));
+    for (uint32_t i = 0; i < JUDGED; i++) {
+        const uint32_t at = i * EVERY, n = crossings(b, at);
+        for (uint32_t k = 0; k < n && k < ends[i].n_crossings; k++) {
+            const double steep = condition(b, k, at % SIDE, at / SIDE), r = truth[i * ORDERS + k].r;
+            if (!(r < 1e3)) /* further out there is no light */
+                continue;
+            t->between[t->n] = fabs(plane(a, KD_LENS_W, k)[at] * r - 1) / steep;
+            t->followed[t->n++] = fabs(plane(b, KD_LENS_W, k)[at] * r - 1) / steep;
+        }
+    }
+}
+
+/* The difference that so many of n are within. */
+static double within(double *values, size_t n, double share)
+{
+    qsort(values, n, sizeof *values, by_value);
+    return n ? values[(size_t)(share * (double)(n - 1))] : 0;
+}
+
+static void rays_between_nodes_are_those_that_are_followed(void **state)
+{
+    (void)state;
+    const size_t most = (size_t)cameras * RAYS;
+    struct tally t = { .between = test_calloc(most, sizeof(double)),
+                       .followed = test_calloc(most, sizeof(double)),
+                       .sky = test_calloc(most, sizeof(double)) };
+    const uint32_t quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY;
+    for (unsigned i = first; i < first + cameras; i++) {
+        struct kd_random random = { seed + i * UINT64_C(0x100000001) };
+        struct kd_scene scene;
+        const struct tally before = t;
+        random_camera(&random, SIDE, &scene);
+        scene.accuracy.orders = 3; /* one kernel for all */
+        struct map a = map_of(&scene, quantities, false), b = map_of(&scene, quantities, true);
+        compare(&a, &b, &t);
+        judge(&scene, &a, &b, &t);
+        if (t.other_fate + t.other_order + t.other_side > before.other_fate + before.other_order + before.other_side)
+            print_message("camera %u: %llu of another fate, %llu of another order, %llu of another hemisphere\n", i,
+                          (unsigned long long)(t.other_fate - before.other_fate),
+                          (unsigned long long)(t.other_order - before.other_order),
+                          (unsigned long long)(t.other_side - before.other_side));
+        test_free(a.planes);
+        test_free(b.planes);
+    }
+    const double between_half = within(t.between, t.n, 0.5), between = within(t.between, t.n, 0.999),
+                 followed_half = within(t.followed, t.n, 0.5), followed = within(t.followed, t.n, 0.999);
+    print_message("%u cameras, %llu rays: radii, against double precision and over the condition, half within %.3g "
+                  "(%.3g where every ray is followed), 99.9 %% within %.3g (%.3g); directions of the two maps %.3g and "
+                  "%.3g apart\n",
+                  cameras, (unsigned long long)t.rays, between_half, followed_half, between, followed,
+                  within(t.sky, t.n_sky, 0.5), within(t.sky, t.n_sky, 0.999));
+    assert_int_equal(t.other_fate, 0);
+    assert_int_equal(t.other_order, 0);
+    assert_int_equal(t.other_side, 0);
+    assert_true(between_half < 2.5e-7 && between < fmax(2 * followed, 5e-6));
+    test_free(t.between);
+    test_free(t.followed);
+    test_free(t.sky);
+}
+
+static struct kd_scene scene_of(double spin, double r)
+{
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.spacetime.spin = spin;
+    scene.camera.r = r;
+    scene.image.width = 300;
+    scene.image.height = 200;
+    scene.sky.model = KD_SKY_GRID;
+    scene.style.exposure = 0; /* a tile has none of its own */
+    return scene;
+}
+
+/* A tile's map is a part of the picture's, whatever its edges; and so is a picture whose map is made a few rows at a
+ * time. */
+static void tiles_are_the_bytes_of_the_whole(void **state)
+{
+    (void)state;
+    static const struct kd_window tiles[] = { { 0, 0, 300, 200 }, { 37, 21, 90, 70 }, { 140, 90, 1, 1 }, { 63, 64, 65, 66 } };
+    const uint32_t quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY;
+    const struct kd_scene scene = scene_of(0.9, INFINITY);
+    struct map whole = map_of(&scene, quantities, false);
+    for (size_t i = 0; i < sizeof tiles / sizeof *tiles; i++) {
+        const struct kd_scene tile = kd_scene_tile(&scene, tiles[i]);
+        struct map part = map_of(&tile, quantities, false);
+        for (uint32_t p = 0; p < part.plan.planes; p++)
+            for (uint32_t y = 0; y < tiles[i].height; y++)
+                for (uint32_t x = 0; x < tiles[i].width; x++) {
+                    const size_t at = (size_t)(y + tiles[i].top) * 300 + x + tiles[i].left,
+                                 n = (size_t)y * tiles[i].width + x;
+                    const bool crosses = p % 3 < crossings(&whole, at), escapes =
+                        plane(&whole, KD_LENS_FATE, 0)[at] == KD_FATE_ESCAPED;
+                    if (p < 3 || (p < 6 ? crosses : escapes || p == 8))
+                        assert_memory_equal(&part.planes[p * part.plan.rays + n],
+                                            &whole.planes[p * whole.plan.rays + at], sizeof(float));
+                }
+        test_free(part.planes);
+    }
+    test_free(whole.planes);
+}
+
+/* Footprints of smooth cells are those of the derivative; the differences of rays next to each other are of second
+ * order. */
+static void footprints_are_derivatives(void **state)
+{
+    (void)state;
+    const uint32_t quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY | KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT;
+    const struct kd_scene scene = scene_of(0.7, 40);
+    struct map a = map_of(&scene, quantities, false), b = map_of(&scene, quantities, true);
+    static double off[300 * 200], sky[300 * 200];
+    size_t n = 0, m = 0;
+    for (size_t i = 0; i < a.plan.rays; i++) {
+        if (crossings(&b, i)) /* of the direct image, whose differences are of second order small */
+            off[n++] = fabs(plane(&a, KD_LENS_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_FOOTPRINT, 0)[i] - 1);
+        if (plane(&b, KD_LENS_FATE, 0)[i] == KD_FATE_ESCAPED)
+            sky[m++] = fabs(plane(&a, KD_LENS_SKY_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_SKY_FOOTPRINT, 0)[i] - 1);
+    }
+    print_message("footprints: half within %.2g of the differences, 95 %% within %.2g; in the sky %.2g and %.2g\n",
+                  within(off, n, 0.5), within(off, n, 0.95), within(sky, m, 0.5), within(sky, m, 0.95));
+    assert_true(within(off, n, 0.5) < 2e-3 && within(off, n, 0.95) < 2e-2);
+    assert_true(within(sky, m, 0.5) < 2e-3 && within(sky, m, 0.95) < 2e-2);
+    test_free(a.planes);
+    test_free(b.planes);
+}
+
+/* Profiles that promise more follow every ray, and so does who names an engine. */
+static void some_scenes_follow_every_ray(void **state)
+{
+    (void)state;
+    struct kd_capacity c;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &c);
+    struct kd_scene scene = scene_of(0.9, INFINITY);
+    static const struct { enum kd_profile profile; bool interpolates; } profiles[] = {
+        { KD_PROFILE_DRAFT, true }, { KD_PROFILE_INTERACTIVE, true }, { KD_PROFILE_BALANCED, true },
+        { KD_PROFILE_HIGH, false }, { KD_PROFILE_REFERENCE, false },
+    };
+    for (size_t i = 0; i < sizeof profiles / sizeof *profiles; i++) {
+        scene.accuracy.profile = profiles[i].profile;
+        if (profiles[i].profile == KD_PROFILE_REFERENCE && !c.float64)
+            continue;
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        assert_int_equal(plan.interpolates > 0, profiles[i].interpolates);
+    }
+    scene.accuracy.profile = KD_PROFILE_BALANCED;
+    scene.accuracy.tolerance = 1e-6;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.interpolates == 0);
+    scene.accuracy.tolerance = INFINITY;
+    scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.interpolates == 0);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_between_nodes_are_those_that_are_followed),
+        cmocka_unit_test(tiles_are_the_bytes_of_the_whole),
+        cmocka_unit_test(footprints_are_derivatives),
+        cmocka_unit_test(some_scenes_follow_every_ray),
+    };
+    cameras = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : cameras;
+    seed = argc > 2 ? strtoull(argv[2], NULL, 10) : seed;
+    first = argc > 3 ? (unsigned)strtoul(argv[3], NULL, 10) : first;
+    int status = open_renderer();
+    if (status)
+        return status;
+    return close_renderer(cmocka_run_group_tests_name("sample", tests, NULL, NULL));
+}
