@@ -10,6 +10,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
 #include "shared/spec.h"
+#include "shared/math.glsl"
 #ifdef KD_BLOOM
 #include "shared/bloom.glsl"
 #endif
@@ -36,7 +37,7 @@ layout(set = 0, binding = 2) readonly buffer Cells { vec4 cells[]; };
 vec3 cell(int i) { return cells[i].rgb; }
 #endif
 #endif
-layout(set = 0, binding = 1) writeonly buffer Pixels { uint words[]; };
+layout(set = 0, binding = 1) buffer Pixels { uint words[]; };
 #ifdef KD_HEAT
 #ifdef KD_BLOOM
 layout(set = 0, binding = 3) uniform textureBuffer colours;
@@ -185,6 +186,15 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
     return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS); /* positive: towards 0 is down */
 }
 
+bool is_number(vec3 c) { return kd_is_finite(c.r) && kd_is_finite(c.g) && kd_is_finite(c.b); }
+
+/* How many of the four pixels have light that is no number; of the last four `left` lie in the band. */
+uint without_number(vec4 a, vec4 b, vec4 c, uint left)
+{
+    return (is_number(a.xyz) ? 0u : 1u) + (left < 2u || is_number(vec3(a.w, b.xy)) ? 0u : 1u) +
+           (left < 3u || is_number(vec3(b.zw, c.x)) ? 0u : 1u) + (left < 4u || is_number(c.yzw) ? 0u : 1u);
+}
+
 void main()
 {
     uint block = gl_GlobalInvocationID.x, i = KD_POST_PIXELS * block;
@@ -201,6 +211,9 @@ void main()
     /* Behind the end a word is 0. It is chosen rather than skipped: a word that is chosen is a finished vector to
      * lavapipe, which else packs it anew for each lane that it stores, at a fifth of the whole kernel. */
     bool inside = i < push.pixels;
+    uint untold = inside && push.counter > 0u ? without_number(a, b, c, push.pixels - i) : 0u;
+    if (untold > 0u)
+        atomicAdd(words[push.counter], untold);
 #define KEEP(word) (inside ? uint(word) : 0u)
     if (WIDE) {
         uint o = 6 * block;

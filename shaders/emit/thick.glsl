@@ -20,6 +20,11 @@
 #define KD_THICK_HASTE \
     4.0 /* of slow light: M of time for one along the ray, at most, that a grain is made shorter by: beyond, next to \
            the horizon, little is seen of it */
+/* Streaks fade where the gas, along its normal, has less than this part of the optical depth that it has where the
+ * ray crosses the plane nearest to the hole. Light falls as the depth times the flux, that is as its square: the first
+ * octave ends where there is 3e-9 of the light of that crossing. Else rays along a disk of 5e5 M take thousands of
+ * stretches in the dark. */
+#define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
     3.0 /* cells in height for each in the plane: streaks are as much narrower than they are long \
          */
@@ -149,6 +154,16 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     return kd_thick_stir(sum, finest);
 }
 
+/* How much gas of that flux counts for a ray's light, by the plane's at the ray's innermost crossing; up to where the
+ * flux is about largest. */
+float kd_thick_counts(float nearest, float flux)
+{
+    float w = min(nearest, 0.5 / emission.frame.r_isco), t = kd_disk_heat(w), near = t * t * t * t * w * w * w;
+    bool deep = (TRAITS_thick & KD_TRAIT_GAS_DEEP) != 0u;
+    float depth = min(emission.gas.depth * near, 1.0);
+    return deep && depth > 0.0 ? min(emission.gas.depth * flux / (KD_THICK_AFAR * depth), 1.0) : 1.0;
+}
+
 kd_medium kd_thick_along(kd_midst p)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-6), s = sqrt(s2), axis = r * s, z = r * p.u;
@@ -174,8 +189,9 @@ kd_medium kd_thick_along(kd_midst p)
                                                                                    : 1.0,
                                                                           1e-6);
     float t = kd_disk_heat(1.0 / axis) * inversesqrt(axis * sqrt(axis)), flux = t * t * t * t;
-    kd_thick_stir stir =
-        KD_THICK_TAKEN > 0u ? kd_thick_excess(p, axis, z, exp(-0.25 * x * x)) : kd_thick_stir(0.0, 0.0);
+    kd_thick_stir stir = KD_THICK_TAKEN > 0u
+                             ? kd_thick_excess(p, axis, z, exp(-0.25 * x * x) * kd_thick_counts(p.nearest, flux))
+                             : kd_thick_stir(0.0, 0.0);
     float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
 
     /* The thin disk's opacity for light at this angle, as an optical depth along the normal: what it lets through

@@ -27,12 +27,14 @@ struct kd_spread { vec3 plane, rise; };
  * n) a unit of Mino time, n being the direction from the hole, as if space were flat: what a grain is counted in.
  * phi: azimuth, source minus observer; spread: what the ray stands for: both 0 but for KD_TRAIT_AZIMUTH. order: of
  * the crossing of the plane that is nearest on the ray, as it has one up to where its cos(theta) turns: 0 where
- * nothing asks for it. ago: as in kd_sample: 0 but for KD_TRAIT_SLOW. */
+ * nothing asks for it. ago: as in kd_sample: 0 but for KD_TRAIT_SLOW. nearest: 1/r of the ray's innermost crossing of
+ * the plane; 0: none is known. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
     uint order;
     float ago;
+    float nearest;
 };
 /* That is what is there. light: what is added to the light, and depth: optical depth, of a unit of the affine
  * parameter by the observer's energy: along a ray, d lambda = (r^2 + a^2 u^2) d tau, matter of velocity U sees the

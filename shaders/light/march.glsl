@@ -254,6 +254,21 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     return kd_spread(known * kd_march_shorter(across, d, less), known * rise * vec3(md - less * dd * d, rise * dd));
 }
 
+/* The largest 1/r at which the ray at hand crosses the plane; 0: it is not known to cross it. */
+float kd_march_nearest = 0.0;
+
+float kd_march_nearest_of(uint at)
+{
+    float nearest = 0.0;
+    for (uint n = 0u; n < ORDERS; n++) {
+        float w = lens[at + n * slice.stride];
+        nearest = max(nearest, w);
+        if (w <= 0.0)
+            break;
+    }
+    return nearest;
+}
+
 kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float t)
 {
     float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h,
@@ -264,7 +279,7 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
         phi = -(kd_atan2(kd_quintic_at(s.y, t), kd_quintic_at(s.x, t)) + s.c0 + t * (s.c1 + t * (s.c2 + t * s.c3)) +
                 s.way * kd_drag_fall(w, cam.spin, cam.root));
     return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread, order,
-                    KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0);
+                    KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0, kd_march_nearest);
 }
 
 /* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages
@@ -516,6 +531,8 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
     kd_march_way y = kd_march_begin(ray, time);
+    if (KD_MARCH_TURNS && ORDERS > 0)
+        kd_march_nearest = kd_march_nearest_of(at);
     if (KD_HAS(stokes)) {
         kd_stokes_right = kd_polarization_right(place);
         kd_stokes_seen = vec3(0.0);

@@ -14,6 +14,10 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #endif
 #ifndef KD_TELL
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
+#ifdef KD_MARCH
+/* The same buffer; in its last word rays are counted that were given up on their way through volumes. */
+layout(set = 0, binding = 3) buffer Given_up { uint given_up[]; };
+#endif
 #endif
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
@@ -285,6 +289,8 @@ void main()
         store_light(number, lost ? vec3(-1.0) : beam.light);
         return;
     }
+    if (lost)
+        atomicAdd(given_up[given_up.length() - 1], 1u);
     vec3 sum = share * beam.light;
     float apart = share * beam.apart;
     vec3 all = share * stokes;

@@ -194,6 +194,7 @@
     U(first)                 /* index of the band's first pixel in the picture */ \
     U(pixels_x) \
     F(left) F(top)           /* of a tile, its first pixel in the picture */ \
+    U(counter)               /* word in which pixels without light that is a number are counted; 0: they are not */ \
     F(bloom)                 /* share of light over white that is spread; this and what follows with bloom only */ \
     F(scale_x) F(scale_y)    /* cells a pixel */ \
     U(cells_x) U(cells_y)

@@ -2,6 +2,7 @@
  * of many loops one after the other. */
 #include "render_support.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { WIDTH = 12, HEIGHT = 4, SIDE = 4 };
@@ -66,9 +67,35 @@ static void test_mean(void **state)
         kd_frame_finish(all[i]);
 }
 
+/* Rays along a turbulent disk of 5e5 M, some hundred M of which can be seen: their stretches in the dark are few, and
+ * lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 are given up,
+ * and 5 places of the layer have no light. */
+static void test_wide(void **state)
+{
+    (void)state;
+    static const char json[] =
+        "{\"camera\":{\"inclination_deg\":70},\"style\":{\"exposure\":0,\"bloom\":0},\"disk\":{\"height\":0.1,"
+        "\"outer\":500000,"
+        "\"emission_opacity\":10,\"gas\":{\"amplitude\":0.8}},\"image\":{\"width\":48,\"height\":27,"
+        "\"critical_factor\":1,\"layers\":[\"rgb\",\"intensity\"],"
+        "\"tile\":{\"left\":8,\"top\":19,\"width\":8,\"height\":4}}}";
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+    struct kd_frame frame = rendered(&scene);
+    uint32_t untold = 0;
+    for (uint32_t i = 0; i < frame.width * frame.height; i++)
+        untold += !isfinite(intensity(&frame)[i]);
+    printf("%u of %u pixels have no light, %llu rays were given up\n", untold, frame.width * frame.height,
+           (unsigned long long)frame.accuracy.lost);
+    assert_int_equal(frame.accuracy.lost, 0);
+    assert_int_equal(untold, 0);
+    kd_frame_finish(&frame);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_mean) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_mean), cmocka_unit_test(test_wide) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -9,16 +9,18 @@
 
 /* IEC 61966-2-1, from an encoded value to light. */
 
-/* Radiance through a kernel; words are `out`, room for whole groups. */
-static void post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push,
-                    void *out)
+/* Radiance through a kernel; words are `out`, room for whole groups. Returns how many pixels it counts that have light
+ * that is no number. */
+static uint32_t post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push,
+                        void *out)
 {
     struct kd_vk *vk = renderer->vk;
     const struct kd_vk_pipeline *pipeline;
     struct kd_vk_buffer *in, *words;
     uint64_t bytes = kd_post_bytes(push.pixels, constants[1] ? 16 : 8);
     OK(kd_vk_buffer_create(vk, kd_post_radiance_bytes(push.pixels), KD_VK_UPLOAD, "light", &in, &error));
-    OK(kd_vk_buffer_create(vk, bytes, KD_VK_READBACK, "words", &words, &error));
+    OK(kd_vk_buffer_create(vk, bytes + 4, KD_VK_READBACK, "words", &words, &error));
+    push.counter = (uint32_t)(bytes / 4);
     memcpy(kd_vk_buffer_map(in), light, 12ull * push.pixels);
     OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels, false, false), constants, n, &pipeline, &error));
     const struct kd_vk_dispatch d = { .pass = "post",
@@ -27,17 +29,20 @@ static void post_by(bool texels, const uint32_t *constants, size_t n, const floa
                                       .push = &push,
                                       .groups = { kd_post_groups(push.pixels) } };
     OK(kd_vk_fill(vk, "fill", words, 0, bytes, 0xffffffff, &error));
+    OK(kd_vk_fill(vk, "fill", words, bytes, 4, 0, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
     OK(kd_vk_submit(vk, NULL, &error));
     OK(kd_vk_wait(vk, 0, &error));
     memcpy(out, kd_vk_buffer_map(words), bytes);
+    const uint32_t counted = ((const uint32_t *)kd_vk_buffer_map(words))[bytes / 4];
     kd_vk_buffer_destroy(vk, in);
     kd_vk_buffer_destroy(vk, words);
+    return counted;
 }
 
-static void post(bool texels, bool film, bool wide, const float *light, struct kd_post_push push, void *out)
+static uint32_t post(bool texels, bool film, bool wide, const float *light, struct kd_post_push push, void *out)
 {
-    post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
+    return post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
 /* Light a little less than half a step from each level still rounds to it. What is missing to the half step, 0.06,
@@ -142,6 +147,30 @@ static void both_readers(void **state)
     }
 }
 
+/* Pixels are counted, not channels, wherever they stand among the four of an invocation; those behind the end are
+ * none. */
+static void no_number(void **state)
+{
+    (void)state;
+    static const float none[] = { NAN, INFINITY, -INFINITY, -NAN };
+    enum { N = 4 * KD_GROUP_SIZE + 4 };
+    static float light[3 * N];
+    static uint16_t found[3 * (N + KD_GROUP_SIZE * KD_POST_PIXELS)];
+    for (uint32_t n = N - 3; n <= N; n++)
+        for (int k = 0; k < 4; k++) {
+            uint32_t want = 0;
+            for (int i = 0; i < 3 * N; i++)
+                light[i] = 1;
+            for (uint32_t i = 0; i < n; i += i < 8 ? 1 : 5, want++)
+                for (uint32_t c = i % 3; c < 3; c++)
+                    light[3 * i + c] = none[(i + (uint32_t)k) % 4];
+            for (uint32_t i = 3 * n; i < 3 * N; i++)
+                light[i] = NAN;
+            const struct kd_post_push push = { .gain = 1, .pixels = n, .pixels_x = n };
+            assert_int_equal(post(k & 1, false, k & 2, light, push, found), want);
+        }
+}
+
 /* Light at white and beyond stays white: no dither lifts it over the last level, nor lowers it by more than one of
  * 16 bits, and black stays black. */
 static void ends(void **state)
@@ -208,8 +237,8 @@ int main(void)
     int skip = open_renderer();
     if (skip)
         return skip;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(every_level), cmocka_unit_test(places),
-                                        cmocka_unit_test(both_readers), cmocka_unit_test(ends),
-                                        cmocka_unit_test(neutral) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(every_level),  cmocka_unit_test(places),
+                                        cmocka_unit_test(both_readers), cmocka_unit_test(no_number),
+                                        cmocka_unit_test(ends),         cmocka_unit_test(neutral) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -794,6 +794,28 @@ static void a_change_breaks_into_refinement(void **state)
     assert_true(isinf(kd_governor_turn(&s.governor, s.now).wait_ms));
 }
 
+/* Where no lens map is kept, frames of a scene whose time alone goes on trace, too: the camera stands still, the eye
+ * sees the photon ring, and its rays are as many as are asked. */
+static void time_keeps_the_rays_at_the_curve(void **state)
+{
+    (void)state;
+    struct simulation s;
+    int traced = 0;
+    begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 200, .reused = 200, .pixels = 5 });
+    for (int k = 0; k < 60; k++) {
+        s.now += 300;
+        change(&s, false);
+        const struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
+        kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 200, .total_ms = 205 });
+        traced += turn.traced && turn.rung;
+        assert_int_equal(turn.quality.critical, 0);
+    }
+    assert_true(traced > 0);
+    change(&s, true);
+    const struct kd_turn dragged = kd_governor_turn(&s.governor, s.now);
+    assert_true(dragged.rung && dragged.quality.critical == 2);
+}
+
 /* The rays next to the critical curve and the stars are fewer in a drag, on any rung but the first, and all are
  * there while time goes on and at rest. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
@@ -1123,6 +1145,7 @@ int main(void)
         cmocka_unit_test(a_drag_is_soon_forgotten),
         cmocka_unit_test(another_kind_of_scene_begins_anew),
         cmocka_unit_test(what_only_rings_keeps_its_size),
+        cmocka_unit_test(time_keeps_the_rays_at_the_curve),
         cmocka_unit_test(what_refinement_measured_is_believed),
         cmocka_unit_test(noise_and_spikes_change_little),
         cmocka_unit_test(load_that_comes_and_goes_is_followed),

@@ -88,6 +88,8 @@ struct kd_accuracy_report {
     double volume_error,
         volume_error_worst; /* relative to their light, or KD_MARCH_DARK of the brightest: nine of ten are within;
                                worst; 1 where there is no light that is a number, or an end */
+    uint64_t lost; /* of what is shown: rays that were given up on their way through volumes, magenta as well, and
+                      pixels whose light is no number */
 };
 
 /* Pictures that may be under way aside at once (render/frame/frame.h). */

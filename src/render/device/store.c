@@ -237,11 +237,11 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
 {
     struct kd_vk *vk = store->vk;
     const uint64_t pixels = (uint64_t)plan->width * plan->band_rows, layers = kd_plan_readback_bytes(plan);
-    const uint64_t words = kd_post_bytes(pixels, bit_depth), light = kd_plan_pixel_bytes(plan) * pixels,
-                   read = kd_post_radiance_bytes(pixels);
+    const uint64_t words = kd_post_bytes(pixels, bit_depth) + 4 * KD_POST_COUNTS,
+                   light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
     enum kd_status status;
     KD_TRY(make_small(store, error));
-    KD_TRY(bands_init(&store->radiance, vk, plan->bands, light > read ? light : read, "radiance", error));
+    KD_TRY(bands_init(&store->radiance, vk, plan->bands, (light > read ? light : read) + 4, "radiance", error));
     KD_TRY(kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error));
     KD_TRY(kd_store_at_least(vk, &store->readback, layers > words ? layers : words, KD_VK_READBACK,
                              "pixels on the host", error));

@@ -125,6 +125,7 @@ static void report_accuracy(struct kd_frame_job *j)
     j->frame->accuracy.followed = own.followed;
     j->frame->accuracy.refined = own.refined;
     j->frame->accuracy.between = own.between;
+    j->frame->accuracy.lost = own.lost;
     j->frame->accuracy.volume_sampled = own.volume_sampled;
     j->frame->accuracy.volume_error = own.volume_error;
     j->frame->accuracy.volume_error_worst = own.volume_error_worst;
@@ -162,6 +163,18 @@ done:
     return status;
 }
 
+/* None of this picture's rays was given up yet. */
+static enum kd_status forget_given_up(struct kd_frame_job *j)
+{
+    enum kd_status status = KD_OK;
+    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+        struct kd_vk_buffer *light = j->store->radiance.buffers[band];
+        status = kd_vk_fill(j->r->vk, kd_passes[kd_plan_light_pass(j->plan)].name, light, kd_vk_buffer_size(light) - 4,
+                            4, 0, j->error);
+    }
+    return status;
+}
+
 static enum kd_status run(struct kd_frame_job *j)
 {
     struct kd_capacity c;
@@ -175,6 +188,7 @@ static enum kd_status run(struct kd_frame_job *j)
     j->refine_rows = j->plan->adaptive ? rows_of_refining(j, j->plan->height * (!reused + 1.0)) : 0;
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen) + j->refine_rows;
     KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
+    KD_TRY(forget_given_up(j));
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->adaptive)
         KD_TRY(refine(j));

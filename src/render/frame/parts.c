@@ -34,6 +34,7 @@ static struct kd_accuracy_report both(const struct kd_accuracy_report *l, const 
         l->volume_sampled + r->volume_sampled,
         fmax(l->volume_error, r->volume_error),
         fmax(l->volume_error_worst, r->volume_error_worst),
+        l->lost + r->lost,
     };
 }
 

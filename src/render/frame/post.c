@@ -73,6 +73,25 @@ static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look,
     return kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, out, j->error);
 }
 
+/* Counts of a band, which are read back with its pixels (KD_POST_COUNTS). The light's own buffer has the rays that
+ * were given up, whatever a beam makes of it. */
+static enum kd_status count(struct kd_frame_job *j, uint32_t band, uint64_t at)
+{
+    struct kd_vk_buffer *light = j->store->radiance.buffers[band];
+    const char *pass = kd_passes[KD_PASS_READBACK].name;
+    enum kd_status status;
+    KD_TRY(kd_vk_copy(j->r->vk, pass, j->store->readback, at, light, kd_vk_buffer_size(light) - 4, 4, j->error));
+    KD_TRY(kd_vk_copy(j->r->vk, pass, j->store->readback, at + 4, j->store->words, at, 4, j->error));
+done:
+    return status;
+}
+
+static uint64_t counted(const struct kd_store *s, uint64_t at)
+{
+    const uint32_t *two = (const uint32_t *)kd_vk_buffer_map(s->readback) + at / 4;
+    return (uint64_t)two[0] + two[1];
+}
+
 /* Post and read back what is lit, one band at a time. */
 static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
 {
@@ -86,9 +105,12 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
     const struct kd_bloom *bloom = look->bloom;
     const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
+    const uint64_t counts = kd_post_bytes(band_pixels, look->wide ? 16 : 8);
     enum kd_status status = KD_OK;
     if (has_heat(j, look) && !s->palette)
         KD_TRY(make_palette(j));
+    if (!look->bare)
+        frame->accuracy.lost = 0;
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
         KD_TRY(kernel_of(j, look, &post));
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
@@ -101,6 +123,7 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
             .pixels_x = frame->width,
             .left = (float)window.left,
             .top = (float)window.top,
+            .counter = look->bare ? 0 : (uint32_t)(counts / 4),
             .bloom = (float)bloom->strength,
             .scale_x = (float)bloom->columns / (float)frame->width,
             .scale_y = (float)bloom->rows / (float)frame->height,
@@ -119,12 +142,16 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
             &push,
             { kd_post_groups(pixels) },
         };
+        KD_TRY(kd_vk_fill(vk, d.pass, s->words, counts, 4, 0, j->error));
         KD_TRY(kd_vk_dispatch(vk, &d, j->error));
         KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0,
                           (pixels * pixel_bytes + 3) / 4 * 4, j->error));
+        KD_TRY(count(j, band, counts));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
         memcpy((char *)look->to + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
+        if (!look->bare)
+            frame->accuracy.lost += counted(s, counts);
         KD_TRY(kd_frame_report(j, look->bare ? 0 : kd_frame_band_rows(j, band)));
     }
     if (!look->bare && scene->style.colour_bar && !kd_plan_is_map(j->plan))

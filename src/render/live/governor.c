@@ -480,13 +480,13 @@ static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn
 
 struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
 {
-    bool traced = now - g->lens_at < g->hold_ms || now < g->blind_until;
+    const bool moves = now - g->lens_at < g->hold_ms, traced = moves || now < g->blind_until;
     struct kd_turn turn = {
         .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision
     };
     turn.quality = g->ladder.rungs[turn.rung].quality;
     turn.quality.bright = traced && turn.rung;
-    turn.quality.critical = turn.quality.bright ? DRAGGED_CRITICAL : 0;
+    turn.quality.critical = moves && turn.rung ? DRAGGED_CRITICAL : 0;
     turn.rays = g->ladder.rungs[turn.rung].rays;
     turn.audit = turn.quality.final && g->share >= 1 ? 1 : MOVING_AUDIT;
     if (g->shown_revision != g->revision)

@@ -53,9 +53,10 @@
  * ends and time goes
  *   on.
  *
- * Frames that trace, on any rung but the first, have image.critical_factor 2 at most: the rays next to the critical
- * curve are fewer, and its list is as long as the picture is wide, so that what is left goes nearly with the
- * picture's size.
+ * Frames of a lens that changes, on any rung but the first, have image.critical_factor 2 at most: the rays next to the
+ * critical curve are fewer, and its list is as long as the picture is wide, so that what is left goes nearly with the
+ * picture's size. Frames of a scene whose time alone goes on have all of them, also where no lens map is kept and each
+ * traces: the ring stands still, and by four rays a pixel it is dotted.
  *
  * Where other sessions move too, kd_governor_share says which part of the device's time this one may count on. Its
  * target then is that part of the time from one frame to the next, which grows by the root of what the part shrinks,

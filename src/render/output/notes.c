@@ -24,6 +24,8 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
             " followed=%llu refined=%llu between=%llu pixel_sampled=%u pixel_error=%.1e pixel_error_worst=%.1e",
             (unsigned long long)report->followed, (unsigned long long)report->refined,
             (unsigned long long)report->between, report->pixel_sampled, report->pixel_error, report->pixel_error_worst);
+    if (report->lost)
+        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " lost=%llu", (unsigned long long)report->lost);
     if (report->volume_sampled)
         snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " volume_sampled=%u volume_error=%.1e volume_error_worst=%.1e",
                  report->volume_sampled, report->volume_error, report->volume_error_worst);
@@ -33,6 +35,7 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
                          const char *worst)
 {
     kd_json_number(json, "undecided", (double)report->undecided);
+    kd_json_number(json, "lost", (double)report->lost);
     kd_json_number(json, "sampled", report->sampled);
     if (report->sampled) {
         kd_json_number(json, "crossings", report->crossings);

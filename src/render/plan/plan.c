@@ -47,7 +47,8 @@ WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
 WHEN(projected, plan->ring)
 WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
-WHEN(single, plan->setting.precision == KD_PRECISION_F32)
+WHEN(single, plan->setting.precision == KD_PRECISION_F32 && plan->path != KD_LENS_LISTED)
+WHEN(single_listed, plan->setting.precision == KD_PRECISION_F32 && plan->path == KD_LENS_LISTED)
 WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
 WHEN(paired, plan->eyes == 2 && scene->camera.stereo)
 WHEN(compared, plan->setting.engine >= KD_ENGINE_KS_EULER)
@@ -134,6 +135,11 @@ static const struct sentence {
     { "arithmetic.f32",
       "arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits",
       single },
+    { "arithmetic.f32-listed",
+      "arithmetic: 32-bit, by an engine whose rays are not followed again: within about 1e-5 of the critical curve "
+      "they "
+      "are given up, or may have another fate",
+      single_listed },
     { "arithmetic.f64", "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays.kerr-schild",
       "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },

@@ -57,6 +57,9 @@ static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
 {
     return (uint64_t)kd_post_groups(pixels) * KD_GROUP_SIZE * KD_POST_PIXELS * (bit_depth == 16 ? 6 : 3);
 }
+/* Behind its pixels the host gets two counts of a band: rays that the march has given up, the last word of the band's
+ * light, and pixels whose light is no number, the word behind the pixels. */
+#define KD_POST_COUNTS 2
 
 _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 &&
                    sizeof(struct kd_particles_push) <= 128 && sizeof(struct kd_light_push) <= 128 &&
