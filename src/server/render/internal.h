@@ -60,8 +60,9 @@ struct kd_render_queue {
     _Atomic bool cancel;
     struct kd_render_measures measures;
     struct kd_render_job rest; /* gives back what is not needed, once nothing has been asked for for rest_ms */
-    double rest_ms, worked_ms; /* worked_ms: when something was asked for, or done, last */
-    bool rested;               /* since then */
+    double rest_ms, worked_ms, trimmed_ms; /* worked_ms: when something was asked for, or done, last; trimmed_ms: when
+                                              the heap gave back what was free */
+    bool rested;                           /* since then */
 
     pthread_t render_thread, compiler, encoders[KD_ENCODERS];
     unsigned n_encoders;
@@ -94,6 +95,8 @@ void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render
 
 /* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked. */
 void kd_render_rest_if_idle(struct kd_render_queue *queue);
+/* rest.c, unlocked: has the heap give back what is free, once in rest_ms while there is work. */
+void kd_render_trim_if_due(struct kd_render_queue *queue);
 
 /* compile.c, locked. The first two: nobody else has the device. Looks which jobs lack kernels, and hands over what has
  * been compiled. Whether a job has what it needs. Says in its frame what it waited. */
