@@ -56,6 +56,7 @@ struct kd_render_queue {
     struct kd_shares missing;                    /* who is next to have kernels compiled */
     struct kd_compilation *compiling, *compiled; /* by it now; and one that is not yet the renderer's */
     _Atomic bool uncompiled;                     /* nobody wants what is being compiled */
+    double compile_ms;                           /* that one takes, learned; 0: none has been compiled yet */
     struct kd_pulse pulse, compiler_pulse;       /* of whoever has the device; of who compiles */
     _Atomic bool cancel;
     struct kd_render_measures measures;
