@@ -104,7 +104,7 @@ class Server:
                 "rss_mib": int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1024,
                 "threads": int(re.search(r"Threads:\s+(\d+)", status)[1]),
                 "descriptors": len(os.listdir(f"/proc/{pid}/fd")),
-                "device_mib": self.device_mib(),
+                **self.held(),
             }
         return None
 
@@ -123,16 +123,16 @@ class Server:
         finally:
             connection.close()
 
-    def device_mib(self):
-        """What the server says that it holds of the device's memory; None where it does not answer."""
-        found = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", self.metrics() or "", re.M)
-        return float(found[1]) / 2**20 if found else None
-
-    def kept_mib(self):
-        """The ledger: kind -> MiB."""
+    def held(self):
+        """What the server says that it holds: of the device's memory, and the ledger, kind -> MiB."""
+        told = self.metrics() or ""
+        device = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", told, re.M)
         return {
-            kind: round(float(value) / 2**20, 1)
-            for kind, value in re.findall(r'^kerrd_kept_bytes{kind="(\w+)"} (\S+)$', self.metrics() or "", re.M)
+            "device_mib": float(device[1]) / 2**20 if device else None,
+            "kept_mib": {
+                kind: round(float(value) / 2**20, 1)
+                for kind, value in re.findall(r'^kerrd_kept_bytes{kind="(\w+)"} (\S+)$', told, re.M)
+            },
         }
 
 
@@ -428,11 +428,11 @@ def rest(world, start):
     """What a server holds that has had nothing to do for more than a minute, what it names of that, and how long the
     next picture takes."""
     time.sleep(RESTS_S)
-    kept, now = world.server.kept_mib(), world.server.sample()
+    now = world.server.sample()
     return {
         "start_mib": start["rss_mib"],
         "rest_mib": now["rss_mib"],
-        "kept_mib": kept,
+        "kept_mib": now["kept_mib"],
         "first_view_s": start["first_view_s"],
         "next_view_s": first_view_s(world),
     }

@@ -12,6 +12,16 @@ const change_ms = 400; // that the scene is as it is
 const star_px = 6;
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
+// What makes the pixel independent of the rest of the picture, of which none is then rendered: the card shows light as
+// it arrives, before exposure, glare and beam.
+const alone = {
+  'image.samples': 1,
+  'style.exposure': 0,
+  'style.bloom': 0,
+  'style.beam_uas': 0,
+  'style.colour_bar': false,
+};
+
 const degrees = radians => ((((radians * 180) / Math.PI) % 360) + 360) % 360;
 const angle = radians => number(degrees(radians), 3) + '°';
 const length = r => number(r, 4) + ' M';
@@ -202,7 +212,7 @@ export function buildPixel(stage, scene, size) {
       x = Math.min(at.u * width, width - 0.01),
       y = Math.min(at.v * height, height - 0.01);
     try {
-      const body = JSON.stringify(scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1 })),
+      const body = JSON.stringify(scene.document({ 'image.width': width, 'image.height': height, ...alone })),
         [answer, star] = await Promise.all([
           ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, {
             method: 'POST',

@@ -69,6 +69,7 @@ static enum kd_status draw(const struct arguments *arguments, struct kd_renderer
     KD_TRY(kd_explain_at(arguments->at, plan, error));
     if (arguments->trace)
         KD_TRY(kd_explain_trace("steps", plan, error));
+    KD_TRY(kd_explain_narrow(&capacity, scene, plan, error));
     kd_progress_init(&progress);
     kd_progress_catch_signals();
     status = kd_render(renderer, scene, plan, kd_progress_update, &progress, frame, error);

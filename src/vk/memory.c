@@ -120,7 +120,8 @@ done:
     return status;
 }
 
-/* A new block, entered into the list. */
+/* A new block, at the end of the list: buffers are taken from the oldest one that has room, and the latest become
+ * empty. */
 static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t size, struct kd_error *error)
 {
     struct kd_vk_heap *heap = &vk->heap;
@@ -140,8 +141,10 @@ static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t siz
         block_free(vk, block);
         return status;
     }
-    block->next = heap->blocks;
-    heap->blocks = block;
+    struct kd_vk_block **end = &heap->blocks;
+    while (*end)
+        end = &(*end)->next;
+    *end = block;
     return KD_OK;
 }
 

@@ -98,6 +98,34 @@ static void test_learned(void **state)
                 learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
 }
 
+/* Refining takes as many rays as the picture asks for: what the next one takes is estimated by those before. Of
+ * turbulent gas that was a seventh. */
+static void test_refining_is_learned(void **state)
+{
+    (void)state;
+    static const char *const scene = "{\"image\": {\"width\": 192, \"height\": 108, \"samples\": \"auto\"}, \"disk\": "
+                                     "{\"gas\": {\"amplitude\": 0.6, \"scale\": 0.6, \"shear\": 8}}}";
+    struct kd_plan plan;
+    double took = 0, others = 0;
+    renderer->capacity.ns[KD_NS_RAY_REFINED] = 1;
+    for (int k = 0; k < 10; k++) {
+        renderer->frames = 0; /* each of them teaches */
+        struct kd_frame frame = drawn(scene, &plan);
+        if (k >= 5)
+            took += timing_of(&frame, "refine") / 5;
+        others = timing_of(&frame, "total");
+        kd_frame_finish(&frame);
+    }
+    struct kd_frame frame = drawn(scene, &plan);
+    kd_frame_finish(&frame);
+    double estimate = 0;
+    for (size_t i = 0; i < plan.n_passes; i++)
+        if (!strcmp(plan.passes[i].name, "refine"))
+            estimate = plan.passes[i].estimate_ms;
+    print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
+    assert_true(estimate > took / 10 && estimate < 2 * took); /* less the time for which others had the cores */
+}
+
 int main(void)
 {
     int status = open_renderer();
@@ -106,6 +134,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_learned),
+        cmocka_unit_test(test_refining_is_learned),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

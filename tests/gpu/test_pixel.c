@@ -582,12 +582,69 @@ static void volumes(void **state)
     assert_true(lit[0] >= 8 && lit[1] >= 4 && dim >= 1);
 }
 
+static void encoded(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_buffer *out)
+{
+    struct kd_frame frame;
+    OK(kd_render(renderer, scene, plan, NULL, NULL, &frame, &error));
+    const struct kd_picture picture = { &frame, scene, plan, "", 0 };
+    OK(kd_format_pixel.encode(&picture, KD_EFFORT_QUICK, NULL, out, &error));
+    OK(kd_buffer_append(out, "", 1));
+    kd_frame_finish(&frame);
+}
+
+/* What of a pixel does not depend on the rest of the picture is told by it and a margin alone: the same, to the byte.
+ * What does, a pixel with an exposure of its own, is not. */
+static void alone(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *preset;
+        uint32_t x, y;
+    } pixels[] = {
+        { "gas", 20, 20 }, { "gas", 0, 35 },        { "gas", 31, 14 },
+        { "jet", 30, 8 },  { "milky-way", 40, 20 }, { "thick-disk", 50, 19 },
+    };
+    for (size_t i = 0; i < sizeof pixels / sizeof *pixels; i++) {
+        struct kd_scene scene =
+                            scene_of(pixels[i].preset, (const char *const[]) { "style.exposure", "-1", "style.bloom",
+                                                                               "0", "image.samples", "2", NULL }),
+                        narrow;
+        struct kd_capacity c;
+        struct kd_plan plan, less;
+        struct kd_buffer texts[2] = { { 0 }, { 0 } };
+        char at[40];
+        kd_renderer_capacity(renderer, &c);
+        snprintf(at, sizeof at, "%u,%u", pixels[i].x, pixels[i].y);
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        OK(kd_explain_at(at, &plan, &error));
+        narrow = scene, less = plan;
+        OK(kd_explain_narrow(&c, &narrow, &less, &error));
+        assert_true(less.rays < plan.rays || scene.sky.model); /* stars are sought in a wide margin */
+        encoded(&scene, &plan, &texts[0]);
+        encoded(&narrow, &less, &texts[1]);
+        const char *by_itself = (char *)texts[1].data, *whole = (char *)texts[0].data;
+        size_t same = 0;
+        while (by_itself[same] && by_itself[same] == whole[same])
+            same++;
+        if (by_itself[same] != whole[same])
+            fail_msg("%s at %s: \"%.60s\", not \"%.60s\", behind \"%.60s\"", pixels[i].preset, at, by_itself + same,
+                     whole + same, by_itself + (same < 60 ? 0 : same - 60));
+        for (int k = 0; k < 2; k++)
+            kd_buffer_finish(&texts[k]);
+        OK(kd_scene_set(&scene, "style.exposure", "auto", &error));
+        less = plan, narrow = scene;
+        OK(kd_explain_narrow(&c, &narrow, &less, &error));
+        assert_int_equal(less.rays, plan.rays);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(sums),           cmocka_unit_test(many_rays),
                                         cmocka_unit_test(volumes),        cmocka_unit_test(layers),
                                         cmocka_unit_test(other_pictures), cmocka_unit_test(negative_energies),
-                                        cmocka_unit_test(from_within),    cmocka_unit_test(places) };
+                                        cmocka_unit_test(from_within),    cmocka_unit_test(places),
+                                        cmocka_unit_test(alone) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));
 }

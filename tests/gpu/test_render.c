@@ -436,7 +436,7 @@ static void test_rest(void **state)
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
         /* As if nothing, or all of this process and a lot more, had come since it was opened. */
-        fresh->opened_bytes = often ? 0 : UINT64_MAX / 4;
+        fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_kept(fresh, kept);
         sum = 0;
@@ -445,6 +445,8 @@ static void test_rest(void **state)
         print_message("%.0f MiB were held on the device, %.0f are, %.0f are kept in all, %.0f of them without a name\n",
                       (double)held / 0x1p20, (double)kd_renderer_held(fresh) / 0x1p20, (double)sum / 0x1p20,
                       (double)kept[KD_KEPT_OTHER] / 0x1p20);
+        if (often) /* what is resident beside it has a name still when it has been opened again */
+            assert_true(kept[KD_KEPT_OTHER] + kept[KD_KEPT_HEAP] > 1 << 20);
         assert_true(kd_renderer_held(fresh) < held &&
                     kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one */
         if (!often)
@@ -456,19 +458,52 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
+/* Pictures that were made aside leave behind what the next one may use, up to a bound, and the last one all of that. */
+static void test_what_idle_asides_keep_is_bounded(void **state)
+{
+    (void)state;
+    enum { VIEWS = 7 };
+    const struct kd_capacity c = capacity();
+    struct kd_scene scene = small_scene();
+    struct kd_renderer *fresh;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
+    scene.image.width = 1280;
+    scene.image.height = 720;
+    uint64_t kept[KD_N_KEPT_KINDS], all = 0, one = 0;
+    for (int i = 0; i <= VIEWS; i++) {
+        scene.camera.inclination_deg = 33 + i % VIEWS + (i == VIEWS ? VIEWS - 1 : 0); /* the last one once more */
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &frame, &error));
+        assert_int_equal(frame.lens_reused, i == VIEWS);
+        kd_frame_finish(&frame);
+        all = 0;
+        for (int k = 0; k < KD_ASIDES; k++)
+            all += kd_store_bytes(&fresh->asides[k].store);
+        one = i ? one : all;
+    }
+    kd_renderer_kept(fresh, kept);
+    print_message("%.0f MiB of one picture, %.0f of %d, %.0f of them lens maps\n", (double)one / 0x1p20,
+                  (double)all / 0x1p20, VIEWS, (double)kept[KD_KEPT_LENS_MAPS] / 0x1p20);
+    assert_true(VIEWS * one > KD_IDLE_ASIDES_BYTES + one);
+    assert_in_range(all, one, KD_IDLE_ASIDES_BYTES + one);
+    kd_renderer_destroy(fresh);
+}
+
 /* What is resident is looked at when it is asked for, and not in each frame. */
 static void test_what_is_resident_is_counted_when_asked(void **state)
 {
     (void)state;
-    const uint64_t opened = renderer->opened_bytes;
+    const uint64_t started = renderer->started_bytes;
     uint64_t kept[KD_N_KEPT_KINDS];
-    renderer->opened_bytes = UINT64_MAX / 4; /* as if more had been, */
+    renderer->started_bytes = UINT64_MAX / 4; /* as if more had been, */
     kd_renderer_kept(renderer, kept);
     assert_int_equal(kept[KD_KEPT_OTHER], 0);
-    renderer->opened_bytes = 0; /* and as if nothing had */
+    renderer->started_bytes = 0; /* and as if nothing had */
     kd_renderer_kept(renderer, kept);
     assert_true(kept[KD_KEPT_OTHER] > 1 << 20);
-    renderer->opened_bytes = opened;
+    renderer->started_bytes = started;
 }
 
 /* A defect of the program, here a buffer that is too small, is told as one, and the store begins anew. */
@@ -626,6 +661,7 @@ int main(void)
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_glances),
         cmocka_unit_test(test_asides),
+        cmocka_unit_test(test_what_idle_asides_keep_is_bounded),
         cmocka_unit_test(test_a_map_that_is_handed_over),
         cmocka_unit_test(test_what_is_resident_is_counted_when_asked),
         cmocka_unit_test(test_a_defect_does_not_stay),

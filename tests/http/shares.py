@@ -144,6 +144,26 @@ class Kernels(Case):
         compiled = self.daemon.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024
         self.assertLessEqual(compiled, 2)  # for the one that has gone, and the first of the others
 
+    def test_a_plan_counts_the_kernels_that_have_to_be_compiled(self):
+        own = daemon.Daemon()
+        self.addCleanup(own.stop)
+
+        def plan(**sky):
+            found = own.post("/v1/plan", {"image": {"width": 64, "height": 36}, "sky": sky}).json()
+            return found.get("kernels_ms", 0), found["estimate_ms"] - sum(p["estimate_ms"] for p in found["passes"])
+
+        self.assertEqual(plan(seed=4711)[0], 0)
+        missing, more = plan(seed=4712)
+        self.assertGreater(missing, 0)
+        self.assertAlmostEqual(more, missing)
+        s = own.connect()
+        self.addCleanup(s.close)
+        s.sendall(f"GET {self.NEW} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        own.reaches("renders_unfinished", 1)
+        self.assertEqual(own.get(RENDER).status, 200)  # until then they are being compiled
+        self.assertEqual(daemon.read_answer(s).status, 200)
+        self.assertTrue(daemon.eventually(lambda: plan(seed=4712)[0] == 0))
+
     def test_a_server_that_stops_waits_for_none(self):
         own = daemon.Daemon("--drain-s", 1)
         self.addCleanup(own.process.kill)

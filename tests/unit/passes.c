@@ -68,9 +68,8 @@ static void names_are_names(void **state)
 static void words_stay(void **state)
 {
     (void)state;
-    const char *const relied_on[] = {
-        "ray_radius", "ray_full", "sample_transfer", "pixel_post", "ray_march", "particle"
-    };
+    const char *const relied_on[] = { "ray_radius", "ray_full",    "sample_transfer", "pixel_post",
+                                      "ray_march",  "ray_refined", "particle" };
     for (size_t i = 0; i < sizeof relied_on / sizeof *relied_on; i++)
         assert_string_equal(kd_figures[i].word, relied_on[i]);
     for (int i = 0; i < KD_FIGURE_COUNT; i++)

@@ -57,8 +57,9 @@ struct kd_renderer {
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
     _Atomic uint64_t kept_bytes[KD_N_KEPT_KINDS];
-    _Atomic uint64_t opened_bytes, opened_heap; /* resident, and in use of the heap, when the device had been opened */
-    struct kd_accuracy_table *accuracy;         /* of this device, as on disk when the renderer was made; NULL: none */
+    _Atomic uint64_t opened_bytes; /* resident when the device had been opened, the last time; and the first: */
+    _Atomic uint64_t started_bytes, started_heap; /* resident, and in use of the heap */
+    struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     struct kd_verdict verdict;
     struct kd_capacity kept; /* as it is in the file */
     uint32_t frames;         /* so far, as learn.c counts them */

@@ -21,8 +21,8 @@ static uint64_t resident_bytes(void)
 
 void kd_renderer_begin_count(struct kd_renderer *r)
 {
-    r->opened_bytes = resident_bytes();
-    r->opened_heap = kd_allocator_used();
+    r->opened_bytes = r->started_bytes = resident_bytes();
+    r->started_heap = kd_allocator_used();
 }
 
 static uint64_t more_than(uint64_t a, uint64_t b) { return a > b ? a - b : 0; }
@@ -45,8 +45,8 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
  * whole, pages may never have been touched: so the heap is no more than what is left. */
 void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
 {
-    const uint64_t left = more_than(resident_bytes(), r->opened_bytes + named_bytes(r, out)),
-                   heap = more_than(kd_allocator_used(), r->opened_heap + out[KD_KEPT_KERNELS]);
+    const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
+                   heap = more_than(kd_allocator_used(), r->started_heap + out[KD_KEPT_KERNELS]);
     out[KD_KEPT_HEAP] = heap < left ? heap : left;
     out[KD_KEPT_OTHER] = left - out[KD_KEPT_HEAP];
 }
@@ -89,7 +89,8 @@ static void give_back(struct kd_renderer *r)
     kd_panoramas_rest(&r->panoramas, KD_REST_PANORAMAS);
 }
 
-/* Closes the device and opens it again. What the process is larger by afterwards is not the device's. */
+/* Closes the device and opens it again. What the process is larger by afterwards is told, but is not the device's, and
+ * no reason to open it once more. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = kd_renderer_reopen(r, error);
@@ -98,7 +99,7 @@ static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
     if (status)
         return status;
     kd_allocator_trim();
-    kd_renderer_begin_count(r);
+    r->opened_bytes = resident_bytes();
     kd_renderer_count(r);
     return KD_OK;
 }

@@ -1,6 +1,7 @@
 #include "render/device/store.h"
 
 #include "render/emit/emitter.h"
+#include "render/device/rest.h"
 #include "render/plan/photometry.h"
 #include "render/view/layout.h"
 #include "interface.h"
@@ -65,21 +66,21 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
     map->used = 0;
 }
 
-/* Drop kept maps, oldest first, until the plan fits beside the others. */
+/* Drop kept maps, oldest first, until the plan fits beside the others, and these within their bound. */
 static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
 {
     for (;;) {
-        uint64_t held = plan->device_bytes;
+        uint64_t kept = 0;
         struct kd_lens_map *oldest = NULL;
         for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
             struct kd_lens_map *m = &store->maps[i];
             if (m == spare || !m->bands.count)
                 continue;
-            held += bytes_of_map(m);
+            kept += bytes_of_map(m);
             if (!oldest || m->used < oldest->used)
                 oldest = m;
         }
-        if (held <= store->memory_bytes || !oldest)
+        if (!oldest || (kept <= KD_KEPT_MAPS_BYTES && plan->device_bytes + kept <= store->memory_bytes))
             return;
         map_finish(oldest, store->vk);
     }

@@ -44,9 +44,10 @@ static void put_at(struct kd_json *json, const char *name, const struct kd_pictu
 
 static void put_pixel(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
+    const struct kd_window window = kd_scene_window(picture->scene);
     kd_json_array(json, "pixel");
-    kd_json_number(json, NULL, picture->plan->told.x);
-    kd_json_number(json, NULL, picture->plan->told.y);
+    kd_json_number(json, NULL, window.left + picture->plan->told.x);
+    kd_json_number(json, NULL, window.top + picture->plan->told.y);
     kd_json_end(json);
     if (x->eye)
         kd_json_string(json, "eye", x->eye);

@@ -2,6 +2,7 @@
 
 #include "physics/angle.h"
 #include "render/lens/label.h"
+#include "render/plan/tile.h"
 #include "render/rays/closed.h"
 #include "render/view/critical_pixels.h"
 #include "scene/number.h"
@@ -167,8 +168,9 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *x, double out[2])
 {
     const double steps = x->told->steps_a_pixel;
-    out[0] = (x->eye && *x->eye == 'r' ? picture->frame->width / 2 : 0) + (x->told->x + 0.5) / steps;
-    out[1] = (x->told->y + 0.5) / steps;
+    const struct kd_window window = kd_scene_window(picture->scene);
+    out[0] = window.left + (x->eye && *x->eye == 'r' ? picture->frame->width / 2 : 0) + (x->told->x + 0.5) / steps;
+    out[1] = window.top + (x->told->y + 0.5) / steps;
 }
 
 double kd_explained_sum_error(const struct kd_told *pixel)
@@ -261,6 +263,30 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
     plan->told.on = true;
     plan->told.x = (uint32_t)x;
     plan->told.y = (uint32_t)y;
+    return KD_OK;
+}
+
+enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
+                                 struct kd_error *error)
+{
+    const struct kd_scene tile = kd_scene_tile(scene, (struct kd_window) { plan->told.x, plan->told.y, 1, 1 });
+    const struct kd_needs needs = kd_needs_of(scene);
+    struct kd_error why = { 0 }; /* that it takes the whole picture is no error */
+    struct kd_window cut;
+    struct kd_plan narrow;
+    if (kd_tile_check(&tile, &needs, &why))
+        return KD_OK;
+    enum kd_status status = kd_plan_make(&tile, capacity, &narrow, error);
+    if (status)
+        return status;
+    *scene = kd_tile_with_margin(&tile, &cut);
+    narrow.cut = (struct kd_window) { 0 }; /* with its margin it is a picture like any other */
+    memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations); /* the picture's */
+    narrow.n_approximations = plan->n_approximations;
+    narrow.told = plan->told;
+    narrow.told.x = cut.left;
+    narrow.told.y = cut.top;
+    *plan = narrow;
     return KD_OK;
 }
 

@@ -67,6 +67,11 @@ extern const struct kd_format kd_format_pixel;
 /* Names the pixel at a place "X,Y" of the picture, in pixels from its upper left corner, in a plan of it. KD_EINVAL
  * for what is no place of it. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
+/* Makes the scene and its plan those of that pixel and a margin round it alone, where nothing of the pixel depends on
+ * the rest of the picture (render/plan/tile.h): with an exposure that is a number, no glare, no beam. Else it leaves
+ * them. */
+enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
+                                 struct kd_error *error);
 /* What else is told, by a word: "steps", those of the engine along the middle ray. KD_EINVAL for another. */
 enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);
 

@@ -10,7 +10,9 @@
 static enum kd_status put_head(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "pixel %u, %u", picture->plan->told.x, picture->plan->told.y));
+    const struct kd_window window = kd_scene_window(picture->scene);
+    KD_TRY(
+        kd_buffer_printf(out, "pixel %u, %u", window.left + picture->plan->told.x, window.top + picture->plan->told.y));
     if (x->eye)
         KD_TRY(kd_buffer_printf(out, " of the %s eye", x->eye));
     KD_TRY(x->pixel->rays > 1

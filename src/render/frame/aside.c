@@ -63,6 +63,27 @@ static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
     }
 }
 
+/* What idle ones hold beside the last one is bounded, whatever room there is: the oldest are emptied. */
+static void bound_idle_asides(struct kd_renderer *r)
+{
+    for (;;) {
+        struct kd_aside *oldest = NULL, *last = NULL;
+        uint64_t held = 0;
+        for (struct kd_aside *a = r->asides; a < r->asides + KD_ASIDES; a++) {
+            const uint64_t own = a->busy ? 0 : kd_store_bytes(&a->store);
+            if (!own)
+                continue;
+            held += own;
+            oldest = !oldest || a->used < oldest->used ? a : oldest;
+            last = !last || a->used > last->used ? a : last;
+        }
+        if (oldest == last || held - kd_store_bytes(&last->store) <= KD_IDLE_ASIDES_BYTES)
+            return;
+        kd_store_empty(&oldest->store);
+        kd_prepared_finish(&oldest->prepared, r->vk);
+    }
+}
+
 static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan *plan)
 {
     struct kd_aside *a = aside_with(r, plan);
@@ -110,6 +131,8 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
     };
     enum kd_status status = kd_frame_run(&job, out);
     a->busy = false;
+    bound_idle_asides(renderer);
+    kd_renderer_count(renderer);
     if (!status)
         out->density_scale = scale;
     return status;

@@ -75,7 +75,9 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
     kd_json_number(json, "bands", plan->bands);
     kd_json_bool(json, "lens_map_cacheable", plan->cacheable);
     kd_json_string(json, "lens_map_key", plan->lens_key);
-    kd_json_number(json, "estimate_ms", plan->estimate_ms);
+    if (plan->kernels_ms > 0)
+        kd_json_number(json, "kernels_ms", plan->kernels_ms);
+    kd_json_number(json, "estimate_ms", plan->estimate_ms + plan->kernels_ms);
     kd_json_string(json, "estimate_basis", plan->measured ? "measured" : "guess");
     kd_json_array(json, "approximations");
     for (size_t i = 0; i < plan->n_approximations; i++)

@@ -26,7 +26,8 @@ struct kd_scene;
     F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */ \
     F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */ \
     F(PIXEL_POST, "pixel_post", 30) \
-    F(RAY_MARCH, "ray_march", 4000) /* the light of a ray through volumes */
+    F(RAY_MARCH, "ray_march", 4000)    /* the light of a ray through volumes */ \
+    F(RAY_REFINED, "ray_refined", 400) /* a ray that refining plans for, and what choosing it takes */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
 #define KD_P(emitter, id, word, guess) KD_NS_##id,

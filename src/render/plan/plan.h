@@ -109,6 +109,8 @@ struct kd_plan {
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
     double estimate_ms, trace_ns; /* of all; of one ray */
+    double kernels_ms;            /* what compiling its kernels takes beside that, estimated by who knows that they are
+                                     missing (server/render/queue.h); 0: none are, or nobody knows */
     /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this
      * share of the way from there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
     double exposure_from, exposure_share;
@@ -152,12 +154,13 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
 }
 
 /* Where image.samples is "auto" a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. Plans count on one pixel in
- * KD_PLAN_CHOSEN. */
+ * KD_PLAN_CHOSEN whose rays are followed, and one in KD_PLAN_BETWEEN whose rays lie between others. */
 #define KD_PLAN_ADAPTIVE_SIDE 4
 #define KD_PLAN_TRUTH_SIDE 8       /* of the rays that tell what is left, */
 #define KD_PLAN_SAMPLED_OF_EACH 48 /* on so many pixels of four kinds */
 #define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
 #define KD_PLAN_CHOSEN 10
+#define KD_PLAN_BETWEEN 4
 #define KD_PLAN_LISTED_BYTES (15u << 20) /* rays of all of which are fewer than 65535 workgroups */
 
 /* Pixels of so many rays whose lens map the buffer of listed pixels holds. */

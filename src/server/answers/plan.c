@@ -89,9 +89,11 @@ static enum MHD_Result plan_scene(struct kd_request *request)
 {
     enum MHD_Result result;
     struct kd_buffer json = { 0 };
-    const struct kd_planned *planned = kd_planned_of(request, &result);
-    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer)
-                   : result;
+    struct kd_planned *planned = kd_planned_of(request, &result);
+    if (!planned)
+        return result;
+    planned->plan.kernels_ms = kd_render_queue_kernels_ms(request->server->renders, &planned->drawn, &planned->plan);
+    return kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer);
 }
 
 enum MHD_Result kd_handle_plan(struct kd_request *request)

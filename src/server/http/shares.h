@@ -27,9 +27,9 @@
 #define KD_SHARE_CLIENTS 64u /* told apart at once; more of them share places */
 
 /* The classes of work with their weights inside a client. A pixel that is told is next as soon as it comes: somebody
- * points at it. A view that is moved by hand leaves a job a fifth; of one that goes on by itself (idle) or is
- * refined the job, which was asked for, has four fifths. */
-#define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.5) X(IDLE, 0.5)
+ * points at it. A view that is moved by hand leaves a job a fifth; one that goes on by itself (idle) or is refined
+ * gives way to the job, which was asked for, and has a twentieth: enough to be seen to go on. */
+#define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.1) X(IDLE, 0.1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
     KD_CLASSES(KD_CLASS_ENUM)

@@ -135,6 +135,7 @@ static void add_plan(struct kd_json *json)
         { "bands", KD_SCHEMA_COUNT, false },
         { "lens_map_cacheable", KD_SCHEMA_TRUTH, false },
         { "lens_map_key", KD_SCHEMA_TEXT, false },
+        { "kernels_ms", KD_SCHEMA_NUMBER, true },
         { "estimate_ms", KD_SCHEMA_NUMBER, false },
         { "estimate_basis", "{\"enum\":[\"measured\",\"guess\"]}", false },
         { "approximations", TEXTS, false },

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#define COMPILE_MS 2000.0 /* until one has been: some kernels on lavapipe */
 #define NICE 3 /* half the weight of what is live: a picture that is new has its part of the processor, and no more */
 
 static void ask(struct kd_render_queue *queue, struct kd_render_job *job)
@@ -123,6 +124,27 @@ static bool is_wanted(void *user, double fraction)
     return !atomic_load(&queue->uncompiled);
 }
 
+static void learn(struct kd_render_queue *queue, double ms)
+{
+    const double share = 0.3; /* of what the next one is expected to take */
+    queue->compile_ms += queue->compile_ms > 0 ? share * (ms - queue->compile_ms) : ms;
+}
+
+double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd_scene *scene,
+                                  const struct kd_plan *plan)
+{
+    double ms = 0;
+    pthread_mutex_lock(&queue->lock);
+    if (queue->compiles && !queue->holder && !queue->reopening && !queue->failed && !queue->lost) {
+        struct kd_compilation *c = kd_compilation_begin(queue->renderer, scene, plan);
+        ms = !c ? 0 : queue->compile_ms > 0 ? queue->compile_ms : COMPILE_MS;
+        if (c)
+            kd_compilation_drop(c);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return ms;
+}
+
 /* Locked; unlocks while it works. */
 static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
 {
@@ -135,6 +157,8 @@ static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
     const enum kd_status status = kd_compilation_run(c, is_wanted, queue, &error);
     kd_pulse_rest(&queue->compiler_pulse);
     pthread_mutex_lock(&queue->lock);
+    if (!status && !atomic_load(&queue->uncompiled))
+        learn(queue, kd_clock_ms() - begun);
     while (queue->compiled && !queue->closing)
         pthread_cond_wait(&queue->changed, &queue->lock);
     share_out(queue, c, kd_clock_ms() - begun);

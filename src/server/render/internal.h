@@ -56,12 +56,14 @@ struct kd_render_queue {
     struct kd_shares missing;                    /* who is next to have kernels compiled */
     struct kd_compilation *compiling, *compiled; /* by it now; and one that is not yet the renderer's */
     _Atomic bool uncompiled;                     /* nobody wants what is being compiled */
+    double compile_ms;                           /* that one takes, learned; 0: none has been compiled yet */
     struct kd_pulse pulse, compiler_pulse;       /* of whoever has the device; of who compiles */
     _Atomic bool cancel;
     struct kd_render_measures measures;
     struct kd_render_job rest; /* gives back what is not needed, once nothing has been asked for for rest_ms */
-    double rest_ms, worked_ms; /* worked_ms: when something was asked for, or done, last */
-    bool rested;               /* since then */
+    double rest_ms, worked_ms, trimmed_ms; /* worked_ms: when something was asked for, or done, last; trimmed_ms: when
+                                              the heap gave back what was free */
+    bool rested;                           /* since then */
 
     pthread_t render_thread, compiler, encoders[KD_ENCODERS];
     unsigned n_encoders;
@@ -94,6 +96,8 @@ void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render
 
 /* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked. */
 void kd_render_rest_if_idle(struct kd_render_queue *queue);
+/* rest.c, unlocked: has the heap give back what is free, once in rest_ms while there is work. */
+void kd_render_trim_if_due(struct kd_render_queue *queue);
 
 /* compile.c, locked. The first two: nobody else has the device. Looks which jobs lack kernels, and hands over what has
  * been compiled. Whether a job has what it needs. Says in its frame what it waited. */

@@ -114,7 +114,7 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
     queue->allowance.seconds = client_s;
     queue->reopenings = reopenings == KD_REOPENINGS_NONE ? 0 : reopenings ? reopenings : KD_REOPENINGS;
     queue->rest_ms = REST_MS;
-    queue->worked_ms = kd_clock_ms();
+    queue->worked_ms = queue->trimmed_ms = kd_clock_ms();
     queue->jobs.end = &queue->jobs.first;
     queue->encoding.end = &queue->encoding.first;
     pthread_mutex_init(&queue->lock, NULL);
@@ -345,6 +345,7 @@ void kd_render_queue_sweep(struct kd_render_queue *queue)
     kd_render_next(queue);
     kd_render_rest_if_idle(queue);
     pthread_mutex_unlock(&queue->lock);
+    kd_render_trim_if_due(queue);
     while (gone.first) {
         struct kd_render_job *job = kd_render_list_take(&gone, &gone.first);
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the client has gone");

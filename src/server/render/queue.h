@@ -138,6 +138,10 @@ bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client)
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);
 unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* times, so far */
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
+/* Estimates what compiling the kernels that a picture lacks will take, by those that have been compiled; 0: it lacks
+ * none, or somebody has the device, and it is not known. Any thread. */
+double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd_scene *scene,
+                                  const struct kd_plan *plan);
 /* Estimated, of all that clients wait for: not of frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 

@@ -255,6 +255,16 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
+/* It may be a picture of that pixel alone. */
+static enum kd_status narrow(const struct kd_request *request, struct kd_planned *planned, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    if (request->format != &kd_format_pixel)
+        return KD_OK;
+    kd_render_queue_capacity(request->server->renders, &capacity);
+    return kd_explain_narrow(&capacity, &planned->drawn, &planned->plan, error);
+}
+
 enum MHD_Result kd_handle_render(struct kd_request *request)
 {
     struct kd_problem problem;
@@ -279,6 +289,8 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (request->head)
         return kd_reply_send(request, MHD_HTTP_OK,
                              describe(request, kd_reply_empty(request->format->media_type), scene, plan));
+    if (narrow(request, planned, &error))
+        return kd_reply_error(request, &error);
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
     return submit(request, planned);

@@ -1,6 +1,8 @@
-/* Memory that the renderer holds is given back when nobody has asked for anything for a while. */
+/* Memory that the renderer holds is given back when nobody has asked for anything for a while; what the heap has freed,
+ * while they ask, too. */
 #include "render/device/rest.h"
 
+#include "base/allocator.h"
 #include "base/clock.h"
 #include "server/render/internal.h"
 
@@ -35,4 +37,18 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue)
         return;
     queue->rest = (struct kd_render_job) { .claim.class = KD_CLASS_JOB, .run = rest, .done = done, .socket = -1 };
     kd_render_queue_push_locked(queue, &queue->rest);
+}
+
+/* Under load nobody rests, and drivers free much of what they take to compile a kernel: a sixth of all that was
+ * resident after ten minutes (bench/soak.py). */
+void kd_render_trim_if_due(struct kd_render_queue *queue)
+{
+    const double now = kd_clock_ms();
+    pthread_mutex_lock(&queue->lock);
+    const bool due = queue->worked_ms > queue->trimmed_ms && now - queue->trimmed_ms >= queue->rest_ms;
+    if (due)
+        queue->trimmed_ms = now;
+    pthread_mutex_unlock(&queue->lock);
+    if (due)
+        kd_allocator_trim();
 }

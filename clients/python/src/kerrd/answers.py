@@ -60,6 +60,7 @@ class Plan(TypedDict):
     bands: int
     lens_map_cacheable: bool
     lens_map_key: str
+    kernels_ms: NotRequired[float]
     estimate_ms: float
     estimate_basis: Literal['measured', 'guess']
     approximations: list[str]
