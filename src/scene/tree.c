@@ -23,6 +23,16 @@ struct kd_value kd_tree_value(const cJSON *item)
     }
 }
 
+cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
+{
+    struct kd_number_locale locale = kd_number_locale_enter();
+    errno = 0;
+    cJSON *root = cJSON_ParseWithLength(text, length);
+    *starved = !root && errno == ENOMEM; /* cJSON does not tell that from bad JSON; malloc does */
+    kd_number_locale_leave(locale);
+    return root;
+}
+
 /* text ends in a NUL that length does not count: cJSON peeks one byte past what it is told. */
 static enum kd_status parse(const char *text, size_t length, cJSON **out, struct kd_error *error)
 {
@@ -30,7 +40,7 @@ static enum kd_status parse(const char *text, size_t length, cJSON **out, struct
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLengthOpts(text, length + 1, &end, 0);
-    bool starved = !root && errno == ENOMEM; /* cJSON does not tell that from bad JSON; malloc does */
+    bool starved = !root && errno == ENOMEM; /* as above */
     kd_number_locale_leave(locale);
     if (starved)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);

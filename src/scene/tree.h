@@ -6,12 +6,17 @@
 #include "scene/value.h"
 
 #include <cjson/cJSON.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 /* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most`
  * bytes or `values` values. Free *out with cJSON_Delete. */
 enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
                              struct kd_error *error);
+
+/* Parses text of a file of our own. NULL: it is no JSON, or with *starved memory was short. Free it with
+ * cJSON_Delete. */
+cJSON *kd_tree_read(const char *text, size_t length, bool *starved);
 
 /* Makes a value of the item. It is valid as long as the item. */
 struct kd_value kd_tree_value(const cJSON *item);

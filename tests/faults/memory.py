@@ -11,6 +11,7 @@ import daemon
 import sweep
 
 IMAGE = {"image": {"width": 32, "height": 18}}
+GRID = {"spacetime": {"spin": 0.5}}
 RING = {"spin": 0.5, "rays": [[5.0, 1.0], [2.0, -3.0]]}
 
 
@@ -141,14 +142,32 @@ class Memory(sweep.Case):
         self.sweep(self.get(at + "/frame.png"), 200, "GET /v1/sessions/{id}/frame.png")
 
     def test_an_asset(self):
+        self.puts("a picture", lambda seed: assets.png(seed=seed), "image/png")
+
+    def test_a_grid_of_matter(self):
+        self.puts("a grid", lambda seed: assets.grid(seed / 1024), "application/x-npz")
+
+    def test_pictures_of_assets(self):
+        """A scene that names a picture or a grid is never told that it is wrong where memory was short."""
+        for data, kind, scene in (
+            (assets.png(32, 16), "image/png", lambda asset: {"sky": {"model": "image", "image": asset}}),
+            (assets.grid(0.5), "application/x-npz", lambda asset: GRID | {"volume": {"model": "grid", "grid": asset}}),
+        ):
+            put = self.server.request("PUT", "/v1/assets", data, {"Content-Type": kind}).json()
+            for target in "/v1/plan", "/v1/render":
+                with self.subTest(target + " of " + kind):
+                    self.sweep(self.post(target, IMAGE | scene(put["sha256"])), 200, f"POST {target} of {kind}")
+            self.end_one("/v1/assets", {"id": put["sha256"], "token": put["token"]})
+
+    def puts(self, name, made, kind):
         """Each attempt puts other bytes, which are found afterwards if they were taken, and only then."""
         seed = [0]
 
         def put():
             seed[0] += 1
-            data = assets.png(seed=seed[0])
+            data = made(seed[0])
             try:
-                answer = self.ask("PUT", "/v1/assets", data, {"Content-Type": "image/png"})
+                answer = self.ask("PUT", "/v1/assets", data, {"Content-Type": kind})
             finally:
                 self.faults.mend()
             told = self.server.get("/v1/assets").json()
@@ -158,7 +177,7 @@ class Memory(sweep.Case):
                 self.end_one("/v1/assets", {"id": answer.json()["sha256"], "token": answer.json()["token"]})
             return answer
 
-        self.sweep(put, 201, "PUT /v1/assets")
+        self.sweep(put, 201, "PUT /v1/assets of " + name)
 
     def test_a_job_to_its_end(self):
         """A job that was accepted ends with the bytes that it has without a failure, if need be after a wait."""

@@ -43,12 +43,16 @@ BEGUN = {
     "kerrd playground --preset disruption --time 3200": "161 pictures of a torn star",
     "kerrd playground torn.json --set h_max=10000": "two million M",
     "kerrd bench accuracy": "every engine is measured; tests/cli/bench.py does",
+    "kerrd spectrum --preset riaf": "twenty pictures of a volume; tests/cli/visibility.py has a small one",
+    "kerrd visibility --preset riaf": "three of them; tests/cli/visibility.py has a small one",
+    "kerrd playground --preset swarm --picture": "24 bodies in one picture; tests/cli/playground_pictures.py has a small one",
+    "kerrd sweep --preset riaf": "three pictures of a volume; tests/cli/sweep.py has small ones",
     "kerrd render -p riaf": "a volume that is marched, at its own size",
     "kerrd sweep -p riaf": "three of them",
     "kerrd render -p torus": "another",
     "kerrd light-curve -p hot-spot --set polarization": "121 polarised pictures",
 }
-BEGUN_S = 5
+BEGUN_S = 3
 
 
 def blocks(text):

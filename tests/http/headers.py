@@ -1,6 +1,8 @@
 """The header of an answer fits into the buffers of proxies, whatever the scene shows: nginx takes 4096 bytes by
 default. daemon.py holds the answers of all tests to the bound; here is what shows as much as a scene can."""
 
+import json
+import subprocess
 import unittest
 
 import daemon
@@ -52,6 +54,14 @@ RICHEST = {
 }
 
 
+def torn():
+    """A playground of a star that is torn apart, which stands still, in the richest scene that takes bodies."""
+    arguments = ("playground", "-p", "disruption", "--set", "debris_per_body=200", "--time", "3000", "-o", "-")
+    made = subprocess.run([daemon.COMMAND[0], *arguments], capture_output=True, check=True)
+    scene = {name: value for name, value in RICHEST["gas"].items() if name != "bodies"}
+    return {**json.loads(made.stdout), "paused": True, "scene": scene}
+
+
 class Richest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -71,8 +81,22 @@ class Richest(unittest.TestCase):
         self.assertEqual(
             {one["of"] for one in self.known.values()} - of,
             {"lists of rays", "debris"},
-            "debris is of playgrounds alone",
+            "debris is of playgrounds alone, and tested below",
         )
+
+    def test_a_frame_with_debris(self):
+        one = self.daemon.post("/v1/playground", torn()).json()
+        frames = []
+
+        def there():  # 204 while kernels are compiled
+            frames.append(self.daemon.get(f"/v1/playground/{one['id']}/frame.png", Origin=ORIGIN))
+            return frames[-1].status != 204
+
+        self.assertTrue(daemon.eventually(there))
+        self.assertEqual(frames[-1].status, 200, frames[-1].body[:300])
+        names = frames[-1].header("Kerrd-Approximations").split(", ")
+        self.assertGreaterEqual(len(names), 40)
+        self.assertIn("debris", {self.known[name]["of"] for name in names})
 
     def test_a_picture_and_a_live_frame(self):
         """Their headers are counted by daemon.py."""

@@ -14,7 +14,7 @@ import time
 import unittest
 
 import daemon
-from headers import RICHEST
+from headers import RICHEST, torn
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "docs/examples/tls"
 TOKEN = "render-0123456789abc"
@@ -200,6 +200,22 @@ class Proxies:
             self.assertGreater(
                 len({name.lower(): value for name, value in headers.items()}["kerrd-approximations"].split(", ")), 30
             )
+
+    def test_a_playground_with_debris(self):
+        status, _, body = self.ask("POST", "/v1/playground", torn(), Kerrd_Access=TOKEN)
+        self.assertEqual(status, 201, body)
+        frames = []
+
+        def there():  # 204 while kernels are compiled
+            frames.append(self.ask("GET", f"/v1/playground/{json.loads(body)['id']}/frame.png", Kerrd_Access=TOKEN))
+            return frames[-1][0] != 204
+
+        self.assertTrue(daemon.eventually(there))
+        status, headers, picture = frames[-1]
+        self.assertEqual(status, 200, picture[:300])
+        names = {name.lower(): value for name, value in headers.items()}["kerrd-approximations"].split(", ")
+        self.assertGreaterEqual(len(names), 40)
+        self.assertTrue([name for name in names if name.startswith("debris.")], names)
 
     def test_the_page(self):
         """With stars, jets and a spot, in a browser: it is asked for its token, and shows a live view and what is

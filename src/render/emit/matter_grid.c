@@ -5,6 +5,7 @@
 #include "physics/constants.h"
 #include "physics/kerr.h"
 #include "render/emit/matter_array.h"
+#include "scene/tree.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -94,8 +95,11 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     enum kd_status status = kd_matter_member(&r->zip, "header", HEADER_MOST, &bytes, error);
     if (!status && (status = kd_npy_read_text(bytes.data, bytes.size, &text, &why)))
         status = status == KD_ENOMEM ? kd_matter_no_memory(error) : kd_matter_refuse("header", why.message, error);
-    cJSON *header = status ? NULL : cJSON_ParseWithLength(text.data ? (const char *)text.data : "", text.size);
-    if (!status)
+    bool starved = false;
+    cJSON *header = status ? NULL : kd_tree_read(text.data ? (const char *)text.data : "", text.size, &starved);
+    if (starved)
+        status = kd_matter_no_memory(error);
+    else if (!status)
         status = cJSON_IsObject(header) ? check_header(&r->grid, header, error)
                                         : kd_matter_refuse("header", "is no JSON object", error);
     cJSON_Delete(header);

@@ -9,6 +9,7 @@
 #include "image/zip.h"
 #include "render/output/notes.h"
 #include "render/output/numbers.h"
+#include "scene/tree.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -100,10 +101,11 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
     if (member)
         status = kd_unzip_take(&zip, member, 2 * KD_SCENE_JSON_MAX, &text, NULL);
     kd_unzip_finish(&zip);
-    cJSON *notes = !text.size ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
+    bool starved = false;
+    cJSON *notes = !text.size ? NULL : kd_tree_read((const char *)text.data, text.size, &starved);
     cJSON *scene = cJSON_GetObjectItemCaseSensitive(notes, "scene");
     char *printed = scene ? cJSON_PrintUnformatted(scene) : NULL;
-    if (status == KD_ENOMEM)
+    if (status == KD_ENOMEM || starved || (scene && !printed))
         status = kd_error_set(error, KD_ENOMEM, "out of memory for the notes of an NPZ file");
     else
         status = printed ? kd_notes_scene(printed, strlen(printed), out, error)

@@ -6,6 +6,7 @@
 #include "base/replace.h"
 #include "server/job/folder.h"
 #include "job/spec.h"
+#include "scene/tree.h"
 
 #include <cjson/cJSON.h>
 #include <dirent.h>
@@ -265,9 +266,12 @@ enum fate { KEPT, GONE, ASIDE };
 /* Reads a record of this version; false, with the reason in why, if it is none. */
 static bool parse_record(const struct kd_buffer *text, const char *id, struct kd_job_record *out, const char **why)
 {
-    cJSON *o = cJSON_ParseWithLength((const char *)text->data, text->size);
+    bool starved;
+    cJSON *o = kd_tree_read((const char *)text->data, text->size, &starved);
     bool good = o && read_record(o, id, out);
-    if (!good)
+    if (starved)
+        *why = "there is no memory for its job.json";
+    else if (!good)
         *why = o && number(o, "format") > 0 && (number(o, "format") != 1 || !series_of(o))
                    ? "its job.json is of another version of kerrd"
                    : "its job.json is damaged";
