@@ -141,11 +141,11 @@ kd_cross cross_of(uvec2 corner, uint side)
 
 /* What an axis of a cross tells of a quantity: what its polynomial is off by at the ray next to its first node, the
  * slope in the middle and the largest second difference, both of a quarter of the side. */
-struct kd_told { vec3 off, slope, bend; };
+struct kd_line_told { vec3 off, slope, bend; };
 
-kd_told told_of(vec3 v[6])
+kd_line_told told_of(vec3 v[6])
 {
-    kd_told t;
+    kd_line_told t;
     vec3 a = v[0] - v[2], b = v[1] - v[2], d = v[3] - v[2], e = v[4] - v[2];
     t.off = v[5] - v[2] - (35.0 * a + 140.0 * b + 28.0 * d - 5.0 * e) / 128.0;
     t.slope = 0.5 * (d - b);
@@ -170,7 +170,7 @@ float steps_to_hole(uvec2 corner, uint side)
 }
 
 /* Whether the polynomials of a quantity tell both rays. scale: what the tolerance is relative to. */
-bool tells(kd_told x, kd_told y, vec3 scale, float far)
+bool tells(kd_line_told x, kd_line_told y, vec3 scale, float far)
 {
     vec3 steep = CONDITION * far * sqrt(x.slope * x.slope + y.slope * y.slope) / scale,
          most = push.tolerance * scale * max(vec3(1.0), steep);
@@ -179,7 +179,7 @@ bool tells(kd_told x, kd_told y, vec3 scale, float far)
 
 bool crossing_is_smooth(kd_cross c, uint n, uint side, float far)
 {
-    kd_told t[2];
+    kd_line_told t[2];
     vec3 middle = crossing_of(c.at[2], n);
     float least = middle.x, most = middle.x, steepest = abs(middle.z);
     for (uint axis = 0u; axis < 2u; axis++) {
@@ -201,7 +201,7 @@ bool crossing_is_smooth(kd_cross c, uint n, uint side, float far)
 
 bool sky_is_smooth(kd_cross c, uint side, float far)
 {
-    kd_told t[2];
+    kd_line_told t[2];
     vec3 middle = direction_of(c.at[2]);
     for (uint axis = 0u; axis < 2u; axis++) {
         vec3 v[6];

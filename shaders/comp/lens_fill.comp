@@ -94,9 +94,9 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* A ray's place in the cell's polynomials: the value there, and how it changes from ray to ray. */
-struct kd_spot { vec3 v, i, j; };
+struct kd_patch_at { vec3 v, i, j; };
 
-void put_crossing(uint at, uint n, kd_spot s, bool falls)
+void put_crossing(uint at, uint n, kd_patch_at s, bool falls)
 {
     put(at, n, s.v.x);
     if (PHI)
@@ -113,7 +113,7 @@ void put_crossing(uint at, uint n, kd_spot s, bool falls)
     }
 }
 
-void put_end(uint at, kd_spot s)
+void put_end(uint at, kd_patch_at s)
 {
     put(at, kd_plane(KD_LENS_SKY_U), s.v.z * inversesqrt(dot(s.v, s.v)));
     put(at, kd_plane(KD_LENS_SKY_PHI), kd_atan2(s.v.y, s.v.x));
@@ -133,7 +133,7 @@ void fill_rows(kd_lines l, kd_rows rows, vec3 middle, uint n, bool falls)
     uint at = rows.at, k = 0u;
     do {
         kd_weights by = weigh(rows.from + float(k) * rows.unit);
-        kd_spot s;
+        kd_patch_at s;
         s.v = middle + along(by.value, l.value);
         if (STEEP) {
             s.i = rows.unit * along(by.value, l.slope);

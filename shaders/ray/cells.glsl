@@ -16,11 +16,11 @@
 
 #define F(name) float name;
 #define U(name) uint name;
-struct kd_sample { KD_SAMPLE_FIELDS_(F, U) };
+struct kd_sampling { KD_SAMPLE_FIELDS_(F, U) };
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
-layout(push_constant) uniform Push { kd_sample push_; };
+layout(push_constant) uniform Push { kd_sampling push_; };
 layout(set = 0, binding = KD_SAMPLE_CAMERA_BINDING, std140) uniform Camera { kd_camera_block camera_; };
-kd_sample push; /* both read before the first branch, as in ray/camera.glsl */
+kd_sampling push; /* both read before the first branch, as in ray/camera.glsl */
 kd_camera_block cam;
 
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,

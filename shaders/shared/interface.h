@@ -51,8 +51,8 @@
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */ \
     U(band0)                /* first row of the band that the buffers hold */ \
     U(stride)               /* rays of the band: distance between planes of the lens map */ \
-    U(list)                 /* of listed pixels, where it begins in the lens map; of nodes, where their states do */ \
-    /* of rays by their places: which, where the places of their list begin, and the ray that these are counted from */ \
+    U(list)                 /* of listed pixels, where it begins in the lens map; of nodes, where states do */ \
+    /* of rays by their places: which, where the places of their list begin, and the ray that these count from */ \
     U(stage) U(places) U(origin_x) U(origin_y) \
     U(steps) U(fine)        /* of the march (light/march.glsl): steps a half period; quarters of a stretch a grain; */ \
     F(opaque)               /* what of the light behind need not come through for the ray to go on */ \

@@ -76,7 +76,8 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
     scene.accuracy.orders = orders;
     OK(kd_scene_validate(&scene, &error));
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, needs, &capacity, &lens.plan, &error));
+    const struct kd_needs followed = { .quantities = needs->quantities, .followed = true };
+    OK(kd_plan_make_for(&scene, &followed, &capacity, &lens.plan, &error));
     lens.planes = test_malloc(sizeof(float) * lens.plan.planes * lens.plan.rays);
     OK(kd_render_lens(renderer, &scene, &lens.plan, lens.planes, NULL, &error));
     return lens;
@@ -275,8 +276,9 @@ static void test_in_plane(void **state)
     scene.image.width = GRID;
     scene.image.height = 1;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
-                        &plan, &error));
+    OK(kd_plan_make_for(&scene,
+                        &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY, .followed = true },
+                        &capacity, &plan, &error));
     assert_true(plan.path == KD_LENS_CLOSED && plan.planes == 9);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     int escaped = 0;
@@ -329,7 +331,8 @@ static void test_shadow(void **state)
     scene.camera.field_m = 12;
     scene.image.width = scene.image.height = n;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY, .followed = true }, &capacity, &plan,
+                        &error));
     float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     const float *fate = planes + (plan.planes - 1) * plan.rays;

@@ -196,7 +196,9 @@ static struct kd_scene scene_of(double spin, double r)
 static void tiles_are_the_bytes_of_the_whole(void **state)
 {
     (void)state;
-    static const struct kd_window tiles[] = { { 0, 0, 300, 200 }, { 37, 21, 90, 70 }, { 140, 90, 1, 1 }, { 63, 64, 65, 66 } };
+    static const struct kd_window tiles[] = {
+        { 0, 0, 300, 200 }, { 37, 21, 90, 70 }, { 140, 90, 1, 1 }, { 63, 64, 65, 66 }
+    };
     const uint32_t quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY;
     const struct kd_scene scene = scene_of(0.9, INFINITY);
     struct map whole = map_of(&scene, quantities, false);
@@ -208,8 +210,8 @@ static void tiles_are_the_bytes_of_the_whole(void **state)
                 for (uint32_t x = 0; x < tiles[i].width; x++) {
                     const size_t at = (size_t)(y + tiles[i].top) * 300 + x + tiles[i].left,
                                  n = (size_t)y * tiles[i].width + x;
-                    const bool crosses = p % 3 < crossings(&whole, at), escapes =
-                        plane(&whole, KD_LENS_FATE, 0)[at] == KD_FATE_ESCAPED;
+                    const bool crosses = p % 3 < crossings(&whole, at),
+                               escapes = plane(&whole, KD_LENS_FATE, 0)[at] == KD_FATE_ESCAPED;
                     if (p < 3 || (p < 6 ? crosses : escapes || p == 8))
                         assert_memory_equal(&part.planes[p * part.plan.rays + n],
                                             &whole.planes[p * whole.plan.rays + at], sizeof(float));
@@ -251,7 +253,10 @@ static void some_scenes_follow_every_ray(void **state)
     struct kd_plan plan;
     kd_renderer_capacity(renderer, &c);
     struct kd_scene scene = scene_of(0.9, INFINITY);
-    static const struct { enum kd_profile profile; bool interpolates; } profiles[] = {
+    static const struct {
+        enum kd_profile profile;
+        bool interpolates;
+    } profiles[] = {
         { KD_PROFILE_DRAFT, true }, { KD_PROFILE_INTERACTIVE, true }, { KD_PROFILE_BALANCED, true },
         { KD_PROFILE_HIGH, false }, { KD_PROFILE_REFERENCE, false },
     };

@@ -147,8 +147,9 @@ static void estimates_are_figures(void **state)
         const char *name;
         double ms;
     } expected[] = {
-        { "trace", 5000 * 10e-6 },         { "audit", 768 * 4e-3 },  { "transfer", 5000 * 30e-6 },
-        { "expose", 5000 * 0.25 * 40e-6 }, { "post", 5000 * 40e-6 }, { "readback", 5000 * 4e-6 },
+        { "trace", 5000 * 10e-6 },    { "interpolate", 5000 * 2.5e-6 },  { "audit", 768 * 4e-3 },
+        { "transfer", 5000 * 30e-6 }, { "expose", 5000 * 0.25 * 40e-6 }, { "post", 5000 * 40e-6 },
+        { "readback", 5000 * 4e-6 },
     };
     assert_int_equal(plan.n_passes, sizeof expected / sizeof *expected);
     for (size_t i = 0; i < plan.n_passes; i++) {

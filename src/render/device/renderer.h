@@ -73,14 +73,16 @@ uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
  * against the closed form in double. sampled is 0 where that cannot be: a picture too large to keep its lens map,
  * one without crossings. */
 struct kd_accuracy_report {
-    uint64_t undecided;          /* rays of the whole picture that were given up: magenta in it */
-    uint32_t sampled, crossings; /* rays traced again; crossings compared */
-    uint32_t differ;             /* crossings that one of the two has and the other has not; rays of another fate */
-    double median, worst;        /* relative error of the radius */
-    uint64_t followed;           /* rays beyond those of the plan that were followed, on */
-    uint64_t refined, between;   /* pixels that were given more rays, followed or taken from between others; with
-                                    image.samples "auto" alone, as what follows: */
-    uint32_t pixel_sampled;      /* pixels compared with 64 rays each */
+    uint64_t undecided;            /* rays of the whole picture that were given up: magenta in it */
+    uint64_t traced, interpolated; /* of a lens map that is interpolated between rays: rays that were followed for it,
+                                      and the others; 0: every ray was followed, or the map was there */
+    uint32_t sampled, crossings;   /* rays traced again; crossings compared */
+    uint32_t differ;               /* crossings that one of the two has and the other has not; rays of another fate */
+    double median, worst;          /* relative error of the radius */
+    uint64_t followed;             /* rays beyond those of the plan that were followed, on */
+    uint64_t refined, between;     /* pixels that were given more rays, followed or taken from between others; with
+                                      image.samples "auto" alone, as what follows: */
+    uint32_t pixel_sampled;        /* pixels compared with 64 rays each */
     double pixel_error, pixel_error_worst; /* how far off what is shown is there, of white: root mean square of the
                                               picture; worst of the sample */
     uint32_t volume_sampled; /* of scenes with volumes: rays whose light changed when they were followed KD_MARCH_FINER

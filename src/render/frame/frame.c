@@ -112,6 +112,8 @@ static enum kd_status judge_map(struct kd_frame_job *j)
     if (j->plan->audit)
         j->audit_ms = kd_clock_ms() - start;
     j->lens->accuracy.undecided = j->undecided;
+    j->lens->accuracy.traced = j->traced;
+    j->lens->accuracy.interpolated = j->interpolated;
     kd_store_commit(j->store, j->lens, j->plan);
 done:
     return status;

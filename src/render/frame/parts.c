@@ -20,6 +20,8 @@ static struct kd_accuracy_report both(const struct kd_accuracy_report *l, const 
 {
     return (struct kd_accuracy_report) {
         l->undecided + r->undecided,
+        l->traced + r->traced,
+        l->interpolated + r->interpolated,
         l->sampled + r->sampled,
         l->crossings + r->crossings,
         l->differ + r->differ,

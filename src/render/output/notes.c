@@ -15,6 +15,9 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
         (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
         kd_precision_name(plan->setting.precision), plan->setting.steps,
         (unsigned long long)(kd_plan_rays(plan) - plan->rays), (unsigned long long)report->undecided, report->sampled);
+    if (report->interpolated)
+        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " traced=%llu interpolated=%llu",
+                      (unsigned long long)report->traced, (unsigned long long)report->interpolated);
     if (report->sampled)
         n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e",
                       report->crossings, report->differ, report->median, report->worst);
@@ -36,6 +39,10 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
 {
     kd_json_number(json, "undecided", (double)report->undecided);
     kd_json_number(json, "lost", (double)report->lost);
+    if (report->interpolated) {
+        kd_json_number(json, "traced", (double)report->traced);
+        kd_json_number(json, "interpolated", (double)report->interpolated);
+    }
     kd_json_number(json, "sampled", report->sampled);
     if (report->sampled) {
         kd_json_number(json, "crossings", report->crossings);

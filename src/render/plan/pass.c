@@ -60,6 +60,14 @@ static struct kd_pass_cost march_error(const struct kd_plan *plan, const struct 
     return (struct kd_pass_cost) { "transfer.comp", (1 + KD_MARCH_FINER) * kd_plan_light_ns(plan, c), KD_NS_NONE };
 }
 
+/* A ray of the map, from its cell's nodes: of lavapipe a quarter of what following it takes for radii alone, and a
+ * tenth of it for all that there is. */
+static struct kd_pass_cost interpolate(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    const double ns = kd_plan_is_radii(plan) ? 0.25 * c->ns[KD_NS_RAY_RADIUS] : 0.1 * c->ns[KD_NS_RAY_FULL];
+    return (struct kd_pass_cost) { "lens_fill.comp", ns, KD_NS_NONE };
+}
+
 static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     (void)plan, (void)c;

@@ -51,7 +51,7 @@ extern const struct kd_figure {
  * A kernel is a file under shaders/comp, "" for a copy and for the CPU. */
 #define KD_PASSES(P) \
     P(TRACE, "trace", traced, BY(trace), RAYS, MAP) \
-    P(INTERPOLATE, "interpolate", interpolated, PART("lens_fill.comp", RAY_FULL, 0.1), RAYS, MAP) \
+    P(INTERPOLATE, "interpolate", interpolated, BY(interpolate), RAYS, MAP) \
     P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP) \
     P(AUDIT, "audit", audited, BY(audit), FIXED, MAP) \
     KD_EMIT_PASSES \

@@ -47,6 +47,7 @@ WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
 WHEN(projected, plan->ring)
 WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
+WHEN(interpolated, plan->interpolates > 0)
 WHEN(single, plan->setting.precision == KD_PRECISION_F32 && plan->path != KD_LENS_LISTED)
 WHEN(single_listed, plan->setting.precision == KD_PRECISION_F32 && plan->path == KD_LENS_LISTED)
 WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
@@ -132,6 +133,10 @@ static const struct sentence {
       "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of "
       "camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space",
       paired },
+    { "lens.interpolated",
+      "lens map: rays are followed closely where it bends, and where image orders or fates change; between them it is "
+      "interpolated to 1e-5, or to 2e-6 by the profile \"balanced\"; answers tell how many rays were followed",
+      interpolated },
     { "arithmetic.f32",
       "arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits",
       single },

@@ -207,16 +207,18 @@ static inline uint64_t kd_plan_rays(const struct kd_plan *plan)
 
 /* Of these, where the map is interpolated between rays, about so many are followed: those along the edges of orders and
  * fates, and between them the fewer the more closely they lie. Measured from 320 x 180 to 4K (docs/accuracy.md). */
+#define KD_PLAN_FOLLOWED 105 /* times the square root of their number */
 static inline uint64_t kd_plan_followed(const struct kd_plan *plan)
 {
-    const double rays = (double)plan->rays, most = rays < 105 * sqrt(rays) ? rays : 105 * sqrt(rays);
+    const double rays = (double)plan->rays, most = fmin(rays, KD_PLAN_FOLLOWED * sqrt(rays));
     return plan->interpolates > 0 ? (uint64_t)most + plan->critical * plan->critical_pixels : kd_plan_rays(plan);
 }
 
 /* What a ray of the grid's map takes, followed or not, in ns. */
 static inline double kd_plan_map_ns(const struct kd_plan *plan)
 {
-    return plan->interpolates > 0 ? plan->trace_ns * (105 / sqrt((double)plan->rays) + 0.1) : plan->trace_ns;
+    return plan->interpolates > 0 ? plan->trace_ns * (fmin(1, KD_PLAN_FOLLOWED / sqrt((double)plan->rays)) + 0.25)
+                                  : plan->trace_ns;
 }
 
 /* Rays that may be followed on such pixels: all together are then a quarter of those that a picture with 16 in each
