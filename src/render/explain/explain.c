@@ -2,6 +2,7 @@
 
 #include "physics/angle.h"
 #include "render/lens/label.h"
+#include "render/plan/sample.h"
 #include "render/plan/tile.h"
 #include "render/rays/closed.h"
 #include "render/view/critical_pixels.h"
@@ -260,6 +261,7 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
             "at is \"%s\", allowed is X,Y: pixels from the upper left corner, below %u across and %u down", shown,
             width, plan->height);
     }
+    kd_plan_follow_all(plan);
     plan->told.on = true;
     plan->told.x = (uint32_t)x;
     plan->told.y = (uint32_t)y;
@@ -270,13 +272,14 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
                                  struct kd_error *error)
 {
     const struct kd_scene tile = kd_scene_tile(scene, (struct kd_window) { plan->told.x, plan->told.y, 1, 1 });
-    const struct kd_needs needs = kd_needs_of(scene);
+    struct kd_needs needs = kd_needs_of(scene);
     struct kd_error why = { 0 }; /* that it takes the whole picture is no error */
     struct kd_window cut;
     struct kd_plan narrow;
     if (kd_tile_check(&tile, &needs, &why))
         return KD_OK;
-    enum kd_status status = kd_plan_make(&tile, capacity, &narrow, error);
+    needs.followed = true;
+    enum kd_status status = kd_plan_make_for(&tile, &needs, capacity, &narrow, error);
     if (status)
         return status;
     *scene = kd_tile_with_margin(&tile, &cut);

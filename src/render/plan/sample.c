@@ -2,7 +2,10 @@
 
 #include "interface.h"
 
+#include "scene/sha256.h"
+
 #include <math.h>
+#include <stdio.h>
 
 enum {
     EVEN = KD_CELL_BLOCK / 2,
@@ -75,4 +78,16 @@ double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *sc
     if (isfinite(wish.tolerance))
         return wish.tolerance >= HOLDS ? by_profile[KD_PROFILE_BALANCED] : 0;
     return by_profile[wish.profile];
+}
+
+void kd_plan_follow_all(struct kd_plan *plan)
+{
+    char text[96];
+    if (!(plan->interpolates > 0))
+        return;
+    plan->interpolates = 0;
+    const int n = snprintf(text, sizeof text, "%s, every ray followed", plan->lens_key);
+    kd_sha256(text, (size_t)n, plan->lens_key);
+    for (size_t i = 0; i < plan->n_passes; i++)
+        plan->passes[i].figure = KD_NS_NONE;
 }

@@ -23,8 +23,11 @@ uint32_t kd_sample_rows(const struct kd_plan *plan);
 /* and then take so many bytes; 0 of a plan all of whose rays are followed. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);
 
-/* The relative error of what is interpolated that a scene's accuracy allows (DESIGN of the lens map: docs/decisions);
+/* The relative error of what is interpolated that a scene's accuracy allows (docs/decisions/0017);
  * 0: every ray is followed. plan: its path and setting are known. */
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene);
+
+/* Makes every ray of a plan be followed after all: by another map, and what its passes take is not learned from. */
+void kd_plan_follow_all(struct kd_plan *plan);
 
 #endif
