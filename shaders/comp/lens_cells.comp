@@ -177,6 +177,21 @@ bool tells(kd_line_told x, kd_line_told y, vec3 scale, float far)
     return is_told(abs(x.off), most) && is_told(abs(y.off), most);
 }
 
+/* Between nodes a curve leaves them by an eighth of its second difference: whether what vanishes where fates change,
+ * and is this at least at the nodes, can vanish between them. Four times that, and twice what the polynomials miss. */
+bool curve_is_far(kd_cross c, float least)
+{
+    float bend = 0.0, middle = curve_of(c.at[2]);
+    for (uint axis = 0u; axis < 2u; axis++) {
+        vec3 v[6];
+        for (uint i = 0u; i < 6u; i++)
+            v[i] = vec3(curve_of(i < 5u ? node_of_cross(c, axis, i) : check_node(c, axis)) - middle, 0.0, 0.0);
+        kd_line_told t = told_of(v);
+        bend = max(bend, max(0.5 * t.bend.x, 2.0 * abs(t.off.x)));
+    }
+    return least > bend;
+}
+
 bool crossing_is_smooth(kd_cross c, uint n, uint side, float far)
 {
     kd_line_told t[2];
@@ -221,8 +236,13 @@ bool is_smooth(uvec2 corner, uint side, out float state)
     kd_cross c = cross_of(corner, side);
     state = state_of(c.at[2]);
     bool same = state != KD_NODE_OPEN && state_of(c.at[10]) == state && state_of(c.at[11]) == state;
-    for (uint k = 0u; k < 25u; k++)
-        same = same && state_of(number[index_of_node(corner, side, k % 5u, k / 5u)] - 1u) == state;
+    float least = 1e30;
+    for (uint k = 0u; k < 25u; k++) {
+        uint node = number[index_of_node(corner, side, k % 5u, k / 5u)] - 1u;
+        least = min(least, abs(curve_of(node)));
+        same = same && state_of(node) == state;
+    }
+    same = same && curve_is_far(c, least);
     float far = steps_to_hole(corner, side);
     const uint crossings = same ? min(crossings_of(state), ORDERS) : 0u;
     for (uint n = 0u; n < crossings; n++)

@@ -226,5 +226,5 @@ void main()
         }
         open = !keep_end(at, m, ray, a, azimuth, drag, leg, middle, z, before, !open);
     }
-    kd_finish_ray(open, at, crossings, drag.falls);
+    kd_finish_ray(open, at, crossings, drag.falls, barrier.r);
 }

@@ -192,5 +192,9 @@ void main()
         lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = end.fate;
         open = end.fate == KD_FATE_UNDECIDED;
     }
-    kd_finish_ray(open, at, crossings, dark || !kd_flies_out(barrier, start));
+    float curve = barrier.r;
+    if (INGOING && start.w >= cam.horizon) { /* and where light comes from outside (kd_from_outside) */
+        curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;
+    }
+    kd_finish_ray(open, at, crossings, dark || !kd_flies_out(barrier, start), curve);
 }

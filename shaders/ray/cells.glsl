@@ -58,6 +58,7 @@ uvec2 kd_unit_corner(uint unit)
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }
+float curve_of(uint node) { return NODE_AT((kd_planes_of_all() + 1u) * push.room + node); }
 uint crossings_of(float state) { return uint(state) & 15u; }
 bool captured(float state) { return state >= KD_NODE_CAPTURED; }
 

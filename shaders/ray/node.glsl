@@ -8,9 +8,10 @@
 /* A node has what is smooth from ray to ray: of a captured ray azimuths without the logarithm that they end in at the
  * horizon, and instead of angles in the sky, and of a fate, a unit vector: x, y and z in the planes of SKY_PHI, FATE
  * and SKY_U. */
-void kd_finish_node(uint at, uint crossings, bool captured)
+void kd_finish_node(uint at, uint crossings, bool captured, float curve)
 {
     lens[slice.list + at] = float(crossings) + (captured ? KD_NODE_CAPTURED : 0.0);
+    lens[slice.list + slice.stride + at] = curve;
     if (PHI && captured)
         for (uint n = 0u; n < ORDERS; n++)
             lens[at + (kd_plane(KD_LENS_PHI) + n) * slice.stride] +=
@@ -23,12 +24,13 @@ void kd_finish_node(uint at, uint crossings, bool captured)
     }
 }
 
-/* A node is not listed as open: its state says that it is, and its cells are followed ray by ray. */
-void kd_finish_ray(bool open, uint at, uint crossings, bool captured)
+/* A node is not listed as open: its state says that it is, and its cells are followed ray by ray. curve: of rays, a
+ * smooth function that vanishes where fates change. */
+void kd_finish_ray(bool open, uint at, uint crossings, bool captured, float curve)
 {
     const bool node = BY_PLACE && slice.stage != KD_STAGE_ALONE;
     if (node)
-        kd_finish_node(at, crossings, captured);
+        kd_finish_node(at, crossings, captured, curve);
     if (node && open)
         lens[slice.list + at] = KD_NODE_OPEN;
     if (!node)

@@ -114,6 +114,7 @@
 /* How a node counts: its crossings, and so much more if it is captured; below 0: the ray is open. */
 #define KD_NODE_CAPTURED 16.0
 #define KD_NODE_OPEN -1.0
+#define KD_NODE_OWN 2 /* planes behind those of nodes: their states, and what vanishes where fates change */
 
 #define KD_FOOTPRINT_WANTED -1.0
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than all that is */

@@ -40,7 +40,7 @@ struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, 
     grid.alone = grid.places + grid.room;
     grid.list_bytes = 4 * (grid.alone + (uint64_t)width * rows);
     grid.index_bytes = 4 * (even + 2ull * LAST * LAST * n);
-    grid.node_bytes = 4ull * (plan->planes + 1) * grid.room;
+    grid.node_bytes = 4ull * (plan->planes + KD_NODE_OWN) * grid.room;
     return grid;
 }
 
