@@ -1,5 +1,6 @@
 /* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any
  * time, and against the steady stream that they are to be; and that those who are off cost nothing. */
+#include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
 #include "physics/kerr.h"
@@ -214,7 +215,8 @@ static void test_off(void **state)
     assert_true(!grids[1].plunging && !grids[2].plunging && grids[3].plunging == FALLING);
     assert_true(grids[1].bytes < grids[0].bytes && !grids[1].plunge_rows);
     assert_int_equal(plans[0].device_bytes - plans[1].device_bytes,
-                     grids[0].bytes - grids[1].bytes + plans[0].lens_bytes - plans[1].lens_bytes);
+                     grids[0].bytes - grids[1].bytes + plans[0].lens_bytes - plans[1].lens_bytes +
+                         kd_sample_bytes(&plans[0]) - kd_sample_bytes(&plans[1]));
     assert_true(plans[0].n_approximations == plans[1].n_approximations + 1);
 }
 

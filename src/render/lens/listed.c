@@ -265,12 +265,13 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
                                                                             : KD_RAY_UNDECIDED };
     for (size_t k = 0; k + 1 < course.n; k++) {
         const struct kd_null_place *p = &places[k];
-        if (p->crossing < 0 || (uint32_t)p->crossing >= orders || p->r <= horizon)
-            continue;
-        const double twist = kd_kerr_twist(at.spin, p->r);
+        const bool inwards = places[k + 1].r < p->r;
+        if (p->crossing < 0 || (uint32_t)p->crossing >= orders || (inwards && p->r <= horizon))
+            continue; /* what still leaves may be within the horizon, as the kernel has it */
+        const double twist = p->r > horizon ? kd_kerr_twist(at.spin, p->r) : 0;
         w->crossings[i * orders + (uint32_t)p->crossing] =
             (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };
-        w->inwards[i * orders + (uint32_t)p->crossing] = places[k + 1].r < p->r;
+        w->inwards[i * orders + (uint32_t)p->crossing] = inwards;
         end->n_crossings = (uint32_t)p->crossing + 1;
     }
     if (end->fate == KD_RAY_ESCAPED) {
