@@ -280,7 +280,7 @@
 #define KD_HISTOGRAM_FIRST 696 /* (127 - 40) * 8 */
 
 /* Rays that a kernel leaves open are counted, and so many are listed (src/render/frame/settle.c). */
-#define KD_GIVEN_MOST 32768
+#define KD_GIVEN_MOST 1048576
 
 /* The fate plane has these values. */
 #define KD_FATE_ESCAPED 0.0

@@ -44,7 +44,7 @@ class Queue(daemon.Case):
         for side in (1280, 920, 920):
             held.append(self.daemon.connect())
             held[-1].sendall(
-                f"GET /v1/render?preset=smooth&image.width={side}&image.height={side}&image.samples=2&time=100000 HTTP/1.1\r\n"
+                f"GET /v1/render?preset=smooth&image.width={side}&image.height={side}&image.samples=2&accuracy.profile=high&time=100000 HTTP/1.1\r\n"
                 "Host: localhost\r\n\r\n".encode()
             )
             self.daemon.reaches("renders_unfinished", len(held))

@@ -1044,7 +1044,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.frame(session).status, 200)
 
     def test_a_patch_may_ask_for_no_more_than_a_session(self):
-        huge = {"image": {"width": 4096, "height": 4096, "samples": 8}}
+        huge = {"image": {"width": 4096, "height": 4096, "samples": 8}, "accuracy": {"profile": "high"}}
         self.assertProblem(self.daemon.post("/v1/sessions", huge), 422, "too-large")
         session = self.open()
         problem = self.assertProblem(self.patch(session, huge), 422, "too-large")

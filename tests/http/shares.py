@@ -10,7 +10,7 @@ import daemon
 
 RENDER = "/v1/render?" + daemon.SMALL
 # What this renderer says of them is 1 us a ray, 6.6 s; what they take is `time`, in slices of 10 ms.
-LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&time=%d"
+LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&accuracy.profile=high&time=%d"
 
 
 class Case(daemon.Case):

@@ -74,8 +74,8 @@ uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
  * one without crossings. */
 struct kd_accuracy_report {
     uint64_t undecided;            /* rays of the whole picture that were given up: magenta in it */
-    uint64_t traced, interpolated; /* of a lens map that is interpolated between rays: rays that were followed for it,
-                                      and the others; 0: every ray was followed, or the map was there */
+    uint64_t traced, interpolated; /* of a lens map that is interpolated between nodes: rays that were followed for it,
+                                      nodes that slices share twice; and the pixels' rays in smooth cells. 0: none */
     uint32_t sampled, crossings;   /* rays traced again; crossings compared */
     uint32_t differ;               /* crossings that one of the two has and the other has not; rays of another fate */
     double median, worst;          /* relative error of the radius */

@@ -205,9 +205,7 @@ void kd_frame_count_sampled(struct kd_frame_job *j, uint32_t count)
 {
     const uint32_t *head = kd_vk_buffer_map(j->store->sample_head);
     const uint64_t rays = (uint64_t)count * j->plan->width * j->plan->side * j->plan->side;
-    uint64_t traced = 0;
     for (uint32_t stage = 0; stage < KD_SAMPLE_STAGES; stage++)
-        traced += head[4 * stage + 3];
-    j->traced += traced;
-    j->interpolated += rays > traced ? rays - traced : 0;
+        j->traced += head[4 * stage + 3];
+    j->interpolated += rays - head[4 * KD_STAGE_ALONE + 3];
 }

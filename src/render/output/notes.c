@@ -16,8 +16,8 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
         kd_precision_name(plan->setting.precision), plan->setting.steps,
         (unsigned long long)(kd_plan_rays(plan) - plan->rays), (unsigned long long)report->undecided, report->sampled);
     if (report->interpolated)
-        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " traced=%llu interpolated=%llu",
-                      (unsigned long long)report->traced, (unsigned long long)report->interpolated);
+        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " interpolated=%llu",
+                      (unsigned long long)report->interpolated);
     if (report->sampled)
         n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e",
                       report->crossings, report->differ, report->median, report->worst);

@@ -135,7 +135,7 @@ static const struct sentence {
       paired },
     { "lens.interpolated",
       "lens map: rays are followed closely where it bends, and where image orders or fates change; between them it is "
-      "interpolated to 1e-5, or to 2e-6 by the profile \"balanced\"; answers tell how many rays were followed",
+      "interpolated to 1e-5, or to 2e-6 by the profile balanced; answers tell of how many pixels it was",
       interpolated },
     { "arithmetic.f32",
       "arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits",

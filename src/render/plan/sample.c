@@ -14,7 +14,7 @@ enum {
      level */
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-#define RAYS_AT_ONCE (1u << 21)
+#define RAYS_AT_ONCE KD_GIVEN_MOST /* all of which may be open */
 
 /* The first of the block that a place lies in. */
 static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
