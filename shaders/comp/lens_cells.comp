@@ -9,6 +9,7 @@
  * a direction twice as far from the hole would have. A strict one fails by noise. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_SAMPLE(KD_SPEC_U_, KD_SPEC_B_)
@@ -97,63 +98,71 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
                checked = divided ? side / 2u : side, cells = side / checked;
     uint mine = 0u;
-    for (uint k = 0u; k < 16u; k++) {
+    [[dont_unroll]] for (uint k = 0u; k < 16u; k++) {
         uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
         mine |= atomicCompSwap(number[index_of(at / 2u)], 0u, 0xffffffffu) == 0u ? 1u << k : 0u;
     }
     uint node =
         kd_stage_first(stage) + take(4u * stage, uint(bitCount(mine)) + within + 2u * cells * cells, KD_GROUP_SIZE);
-    for (uint k = 0u; k < 16u; k++) {
+    [[dont_unroll]] for (uint k = 0u; k < 16u; k++) {
         uvec2 at = corner + (divided ? edge_of_nine(k) : edge_of_five(k)) * step_;
         if ((mine & (1u << k)) != 0u)
             make_node(node++, index_of(at / 2u), at);
     }
-    for (uint k = 0u; k < within; k++) {
+    [[dont_unroll]] for (uint k = 0u; k < within; k++) {
         uvec2 at = corner + (divided ? within_nine(k) : within_five(k)) * step_;
         make_node(node++, index_of(at / 2u), at);
     }
-    for (uint k = 0u; k < 2u * cells * cells; k++) {
+    [[dont_unroll]] for (uint k = 0u; k < 2u * cells * cells; k++) {
         uvec2 cell = corner + uvec2((k / 2u) % cells, k / 2u / cells) * checked, at = check_of(cell, checked, k % 2u);
         make_node(node++, checked == 8u ? index_checks() + 2u * index_of_last(cell / 8u) + k % 2u : index_of(at / 2u),
                   at);
     }
 }
 
-/* The nodes that a cell's polynomials are checked by: along its middle row and its middle column, the middle one twice;
- * and the two rays. */
-struct kd_cross { uint at[12]; };
-uint node_of_cross(kd_cross c, uint axis, uint i) { return c.at[5u * axis + i]; }
-uint check_node(kd_cross c, uint axis) { return c.at[10u + axis]; }
-
-kd_cross cross_of(uvec2 corner, uint side)
+/* The nodes that a cell's polynomials are checked by: along its middle row, or its middle column, and behind them the
+ * ray next to the first of them. */
+uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
-    kd_cross c;
-    for (uint i = 0u; i < 5u; i++) {
-        c.at[i] = number[index_of_node(corner, side, i, 2u)] - 1u;
-        c.at[5u + i] = number[index_of_node(corner, side, 2u, i)] - 1u;
-    }
-    for (uint i = 0u; i < 2u; i++)
-        c.at[10u + i] = number[side == 8u ? index_checks() + 2u * index_of_last(corner / 8u) + i
-                                          : index_of(check_of(corner, side, i) / 2u)] -
-                        1u;
-    return c;
+    uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
+                : side == 8u ? index_checks() + 2u * index_of_last(corner / 8u) + axis
+                             : index_of(check_of(corner, side, axis) / 2u);
+    return number[word] - 1u;
 }
 
-/* What an axis of a cross tells of a quantity: what its polynomial is off by at the ray next to its first node, the
- * slope in the middle and the largest second difference, both of a quarter of the side. */
-struct kd_line_told { vec3 off, slope, bend; };
+/* What both lines tell of a quantity: what the polynomials are off by at those two rays at most, for each component and
+ * all together; the sum of the squares of the slopes in the middle; and the largest second difference, of quarters of
+ * the side. */
+struct kd_line_told {
+    vec3 off, slope2, bend;
+    float apart;
+};
+const kd_line_told KD_NOTHING_TOLD = kd_line_told(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
 
-kd_line_told told_of(vec3 v[6])
+/* What is no number is within no tolerance. */
+float or_far(float x) { return kd_is_finite(x) ? x : 1e18; }
+
+void tell(inout kd_line_told t, vec3 v[6])
 {
-    kd_line_told t;
     vec3 a = v[0] - v[2], b = v[1] - v[2], d = v[3] - v[2], e = v[4] - v[2];
-    t.off = v[5] - v[2] - (35.0 * a + 140.0 * b + 28.0 * d - 5.0 * e) / 128.0;
-    t.slope = 0.5 * (d - b);
-    t.bend = max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d));
-    return t;
+    vec3 off = abs(v[5] - v[2] - (35.0 * a + 140.0 * b + 28.0 * d - 5.0 * e) / 128.0), slope = 0.5 * (d - b);
+    off = vec3(or_far(off.x), or_far(off.y), or_far(off.z));
+    t.off = max(t.off, off);
+    t.apart = max(t.apart, length(off));
+    t.slope2 += slope * slope;
+    t.bend = max(t.bend, max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d)));
 }
 
-bool is_told(vec3 off, vec3 most) { return all(lessThanEqual(off, most)); } /* false of what is no number */
+/* VALUE: of `node`. Both lines by the same code, which a driver compiles once. */
+#define KD_ALONG_BOTH(told, VALUE) \
+    [[dont_unroll]] for (uint axis = 0u; axis < 2u; axis++) { \
+        vec3 v[6]; \
+        [[unroll]] for (uint i = 0u; i < 6u; i++) { \
+            uint node = node_along(corner, side, axis, i); \
+            v[i] = VALUE; \
+        } \
+        tell(told, v); \
+    }
 
 /* How far a step from ray to ray is from the direction to the hole, at most: what rounding moves a ray by is a part of
  * that. In such steps. */
@@ -169,85 +178,56 @@ float steps_to_hole(uvec2 corner, uint side)
     return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
 }
 
-/* Whether the polynomials of a quantity tell both rays. scale: what the tolerance is relative to. */
-bool tells(kd_line_told x, kd_line_told y, vec3 scale, float far)
-{
-    vec3 steep = CONDITION * far * sqrt(x.slope * x.slope + y.slope * y.slope) / scale,
-         most = push.tolerance * scale * max(vec3(1.0), steep);
-    return is_told(abs(x.off), most) && is_told(abs(y.off), most);
-}
-
 /* Between nodes a curve leaves them by an eighth of its second difference: whether what vanishes where fates change,
  * and is this at least at the nodes, can vanish between them. Four times that, and twice what the polynomials miss. */
-bool curve_is_far(kd_cross c, float least)
+bool curve_is_far(uvec2 corner, uint side, float least)
 {
-    float bend = 0.0, middle = curve_of(c.at[2]);
-    for (uint axis = 0u; axis < 2u; axis++) {
-        vec3 v[6];
-        for (uint i = 0u; i < 6u; i++)
-            v[i] = vec3(curve_of(i < 5u ? node_of_cross(c, axis, i) : check_node(c, axis)) - middle, 0.0, 0.0);
-        kd_line_told t = told_of(v);
-        bend = max(bend, max(0.5 * t.bend.x, 2.0 * abs(t.off.x)));
-    }
-    return least > bend;
+    kd_line_told t = KD_NOTHING_TOLD;
+    KD_ALONG_BOTH(t, vec3(curve_of(node), 0.0, 0.0))
+    return least > max(0.5 * t.bend.x, 2.0 * t.off.x);
 }
 
-bool crossing_is_smooth(kd_cross c, uint n, uint side, float far)
+/* far: of quarters of the side. Whether the polynomials tell both rays: w relative to w, an angle, and a slope relative
+ * to the steepest. */
+bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
-    kd_line_told t[2];
-    vec3 middle = crossing_of(c.at[2], n);
-    float least = middle.x, most = middle.x, steepest = abs(middle.z);
-    for (uint axis = 0u; axis < 2u; axis++) {
-        vec3 v[6];
-        for (uint i = 0u; i < 6u; i++) {
-            v[i] = crossing_of(i < 5u ? node_of_cross(c, axis, i) : check_node(c, axis), n);
-            least = min(least, v[i].x);
-            most = max(most, v[i].x);
-            steepest = max(steepest, abs(v[i].z));
-            v[i].y = turned(v[i].y - middle.y);
-        }
-        t[axis] = told_of(v);
-    }
-    /* Between nodes a curve leaves them by an eighth of its second difference. */
-    float bend = 0.25 * max(t[0].bend.x, t[1].bend.x);
-    return least > bend && most + bend < max(cam.horizon, 1.1 * cam.w0) &&
-           tells(t[0], t[1], vec3(middle.x, 1.0, max(steepest, 1e-30)), 4.0 * far / float(side));
+    kd_line_told t = KD_NOTHING_TOLD;
+    vec3 middle = crossing_of(node_along(corner, side, 0u, 2u), n), least = middle, most = middle;
+    KD_ALONG_BOTH(t, crossing_of(node, n); v[i].y = turned(v[i].y - middle.y); least = min(least, v[i]);
+                  most = max(most, v[i]))
+    float bend = 0.25 * t.bend.x;
+    vec3 scale = vec3(middle.x, 1.0, max(max(abs(least.z), abs(most.z)), 1e-30)),
+         steep = CONDITION * far * sqrt(t.slope2) / scale;
+    bool within = all(lessThanEqual(t.off, push.tolerance * scale * max(vec3(1.0), steep)));
+    return within && least.x > bend && most.x + bend < max(cam.horizon, 1.1 * cam.w0);
 }
 
-bool sky_is_smooth(kd_cross c, uint side, float far)
+bool sky_is_smooth(uvec2 corner, uint side, float far)
 {
-    kd_line_told t[2];
-    vec3 middle = direction_of(c.at[2]);
-    for (uint axis = 0u; axis < 2u; axis++) {
-        vec3 v[6];
-        for (uint i = 0u; i < 6u; i++)
-            v[i] = direction_of(i < 5u ? node_of_cross(c, axis, i) : check_node(c, axis)) - middle;
-        t[axis] = told_of(v);
-    }
-    vec3 dx = t[0].slope, dy = t[1].slope;
-    float steep = CONDITION * 4.0 * far / float(side) * sqrt(dot(dx, dx) + dot(dy, dy)),
-          most = push.tolerance * max(1.0, steep);
-    return length(t[0].off) <= most && length(t[1].off) <= most;
+    kd_line_told t = KD_NOTHING_TOLD;
+    KD_ALONG_BOTH(t, direction_of(node))
+    float steep = CONDITION * far * sqrt(t.slope2.x + t.slope2.y + t.slope2.z);
+    return t.apart <= push.tolerance * max(1.0, steep);
 }
 
 /* Whether all rays of a cell cross as often and end alike, and its polynomials tell those between its nodes. */
 bool is_smooth(uvec2 corner, uint side, out float state)
 {
-    kd_cross c = cross_of(corner, side);
-    state = state_of(c.at[2]);
-    bool same = state != KD_NODE_OPEN && state_of(c.at[10]) == state && state_of(c.at[11]) == state;
+    state = state_of(node_along(corner, side, 0u, 2u));
+    bool same = state != KD_NODE_OPEN && state_of(node_along(corner, side, 0u, 5u)) == state &&
+                state_of(node_along(corner, side, 1u, 5u)) == state;
     float least = 1e30;
-    for (uint k = 0u; k < 25u; k++) {
+    [[dont_unroll]] for (uint k = 0u; k < 25u; k++) {
         uint node = number[index_of_node(corner, side, k % 5u, k / 5u)] - 1u;
         least = min(least, abs(curve_of(node)));
         same = same && state_of(node) == state;
     }
-    same = same && curve_is_far(c, least);
-    float far = steps_to_hole(corner, side);
+    same = same && curve_is_far(corner, side, least);
+    const float far = 4.0 * steps_to_hole(corner, side) / float(side);
     const uint crossings = same ? min(crossings_of(state), ORDERS) : 0u;
-    for (uint n = 0u; n < crossings; n++)
-        same = same && crossing_is_smooth(c, n, side, far);
-    return same && (!SKY || captured(state) || sky_is_smooth(c, side, far));
+    [[dont_unroll]] for (uint n = 0u; n < crossings; n++)
+        same = same && crossing_is_smooth(corner, side, n, far);
+    return same && (!SKY || captured(state) || sky_is_smooth(corner, side, far));
 }
 
 /* Lists a cell's units of a kind. */
@@ -255,7 +235,7 @@ void list_units(uint kind, uvec2 corner, uint level)
 {
     const uint n = side_of(level) / 8u,
                word = units_of(kind) + take(KD_SAMPLE_FILLS + 4u * kind, n, KD_GROUP_SIZE / 8u);
-    for (uint i = 0u; i < n; i++)
+    [[dont_unroll]] for (uint i = 0u; i < n; i++)
         words[word + i] = kd_unit(corner / 8u, i, level);
 }
 
@@ -265,34 +245,28 @@ void follow_alone(uvec2 corner)
     ivec2 place = place_of(corner), low = max(place, ivec2(0, int(push.row0))),
           high = min(place + 8, ivec2(int(push.width), int(push.row0 + push.rows))), n = high - low;
     uint word = places_alone() + take(4u * KD_STAGE_ALONE, uint(n.x * n.y), KD_GROUP_SIZE);
-    for (int k = 0; k < n.x * n.y; k++)
+    [[dont_unroll]] for (int k = 0; k < n.x * n.y; k++)
         words[word++] = kd_place_word(uvec2(low - place_of(uvec2(0u)) + ivec2(k % n.x, k / n.x)));
 }
 
-/* The first level: a block is a cell. */
-void begin(uint block)
+/* A cell of a level; of level 0 a block, which is a cell of the first one. */
+void look_at(uvec2 cell, uint level)
 {
-    uvec2 cell = uvec2(block % push.blocks_x, block / push.blocks_x);
-    list_nodes(0u, cell * KD_CELL_BLOCK, KD_CELL_BLOCK, false);
-    list_cell(1u, cell);
-}
-
-void look_at(uint entry, uint level)
-{
-    uint side = side_of(level);
-    uvec2 cell = uvec2(entry & 0xffffu, entry >> 16), corner = cell * side;
-    float state;
-    if (is_smooth(corner, side, state)) {
-        if (crossings_of(state) > 0u)
-            list_units(0u, corner, level);
-        if (SKY && !captured(state))
-            list_units(1u, corner, level);
-    } else if (level == KD_CELL_LEVELS) {
+    const bool begins = level == 0u;
+    uint side = begins ? KD_CELL_BLOCK : side_of(level), cells = begins ? 1u : 2u;
+    uvec2 corner = cell * side;
+    float state = 0.0;
+    bool smooth_ = !begins && is_smooth(corner, side, state);
+    if (smooth_ && crossings_of(state) > 0u)
+        list_units(0u, corner, level);
+    if (smooth_ && SKY && !captured(state))
+        list_units(1u, corner, level);
+    if (!smooth_ && level == KD_CELL_LEVELS)
         follow_alone(corner);
-    } else {
-        list_nodes(level, corner, side, true);
-        for (uint k = 0u; k < 4u; k++)
-            list_cell(level + 1u, 2u * cell + uvec2(k % 2u, k / 2u));
+    if (!smooth_ && level < KD_CELL_LEVELS) {
+        list_nodes(level, corner, side, !begins);
+        [[dont_unroll]] for (uint k = 0u; k < cells * cells; k++)
+            list_cell(level + 1u, cells * cell + uvec2(k % 2u, k / 2u));
     }
 }
 
@@ -302,14 +276,14 @@ void main()
     cam = camera_;
     uint i = gl_GlobalInvocationID.x;
     if (push.level == 0u && i == 0u) /* workgroups along the other axes */
+        [[dont_unroll]]
         for (uint k = 0u; k < KD_SAMPLE_COUNTED / 4u; k++) {
             words[4u * k + 1u] = 1u;
             words[4u * k + 2u] = 1u;
         }
-    if (push.level == 0u) {
-        if (i < blocks())
-            begin(i);
-    } else if (i < words[KD_SAMPLE_CELLS + 4u * (push.level - 1u) + 3u]) {
-        look_at(words[queue_of(push.level) + i], push.level);
-    }
+    const bool begins = push.level == 0u;
+    if (i >= (begins ? blocks() : words[KD_SAMPLE_CELLS + 4u * (push.level - 1u) + 3u]))
+        return;
+    uint entry = begins ? 0u : words[queue_of(push.level) + i];
+    look_at(begins ? uvec2(i % push.blocks_x, i / push.blocks_x) : uvec2(entry & 0xffffu, entry >> 16), push.level);
 }

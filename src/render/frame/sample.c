@@ -137,6 +137,9 @@ static enum kd_status fill(struct run *run, bool of_sky)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
+/* A driver that compiles a kernel as it is first dispatched has each submission's deadline for one kernel. */
+static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
+
 /* What rays have that cross nothing and are captured: kernels write what is otherwise. */
 static enum kd_status fill_nothing(struct run *run)
 {
@@ -190,11 +193,17 @@ enum kd_status kd_frame_sample(struct kd_frame_job *j, uint32_t band, uint32_t f
     KD_TRY(fill_nothing(&run));
     for (uint32_t level = 0; level <= KD_CELL_LEVELS; level++) {
         KD_TRY(look_at_cells(&run, level));
+        if (!level)
+            KD_TRY(submit_new(j));
         KD_TRY(trace(&run, level));
+        if (!level)
+            KD_TRY(submit_new(j));
     }
     for (int of_sky = 0; of_sky < 2; of_sky++)
-        if (fills(p, of_sky))
+        if (fills(p, of_sky)) {
+            KD_TRY(submit_new(j));
             KD_TRY(fill(&run, of_sky));
+        }
     KD_TRY(kd_vk_copy(j->r->vk, "readback", j->store->sample_head, 0, j->store->sample, 0, 4 * KD_SAMPLE_QUEUES,
                       j->error));
 done:
