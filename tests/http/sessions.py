@@ -1112,6 +1112,8 @@ class Sessions(daemon.Owned):
                 for _ in range(2):
                     self.first_frame_s()
                 self.assertEqual(self.status(session)["frame"], number, "these came in between")
+                # of one client a job goes before what a view is refined by
+                self.daemon.request("DELETE", "/v1/jobs/" + job["id"], headers=self.owner(job))
                 self.assertRegex(self.frame(session, number).header("Kerrd-Quality"), "samples=2 .*final=1")
 
     def test_a_long_refinement_that_was_alone_makes_way(self):
