@@ -249,6 +249,10 @@ export const sentences = {
     'immagine: un raggio per pixel, nelle mappe, nella proiezione ad anello e nelle curve di luce, dove image.samples è "auto"',
   'projection: angles as distances, over half the sky or all of it; areas are not to scale':
     'proiezione: angoli come distanze, su metà del cielo o su tutto; le aree non sono in scala',
+  'lens map: rays are followed closely where it bends, and where image orders or fates change; between them it is interpolated to 1e-5, or to 2e-6 by the profile balanced; answers tell of how many pixels it was':
+    'mappa della lente: i raggi sono seguiti da vicino dove essa si piega, e dove cambiano gli ordini delle immagini o le sorti; tra di essi è interpolata entro 1e-5, o 2e-6 con il profilo balanced; le risposte dicono per quanti pixel',
+  'arithmetic: 32-bit, by an engine whose rays are not followed again: within about 1e-5 of the critical curve they are given up, or may have another fate':
+    'aritmetica: 32 bit, con un metodo i cui raggi non sono seguiti di nuovo: entro circa 1e-5 dalla curva critica sono abbandonati, o possono avere un’altra sorte',
   'arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits':
     'aritmetica: 32 bit; i raggi di cui questi non sanno dire la sorte, o il numero di attraversamenti, sono seguiti di nuovo in 64 bit',
   'arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits':
