@@ -39,7 +39,7 @@ struct kd_biquadratic { vec3 slope_x, slope_y, bend_x, bend_y, xy, xxy, xyy, xxy
 vec3 turned(vec3 d, bool angle)
 {
     if (angle)
-        d.y -= 2.0 * KD_PI * floor(d.y / (2.0 * KD_PI) + 0.5);
+        d.y = kd_turned(d.y);
     return d;
 }
 

@@ -71,7 +71,7 @@ vec3 apart(uint n, kd_spot own, kd_spot other)
 {
     vec3 d = other.at - own.at;
     if (n < ORDERS)
-        d.y -= 2.0 * KD_PI * floor(d.y / (2.0 * KD_PI) + 0.5);
+        d.y = kd_turned(d.y);
     return d;
 }
 

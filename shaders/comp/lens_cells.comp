@@ -2,7 +2,8 @@
  * (ray/cells.glsl) of one level, all of whose nodes are followed: if the polynomials through them tell two more rays of
  * it, it is done; else its four quarters are cells of the next level, whose nodes are listed, and a cell of the last
  * level is followed ray by ray. The map is analytic in a cell but where orders or fates change, and whether they do the
- * nodes say. What a cell becomes depends on its own rays alone: a tile's cells are those of its picture.
+ * nodes say: by their states, and by R at the barrier, which vanishes where fates change. What a cell becomes depends
+ * on its own rays alone: a tile's cells are those of its picture.
  *
  * The tolerance is relative, of w, an angle and a direction alike; where the map is so steep that the rounding of the
  * camera's directions to 32 bits moves it more, it is CONDITION of that: of the change of ln w, or of the angle, that
@@ -193,7 +194,7 @@ bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
     kd_line_told t = KD_NOTHING_TOLD;
     vec3 middle = crossing_of(node_along(corner, side, 0u, 2u), n), least = middle, most = middle;
-    KD_ALONG_BOTH(t, crossing_of(node, n); v[i].y = turned(v[i].y - middle.y); least = min(least, v[i]);
+    KD_ALONG_BOTH(t, crossing_of(node, n); v[i].y = kd_turned(v[i].y - middle.y); least = min(least, v[i]);
                   most = max(most, v[i]))
     float bend = 0.25 * t.bend.x;
     vec3 scale = vec3(middle.x, 1.0, max(max(abs(least.z), abs(most.z)), 1e-30)),

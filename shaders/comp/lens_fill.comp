@@ -80,7 +80,7 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
         [[unroll]] for (uint i = 0u; i < 5u; i++) {
             v[i] = value_of(c.node[5u * j + i], n) - middle;
             if (!OF_SKY && PHI)
-                v[i].y = turned(v[i].y);
+                v[i].y = kd_turned(v[i].y);
         }
         l.value[j] = along(c.by.value, v);
         if (STEEP)

@@ -5,8 +5,8 @@
  * and azimuth of each crossing, and so on, are polynomials of degree 4 in both directions. Nodes of all levels but the
  * rays that a cell of the last level is checked by lie at even places.
  *
- * Needs the specialisation constants QUANTITIES and ORDERS, KD_NUMBERS_BINDING, and NODE_AT(i) and NUMBER_AT(i) for
- * words of the nodes' map and of its index. */
+ * Needs the specialisation constants QUANTITIES and ORDERS, KD_SAMPLE_CAMERA_BINDING, and NODE_AT(i) for words of
+ * the nodes' map. */
 #ifndef KD_CELLS_GLSL
 #define KD_CELLS_GLSL
 
@@ -51,12 +51,11 @@ uint units_of(uint kind) { return KD_SAMPLE_QUEUES + blocks() * (KD_SAMPLE_QUEUE
 
 /* A unit: the cell's corner in eights of rays, which eight of its columns, and its level, in a word. */
 uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | corner.y << 15 | (level - 1u) << 29; }
-uvec2 kd_unit_corner(uint unit)
-{
-    return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu);
-} /* of the eight columns */
+/* That of the eight columns. */
+uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); }
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
+/* What ray/node.glsl keeps behind the planes: how a node counts; and of rays, what vanishes where fates change. */
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }
 float curve_of(uint node) { return NODE_AT((kd_planes_of_all() + 1u) * push.room + node); }
 uint crossings_of(float state) { return uint(state) & 15u; }
@@ -74,8 +73,5 @@ vec3 direction_of(uint node)
                 NODE_AT(kd_plane(KD_LENS_FATE) * push.room + node),
                 NODE_AT(kd_plane(KD_LENS_SKY_U) * push.room + node));
 }
-
-/* The short way round. */
-float turned(float d) { return d - 2.0 * KD_PI * floor(d / (2.0 * KD_PI) + 0.5); }
 
 #endif

@@ -46,6 +46,9 @@ float kd_angle_upper(float x, float y)
     return x < 0.0 ? KD_PI - t : t;
 }
 
+/* An angle the short way round. */
+float kd_turned(float d) { return d - 2.0 * KD_PI * floor(d / (2.0 * KD_PI) + 0.5); }
+
 float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_angle_upper(x, y); }
 
 /* The power of ten that brings a number > 0 to where squares of it are numbers of 32 bits: those of less than 1e-19

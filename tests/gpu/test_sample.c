@@ -172,6 +172,8 @@ static void rays_between_nodes_are_those_that_are_followed(void **state)
     assert_int_equal(t.other_fate, 0);
     assert_int_equal(t.other_order, 0);
     assert_int_equal(t.other_side, 0);
+    /* Half: twice what 32 bits leave of a radius where each ray is followed. 99.9 %: what they leave next to the
+     * critical curve, whose condition the neighbours tell but roughly. */
     assert_true(between_half < 2.5e-7 && between < fmax(2 * followed, 5e-6));
     test_free(t.between);
     test_free(t.followed);

@@ -27,6 +27,41 @@ static void sizes(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
+/* A size that is written on the device just before; with none nothing runs. */
+static void sizes_of_a_buffer(void **state)
+{
+    struct kd_vk *vk = *state;
+    enum { n = 256 };
+    const struct mix_push push = { n, 10 };
+    struct kd_vk_pipeline *pipeline = make_mix(vk, 0);
+    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n, KD_VK_READBACK, "y");
+    struct kd_vk_buffer *counts = make_buffer(vk, 4, KD_VK_DEVICE, "counts");
+    struct kd_vk_dispatch d = { .pipeline = pipeline,
+                                .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
+                                .push = &push,
+                                .counts = counts,
+                                .counts_at = 4 };
+    for (uint32_t i = 0; i < n; i++)
+        words(x)[i] = i;
+    for (uint32_t groups = 0; groups <= n / MIX_GROUP; groups += n / MIX_GROUP) {
+        OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 1, &error));
+        OK(kd_vk_fill(vk, "fill", counts, 4, 4, groups, &error));
+        OK(kd_vk_fill(vk, "fill", counts, 8, 8, 1, &error));
+        OK(kd_vk_dispatch(vk, &d, &error));
+        finish(vk);
+        for (uint32_t i = 0; i < n; i++)
+            assert_int_equal(words(y)[i], groups ? 10 + i : 1);
+    }
+    d.counts_at = 8;
+    FAILS(KD_EINTERNAL, "counts at 8", kd_vk_dispatch(vk, &d, &error));
+    d.counts_at = 2;
+    FAILS(KD_EINTERNAL, "multiple of 4", kd_vk_dispatch(vk, &d, &error));
+    kd_vk_buffer_destroy(vk, x);
+    kd_vk_buffer_destroy(vk, y);
+    kd_vk_buffer_destroy(vk, counts);
+    kd_vk_pipeline_destroy(vk, pipeline);
+}
+
 /* Parts of buffers: offsets in bindings, copies and fills touch what they name and nothing else. */
 static void ranges(void **state)
 {
@@ -123,7 +158,7 @@ static void wide_binding(void **state)
 
 int main(void)
 {
-    struct CMUnitTest tests[] = { cmocka_unit_test(sizes), cmocka_unit_test(ranges), cmocka_unit_test(refused),
-                                  cmocka_unit_test(wide_binding) };
+    struct CMUnitTest tests[] = { cmocka_unit_test(sizes), cmocka_unit_test(sizes_of_a_buffer),
+                                  cmocka_unit_test(ranges), cmocka_unit_test(refused), cmocka_unit_test(wide_binding) };
     return RUN_ON_DEVICE(tests);
 }

@@ -24,7 +24,7 @@ struct kd_frame_job {
     struct kd_star_key star_key;   /* what the light of stars is made of in this frame, */
     bool stars_kept;               /* and whether it is there already */
     uint64_t undecided;            /* rays of the lens map that are given up */
-    uint64_t traced, interpolated; /* rays of a sampled map that were followed, and the others */
+    uint64_t traced, interpolated; /* as in the accuracy report */
     double listed_ms, audit_ms;    /* the host's time for them, and for the audit */
     double
         kernels_ms; /* and for making kernels that were not there, as the driver makes them before they are run first */

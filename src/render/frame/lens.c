@@ -18,8 +18,8 @@
 
 static const struct kd_critical_lattice on_grid; /* none */
 
-/* Rows of pixels of a band from `row` on that one submission takes. A sampled map's slices end where its blocks do, so
- * that none of them is followed twice. */
+/* Rows of pixels of a band from `row` on that one submission takes. A sampled map's slices end where its blocks do, if
+ * they come so far, so that none of these is followed twice. */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
@@ -29,8 +29,8 @@ static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint3
     const uint32_t most = kd_sample_rows(p), block = KD_CELL_BLOCK / p->side ? KD_CELL_BLOCK / p->side : 1,
                    first = kd_scene_window(j->scene).top + kd_frame_band_first(j, band) + row,
                    end = (first + (rows < most ? rows : most)) / block * block;
-    const uint32_t n = end > first ? end - first : block - first % block;
-    return n < left ? n : left;
+    const uint32_t n = end > first ? end - first : block - first % block, held = n < most ? n : most;
+    return held < left ? held : left;
 }
 
 /* Kernels are looked up for each slice: while others had the device theirs may have taken their places. */

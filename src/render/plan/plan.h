@@ -206,8 +206,9 @@ static inline uint64_t kd_plan_rays(const struct kd_plan *plan)
 }
 
 /* Of these, where the map is interpolated between rays, about so many are followed: those along the edges of orders and
- * fates, and between them the fewer the more closely they lie. Measured from 320 x 180 to 4K (docs/accuracy.md). */
-#define KD_PLAN_FOLLOWED 105 /* times the square root of their number */
+ * fates, and between them the fewer the more closely they lie. Measured on four presets, and of one from 320 x 180 to
+ * 4K (docs/accuracy.md): 117 to 154 times the square root of their number. */
+#define KD_PLAN_FOLLOWED 130
 static inline uint64_t kd_plan_followed(const struct kd_plan *plan)
 {
     const double rays = (double)plan->rays, most = fmin(rays, KD_PLAN_FOLLOWED * sqrt(rays));

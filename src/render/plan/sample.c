@@ -7,14 +7,12 @@
 #include <math.h>
 #include <stdio.h>
 
-enum {
-    EVEN = KD_CELL_BLOCK / 2,
-    LAST = KD_CELL_BLOCK / 8
-}; /* along the side of a block: places, and cells of the last
-     level */
+/* Along the side of a block: even places, and cells of the last level. */
+enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-#define RAYS_AT_ONCE KD_GIVEN_MOST /* all of which may be open */
+#define RAYS_AT_ONCE KD_GIVEN_MOST /* all of which may be open; and a dispatch has a quarter of 65535 workgroups then \
+                                    */
 
 /* The first of the block that a place lies in. */
 static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
@@ -46,8 +44,8 @@ struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, 
 
 uint32_t kd_sample_rows(const struct kd_plan *plan)
 {
-    const uint64_t row = (uint64_t)plan->width * plan->side * plan->side, least = KD_CELL_BLOCK / plan->side + 1;
-    const uint64_t rows = RAYS_AT_ONCE / row > least ? RAYS_AT_ONCE / row : least;
+    const uint64_t row = (uint64_t)plan->width * plan->side * plan->side,
+                   rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
     const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* by the words of places */
     return (uint32_t)least_of(least_of(rows, held), plan->band_rows);
 }
