@@ -11,8 +11,9 @@
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-#define RAYS_AT_ONCE KD_GIVEN_MOST /* all of which may be open; and a dispatch has a quarter of 65535 workgroups then \
-                                    */
+#define RAYS_AT_ONCE \
+    KD_GIVEN_MOST /* all of which may be open; and a dispatch has a quarter of 65535 workgroups then \
+                   */
 
 /* The first of the block that a place lies in. */
 static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
