@@ -163,11 +163,12 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
                                  bool *reused, struct kd_error *error)
 {
     /* A map that is found may have come from another store, and rays are followed beside it (refine.c). */
+    const uint64_t bytes = 4 * (1 + kd_plan_open_most(plan));
     enum kd_status status =
-        once(store->vk, &store->undecided, 4 * (1 + KD_GIVEN_MOST), KD_VK_DEVICE, "undecided rays", error);
+        kd_store_at_least(store->vk, &store->undecided, bytes, KD_VK_DEVICE, "undecided rays", error);
     if (!status)
-        status = once(store->vk, &store->undecided_host, 4 * (1 + KD_GIVEN_MOST), KD_VK_READBACK,
-                      "undecided rays on the host", error);
+        status = kd_store_at_least(store->vk, &store->undecided_host, bytes, KD_VK_READBACK,
+                                   "undecided rays on the host", error);
     return status ? status : find_or_make(store, plan, out, reused, error);
 }
 

@@ -80,7 +80,7 @@ struct kd_store {
     int32_t alone_x, alone_y;         /* and the ray that these are counted from */
     struct kd_vk_buffer *sample_head; /* the lists' head on the host */
     struct kd_vk_buffer
-        *undecided; /* rays that the kernels leave open: a counter, then the places of KD_GIVEN_MOST of them; and */
+        *undecided; /* rays that the kernels leave open: a counter, then the places of kd_plan_open_most; and */
     struct kd_vk_buffer *undecided_host; /* both on the host */
 };
 

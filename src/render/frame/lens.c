@@ -26,7 +26,7 @@ static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint3
     const uint32_t left = kd_frame_band_rows(j, band) - row, rows = kd_frame_slice(ns_per_row, left);
     if (!maps || !(p->interpolates > 0))
         return rows;
-    const uint32_t most = kd_sample_rows(p), block = KD_CELL_BLOCK / p->side ? KD_CELL_BLOCK / p->side : 1,
+    const uint32_t most = p->sample_rows, block = KD_CELL_BLOCK / p->side ? KD_CELL_BLOCK / p->side : 1,
                    first = kd_scene_window(j->scene).top + kd_frame_band_first(j, band) + row,
                    end = (first + (rows < most ? rows : most)) / block * block;
     const uint32_t n = end > first ? end - first : block - first % block, held = n < most ? n : most;

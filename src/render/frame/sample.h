@@ -7,7 +7,7 @@
 
 #include "render/frame/job.h"
 
-/* The map of some rows of pixels of a band, at most kd_sample_rows of them: nodes, rays that are followed alone, and
+/* The map of some rows of pixels of a band, at most sample_rows of them: nodes, rays that are followed alone, and
  * what lies between. Recorded, not submitted: the open rays among those that were followed alone are then to be
  * settled, and footprints of the marked ones made (footprint.comp). */
 enum kd_status kd_frame_sample(struct kd_frame_job *job, uint32_t band, uint32_t first, uint32_t count);

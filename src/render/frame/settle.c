@@ -30,6 +30,11 @@ enum kd_status kd_frame_forget_open(struct kd_frame_job *j, const struct kd_fram
                                            : KD_OK;
 }
 
+static uint32_t places_of(const struct kd_frame_job *j)
+{
+    return (uint32_t)(kd_vk_buffer_size(j->store->undecided) / 4 - 1);
+}
+
 /* Reads the list of open rays: its counter, and the first places, of which most maps need no more. */
 static enum kd_status read_list(struct kd_frame_job *j, uint32_t places)
 {
@@ -94,13 +99,14 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     }
 }
 
-/* found: open rays, of which at most KD_GIVEN_MOST are listed. */
+/* found: open rays, of which as many are listed as the list has places. */
 static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;
+    const uint32_t most = places_of(j);
     struct open_rays open = {
         .lens = part ? part->lens : kd_frame_band_lens(j, band),
-        .n = found < KD_GIVEN_MOST ? found : KD_GIVEN_MOST,
+        .n = found < most ? found : most,
         .stride = part ? part->push.stride : p->width * p->side * p->band_rows * p->side,
     };
     enum kd_status status = KD_OK;
@@ -124,7 +130,8 @@ enum kd_status kd_frame_settle(struct kd_frame_job *j, const struct kd_frame_par
 {
     if (j->plan->path == KD_LENS_LISTED)
         return KD_OK;
-    enum kd_status status = read_list(j, READ_AT_ONCE);
+    const uint32_t most = places_of(j);
+    enum kd_status status = read_list(j, most < READ_AT_ONCE ? most : READ_AT_ONCE);
     const uint32_t found = status ? 0 : *(const uint32_t *)kd_vk_buffer_map(j->store->undecided_host);
     return found ? settle(j, part, band, found) : status;
 }

@@ -71,6 +71,7 @@ struct kd_plan {
     } path;
     double interpolates;               /* the relative error that a map interpolated between nodes may have from that
                                         * (plan/sample.h); 0: every ray is followed */
+    uint32_t sample_rows;              /* rows of pixels whose map is interpolated at once, at most */
     struct kd_setting setting;         /* engine, precision and steps of a half period (0: closed form) */
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
     bool points;                       /* some emitter has points of light, */
@@ -152,6 +153,10 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
 {
     return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
 }
+
+/* The most rays that a device leaves open for the host, of those that it follows at once: no more than KD_GIVEN_MOST,
+ * so that their list takes no more than a band of the lens map does. */
+uint64_t kd_plan_open_most(const struct kd_plan *plan);
 
 /* Where image.samples is "auto" a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. Plans count on one pixel in
  * KD_PLAN_CHOSEN whose rays are followed, and one in KD_PLAN_BETWEEN whose rays lie between others. */

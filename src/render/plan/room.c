@@ -22,6 +22,13 @@ static uint64_t buffer_bytes(const struct kd_capacity *c)
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
+uint64_t kd_plan_open_most(const struct kd_plan *plan)
+{
+    const uint64_t band = (uint64_t)plan->width * plan->band_rows * plan->side * plan->side,
+                   part = (uint64_t)plan->critical_part * plan->critical;
+    return least(band > part ? band : part, KD_GIVEN_MOST);
+}
+
 /* Counts the rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays;
  * the others go through the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few
  * hundred groups, is far from it. */
@@ -101,15 +108,17 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     rows = least(rows, fit);
     plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
+    kd_sample_fit(plan, buffer_bytes(c));
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
     plan->lens_bytes = row_lens * plan->height + at_curve;
     plan->making_bytes = kd_emit_making_bytes(scene);
     plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) +
                         (plan->radiance ? 12ull * plan->width : 0)) *
                        plan->height;
-    uint64_t fixed = plan->listed_bytes + kd_sample_bytes(plan) + kd_emit_device_bytes(scene) +
-                     row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) + (1 << 20) + plan->bloom.bytes +
-                     beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->height +
+    uint64_t fixed = plan->listed_bytes + kd_sample_bytes(plan) + 8 * (1 + kd_plan_open_most(plan)) +
+                     kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) +
+                     (1 << 20) + plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
+                     row_points * plan->height +
                      (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;

@@ -43,20 +43,34 @@ struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, 
     return grid;
 }
 
-uint32_t kd_sample_rows(const struct kd_plan *plan)
+static struct kd_sample_grid largest(const struct kd_plan *plan, uint32_t rows)
+{
+    return kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0, rows * plan->side);
+}
+
+static bool fits(const struct kd_plan *plan, uint32_t rows, uint64_t bytes)
+{
+    const struct kd_sample_grid most = largest(plan, rows);
+    return most.list_bytes <= bytes && most.index_bytes <= bytes && most.node_bytes <= bytes;
+}
+
+void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->width * plan->side * plan->side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
     const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* by the words of places */
-    return (uint32_t)least_of(least_of(rows, held), plan->band_rows);
+    plan->sample_rows = (uint32_t)least_of(least_of(rows, held), plan->band_rows);
+    while (plan->sample_rows > 1 && !fits(plan, plan->sample_rows, bytes))
+        plan->sample_rows /= 2;
+    if (!fits(plan, plan->sample_rows, bytes))
+        plan->interpolates = 0;
 }
 
 uint64_t kd_sample_bytes(const struct kd_plan *plan)
 {
     if (!(plan->interpolates > 0))
         return 0;
-    const struct kd_sample_grid most =
-        kd_sample_grid(plan, KD_CELL_BLOCK - 1, KD_CELL_BLOCK - 1, 0, kd_sample_rows(plan) * plan->side);
+    const struct kd_sample_grid most = largest(plan, plan->sample_rows);
     return most.list_bytes + most.index_bytes + most.node_bytes;
 }
 

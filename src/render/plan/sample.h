@@ -18,9 +18,10 @@ struct kd_sample_grid {
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows);
 
-/* So many rows of pixels at most are sampled at once, */
-uint32_t kd_sample_rows(const struct kd_plan *plan);
-/* and then take so many bytes; 0 of a plan all of whose rays are followed. */
+/* Sets plan->sample_rows, such that no buffer takes more than the given bytes. Where one row of pixels takes more, the
+ * plan follows every ray. plan: its band_rows are known. */
+void kd_sample_fit(struct kd_plan *plan, uint64_t bytes);
+/* The bytes of all three buffers for sample_rows; 0 of a plan all of whose rays are followed. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);
 
 /* The relative error of what is interpolated that a scene's accuracy allows (docs/decisions/0017);

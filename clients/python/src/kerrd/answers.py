@@ -16,7 +16,7 @@ Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
 
 class PlanPass(TypedDict):
-    name: Literal['trace', 'footprint', 'audit', 'particles', 'stars', 'transfer', 'march', 'march_error', 'refine', 'layers', 'light', 'beam', 'expose', 'bloom', 'post', 'readback']
+    name: Literal['trace', 'interpolate', 'footprint', 'audit', 'particles', 'stars', 'transfer', 'march', 'march_error', 'refine', 'layers', 'light', 'beam', 'expose', 'bloom', 'post', 'readback']
     kernel: NotRequired[str]
     invocations: int
     estimate_ms: float
@@ -549,6 +549,7 @@ class DeviceFigures(TypedDict):
     sample_transfer: float
     pixel_post: float
     ray_march: float
+    ray_refined: float
     particle: float
 
 
