@@ -4,6 +4,7 @@
 
 #include "render/device/internal.h"
 #include "render/frame/compilation.h"
+#include "scene/crowd.h"
 #include "vk/device.h"
 
 static uint32_t made(void) { return renderer->vk->n_pipelines; }
@@ -157,6 +158,35 @@ static void compiled_beside_the_device(void **state)
     }
 }
 
+/* The bodies that a picture shows besides its scene may lose their last other holder before it is rehearsed. */
+static void bodies_are_held_while_kernels_are_compiled(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_capacity capacity;
+    struct kd_crowd *crowd;
+    kd_scene_smooth(&scene);
+    scene.image.width = 67;
+    scene.image.height = 36;
+    OK(kd_crowd_create(1, 0, 0, &crowd, &error));
+    crowd->bodies[0] = (struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000, .brightness = 1 };
+    kd_scene_show(&scene, crowd);
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    kd_kernels_finish(&renderer->kernels, renderer->vk);
+    struct kd_compilation *c = kd_compilation_begin(renderer, &scene, &plan);
+    assert_non_null(c);
+    assert_int_equal(atomic_load(&crowd->holders), 2);
+    kd_crowd_release(crowd);
+    OK(kd_compilation_run(c, goes_on, NULL, &error));
+    assert_int_equal(atomic_load(&crowd->holders), 1);
+    kd_crowd_keep(crowd);
+    kd_compilation_end(c);
+    assert_int_equal(atomic_load(&crowd->holders), 1);
+    kd_crowd_release(crowd);
+}
+
 int main(void)
 {
     int skip = open_renderer();
@@ -165,7 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noted_kernels_are_made_once), cmocka_unit_test(what_cannot_be_made_is_told_later),
         cmocka_unit_test(a_frame_notes_what_it_needs), cmocka_unit_test(a_kept_lens_map_is_not_traced),
-        cmocka_unit_test(compiled_beside_the_device),
+        cmocka_unit_test(compiled_beside_the_device),  cmocka_unit_test(bodies_are_held_while_kernels_are_compiled),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -3,12 +3,14 @@
 #include "base/log.h"
 #include "render/device/compiled.h"
 #include "render/frame/job.h"
+#include "scene/crowd.h"
 
 #include <stdlib.h>
 
 struct kd_compilation {
     struct kd_renderer *renderer;
     struct kd_scene scene;
+    struct kd_crowd *crowd; /* of the scene, held: whoever wanted the picture may be gone before it is rehearsed */
     struct kd_plan plan;
     struct kd_kernel_wishes wishes;
     kd_progress_fn progress;
@@ -36,6 +38,8 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     }
     c->renderer = r;
     c->scene = *scene;
+    c->crowd = (struct kd_crowd *)scene->crowd.at;
+    kd_crowd_keep(c->crowd);
     c->plan = *plan;
     c->plan.audit = 0; /* of nothing */
     return c;
@@ -95,10 +99,14 @@ enum kd_status kd_compilation_run(struct kd_compilation *c, kd_progress_fn progr
 void kd_compilation_end(struct kd_compilation *c)
 {
     kd_kernels_keep(&c->renderer->kernels, c->renderer->vk, &c->wishes);
-    free(c);
+    kd_compilation_drop(c);
 }
 
-void kd_compilation_drop(struct kd_compilation *c) { free(c); }
+void kd_compilation_drop(struct kd_compilation *c)
+{
+    kd_crowd_release(c->crowd);
+    free(c);
+}
 
 bool kd_compilation_helps(const struct kd_renderer *r)
 {
