@@ -70,6 +70,7 @@ enum kd_kernel {
 struct kd_kernel_entry {
     const struct kd_vk_pipeline_params *source; /* in constant data */
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
+    size_t n; /* of the constants */
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
 };
