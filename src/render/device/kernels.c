@@ -49,6 +49,7 @@
 #include "rays_trace.spv.h"
 #include "settle.spv.h"
 #include "star_images.spv.h"
+#include "star_images_texels.spv.h"
 #include "star_search.spv.h"
 #include "star_search_texels.spv.h"
 #include "star_tiles.spv.h"
@@ -162,6 +163,13 @@ static const struct kd_vk_pipeline_params sources[] = {
                                 8,
                                 sizeof(struct kd_stars_push),
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
+    [KD_KERNEL_STAR_IMAGES_TEXELS] = { "star images, texels",
+                                       kd_spv_star_images_texels,
+                                       sizeof kd_spv_star_images_texels,
+                                       8,
+                                       sizeof(struct kd_stars_push),
+                                       { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA,
+                                         [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER] = { "transfer",
                              kd_spv_transfer,
                              sizeof kd_spv_transfer,

@@ -28,6 +28,7 @@ enum kd_kernel {
     KD_KERNEL_STAR_SEARCH,
     KD_KERNEL_STAR_SEARCH_TEXELS,
     KD_KERNEL_STAR_IMAGES,
+    KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* likewise */
     KD_KERNEL_TRANSFER_TELL,   /* of one ray, emitter by emitter; and in volumes */
