@@ -19,8 +19,8 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(set = 0, binding = 0) buffer Sample { uint words[]; };
 layout(set = 0, binding = 1) buffer Index { uint number[]; };
 layout(set = 0, binding = 2) readonly buffer Nodes { float nodes[]; };
-#define KD_SAMPLE_CAMERA_BINDING 3
 #define NODE_AT(i) nodes[i]
+#define KD_SAMPLE_CAMERA_BINDING 3
 #include "ray/cells.glsl"
 #include "ray/places.glsl"
 
@@ -154,13 +154,15 @@ void tell(inout kd_line_told t, vec3 v[6])
     t.bend = max(t.bend, max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d)));
 }
 
-/* VALUE: of `node`. Both lines by the same code, which a driver compiles once. */
+/* VALUE: of `node`. Both lines and all their nodes by the same code, which a driver compiles once. */
 #define KD_ALONG_BOTH(told, VALUE) \
     [[dont_unroll]] for (uint axis = 0u; axis < 2u; axis++) { \
         vec3 v[6]; \
-        [[unroll]] for (uint i = 0u; i < 6u; i++) { \
+        [[dont_unroll]] for (uint i = 0u; i < 6u; i++) { \
             uint node = node_along(corner, side, axis, i); \
-            v[i] = VALUE; \
+            [[unroll]] for (uint k = 0u; k < 5u; k++) \
+                v[k] = v[k + 1u]; \
+            v[5] = VALUE; \
         } \
         tell(told, v); \
     }
@@ -194,8 +196,8 @@ bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
     kd_line_told t = KD_NOTHING_TOLD;
     vec3 middle = crossing_of(node_along(corner, side, 0u, 2u), n), least = middle, most = middle;
-    KD_ALONG_BOTH(t, crossing_of(node, n); v[i].y = kd_turned(v[i].y - middle.y); least = min(least, v[i]);
-                  most = max(most, v[i]))
+    KD_ALONG_BOTH(t, crossing_of(node, n); v[5].y = kd_turned(v[5].y - middle.y); least = min(least, v[5]);
+                  most = max(most, v[5]))
     float bend = 0.25 * t.bend.x;
     vec3 scale = vec3(middle.x, 1.0, max(max(abs(least.z), abs(most.z)), 1e-30)),
          steep = CONDITION * far * sqrt(t.slope2) / scale;

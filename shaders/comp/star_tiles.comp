@@ -15,6 +15,7 @@
  * tile's map of second order has it. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
 #include "shared/spec.h"

@@ -38,7 +38,7 @@ void kd_star_spread(vec2 place, vec3 light)
                            kd_star_level(middle.y + 1.0, rows));
         light *= kd_star_level(place.y, rows) / dot(wy, levels);
     }
-    for (int k = 0; k < 9; k++) {
+    [[dont_unroll]] for (int k = 0; k < 9; k++) {
         int r = k / 3, c = k - 3 * r;
         ivec2 at = ivec2(middle) + ivec2(c, r) - 1;
         if (SIGHT == KD_SIGHT_SPHERE)

@@ -106,15 +106,18 @@ enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **ou
     if (!vk)
         return kd_error_set(error, KD_ENOMEM, "no memory for a device");
     vk->compiles_only = params->compiles_only;
+    vk->pipelines_only = params->pipelines_only;
     vk->deadline_ns = (params->deadline_ms ? params->deadline_ms : 60000) * UINT64_C(1000000);
     enum kd_status status;
     KD_TRY(kd_vk_instance_init(&vk->instance, validation_wanted(params), error));
     vk->fn = vk->instance.fn;
     KD_TRY(choose(vk, params->device, error));
     KD_TRY(open_device(vk, error));
-    KD_TRY(kd_vk_heap_init(vk, error));
     KD_TRY(kd_vk_cache_init(vk, params->cache_dir, error));
-    KD_TRY(kd_vk_submit_init(vk, error));
+    if (!params->pipelines_only) {
+        KD_TRY(kd_vk_heap_init(vk, error));
+        KD_TRY(kd_vk_submit_init(vk, error));
+    }
     *out = vk;
 done:
     if (status)
@@ -130,6 +133,8 @@ done:
  * returned; those of one that hangs never. */
 static bool is_idle(struct kd_vk *vk)
 {
+    if (vk->pipelines_only)
+        return true;
     const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
     if (vk->hangs)
         return false;
@@ -146,7 +151,8 @@ static void close_device(struct kd_vk *vk)
     kd_vk_retire_all(vk);
     if (vk->n_buffers || vk->n_pipelines)
         kd_log(KD_LOG_WARN, "closing a device with %u buffers and %u pipelines alive", vk->n_buffers, vk->n_pipelines);
-    kd_vk_submit_finish(vk);
+    if (!vk->pipelines_only)
+        kd_vk_submit_finish(vk);
     kd_vk_cache_finish(vk);
     kd_vk_heap_finish(vk);
     vk->fn.DestroyDevice(vk->device, NULL);

@@ -30,7 +30,7 @@ struct kd_vk {
     struct kd_vk_instance instance;
     struct kd_vk_physical physical;
     char choice[640];
-    bool compiles_only; /* as kd_vk_params */
+    bool compiles_only, pipelines_only; /* as kd_vk_params */
     VkDevice device;
     VkQueue queue;
 

@@ -159,6 +159,8 @@ enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, stru
     enum kd_status status = kd_vk_alive(vk, error);
     struct kd_vk_slot *slot = slot_of(vk, kd_vk_current(vk));
     *out = slot;
+    if (!status && vk->pipelines_only)
+        status = kd_error_set(error, KD_EINTERNAL, "the device was opened for pipelines alone");
     if (status || vk->recording)
         return status;
     /* kd_vk_submit has seen to it that this slot's last submission is finished. */

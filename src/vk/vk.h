@@ -46,6 +46,8 @@ struct kd_vk_params {
     bool validate;         /* Khronos layer with synchronisation validation; also KERRD_VALIDATE=1 */
     bool compiles_only;    /* dispatches have no workgroups, and copies to the host are zeros: nothing is computed, but
                               a driver that compiles a kernel at its first dispatch does so */
+    bool pipelines_only;   /* neither memory nor submissions: makes pipelines, and a driver without its hardware will do
+                              (RADV with RADV_FORCE_FAMILY) */
     uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000. A software device that hardly has the
                               processor has up to 8 times as long */
 };

@@ -76,10 +76,31 @@ static void refused(void **state)
     assert_null(vk);
 }
 
+/* It makes pipelines, and says so where more is asked of it. */
+static void for_pipelines_alone(void **state)
+{
+    struct kd_vk *vk;
+    struct kd_vk_buffer *buffer;
+    (void)state;
+    OK(kd_vk_create(
+        &(struct kd_vk_params) { .device = "auto", .cache_dir = "", .validate = true, .pipelines_only = true }, &vk,
+        &error));
+    struct kd_vk_pipeline *pipeline = make_mix(vk, 3);
+    assert_non_null(pipeline);
+    FAILS(KD_EINTERNAL, "pipelines alone", kd_vk_buffer_create(vk, 64, KD_VK_UPLOAD, "x", &buffer, &error));
+    assert_null(buffer);
+    OK(kd_vk_submit(vk, NULL, &error)); /* nothing */
+    OK(kd_vk_wait(vk, 0, &error));
+    kd_vk_pipeline_destroy(vk, pipeline);
+    assert_int_equal(kd_vk_validation_messages(vk), 0);
+    kd_vk_destroy(vk);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(listed), cmocka_unit_test(by_index_and_name),
-                                        cmocka_unit_test(automatic), cmocka_unit_test(refused) };
+                                        cmocka_unit_test(automatic), cmocka_unit_test(refused),
+                                        cmocka_unit_test(for_pipelines_alone) };
     if (skip_without_device() || kd_vk_list(&infos, &n_infos, NULL))
         return SKIPPED;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -49,6 +49,7 @@
 #include "rays_trace.spv.h"
 #include "settle.spv.h"
 #include "star_images.spv.h"
+#include "star_images_texels.spv.h"
 #include "star_search.spv.h"
 #include "star_search_texels.spv.h"
 #include "star_tiles.spv.h"
@@ -162,6 +163,13 @@ static const struct kd_vk_pipeline_params sources[] = {
                                 8,
                                 sizeof(struct kd_stars_push),
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
+    [KD_KERNEL_STAR_IMAGES_TEXELS] = { "star images, texels",
+                                       kd_spv_star_images_texels,
+                                       sizeof kd_spv_star_images_texels,
+                                       8,
+                                       sizeof(struct kd_stars_push),
+                                       { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA,
+                                         [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER] = { "transfer",
                              kd_spv_transfer,
                              sizeof kd_spv_transfer,
@@ -343,13 +351,13 @@ static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_
 }
 
 static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
-                 const uint32_t key[KD_KERNEL_MAX_CONSTANTS], struct kd_vk_pipeline *pipeline)
+                 const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n, struct kd_vk_pipeline *pipeline)
 {
     struct kd_kernel_entry *oldest = kernels->entries;
     for (struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + room_of(kernels); e++)
         oldest = e->used < oldest->used ? e : oldest;
     kd_vk_pipeline_destroy(vk, oldest->pipeline);
-    *oldest = (struct kd_kernel_entry) { .source = source, .pipeline = pipeline, .used = ++kernels->clock };
+    *oldest = (struct kd_kernel_entry) { .source = source, .n = n, .pipeline = pipeline, .used = ++kernels->clock };
     memcpy(oldest->constants, key, sizeof oldest->constants);
 }
 
@@ -392,7 +400,7 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
     enum kd_status status = make(vk, source, key, n, &pipeline, error);
     if (status)
         return status;
-    keep(kernels, vk, source, key, pipeline);
+    keep(kernels, vk, source, key, n, pipeline);
     *out = pipeline;
     return KD_OK;
 }
@@ -458,7 +466,7 @@ void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct 
         if (w->made && find(kernels, w->source, w->constants))
             kd_vk_pipeline_destroy(vk, w->made); /* another one has made it meanwhile */
         else if (w->made)
-            keep(kernels, vk, w->source, w->constants, w->made);
+            keep(kernels, vk, w->source, w->constants, w->n, w->made);
     kernels->noted = kernels->clock;
 }
 

@@ -28,6 +28,7 @@ enum kd_kernel {
     KD_KERNEL_STAR_SEARCH,
     KD_KERNEL_STAR_SEARCH_TEXELS,
     KD_KERNEL_STAR_IMAGES,
+    KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* likewise */
     KD_KERNEL_TRANSFER_TELL,   /* of one ray, emitter by emitter; and in volumes */
@@ -70,6 +71,7 @@ enum kd_kernel {
 struct kd_kernel_entry {
     const struct kd_vk_pipeline_params *source; /* in constant data */
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
+    size_t n; /* of the constants */
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
 };

@@ -62,7 +62,8 @@ enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES,
-                         find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH;
+                         find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH,
+                         images = texels ? KD_KERNEL_STAR_IMAGES_TEXELS : KD_KERNEL_STAR_IMAGES;
     const enum rays picture = rim ? BESIDE_RIM : NO_RIM;
     const struct kd_vk_pipeline *later;
     enum kd_status status;
@@ -70,7 +71,7 @@ enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
     KD_TRY(kernel(j, picture, tiles, RIM_TILE, &later));
     for (enum rays rays = picture; rays <= (rim ? OF_RIM : picture); rays++) {
         KD_TRY(kernel(j, rays, find, 0, &later));
-        KD_TRY(kernel(j, rays, KD_KERNEL_STAR_IMAGES, 0, &later));
+        KD_TRY(kernel(j, rays, images, 0, &later));
     }
     if (rim)
         KD_TRY(kernel(j, OF_RIM, tiles, RIM_TILE, &later));
@@ -169,9 +170,10 @@ static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
         &part->push,
         { list_groups(j) },
     };
+    const enum kd_kernel spread = reads_texels(j, sky->n + 1) ? KD_KERNEL_STAR_IMAGES_TEXELS : KD_KERNEL_STAR_IMAGES;
     enum kd_status status;
     KD_TRY(search(j, part));
-    KD_TRY(kernel(j, rays_of(j, part), KD_KERNEL_STAR_IMAGES, 0, &images.pipeline));
+    KD_TRY(kernel(j, rays_of(j, part), spread, 0, &images.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &images, j->error));
 done:
     return status;
