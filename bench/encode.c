@@ -1,6 +1,10 @@
-/* What encoding a live frame costs: real pictures, with and without dither, through libpng, and through libdeflate
- * and ISA-L at each level after each filter of PNG. Times are of the calling thread's processor, so that what else
- * runs counts little; the least of --repeat. Prints one line of JSON; encode.py makes the table. */
+/* What encoding a live frame costs: real pictures, with and without dither, as files and live frames of kerrd, and
+ * through libdeflate and ISA-L at each level after each filter of PNG. Times are of the calling thread's processor, so
+ * that what else runs counts little; the least of --repeat. With --threads N what files and live frames take on 1 to N
+ * threads instead, by the clock on the wall. Prints one line of JSON; encode.py makes the table. */
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "image/jpeg.h"
 #include "image/png.h"
 #include "image/png_live.h"
 #include "render/render.h"
@@ -35,7 +39,7 @@ struct job {
     const uint8_t *pixels;
     uint8_t *rows, *packed;
     size_t filtered, room;
-    int filter, level;
+    int filter, level, depth;
     struct libdeflate_compressor *compressor;
     struct kd_png_live *live;
     struct kd_buffer out;
@@ -88,12 +92,12 @@ __attribute__((noinline)) static size_t by_filter(struct job *job) /* one code f
     return job->filtered;
 }
 
-static size_t by_libpng(struct job *job)
+static size_t by_png(struct job *job)
 {
     const struct kd_png_params params = {
         .width = job->width,
         .height = job->height,
-        .bit_depth = 8,
+        .bit_depth = job->depth,
         .compression = job->level,
         .pixels = job->pixels,
     };
@@ -105,6 +109,13 @@ static size_t by_live(struct job *job)
 {
     job->out.size = 0;
     return kd_png_live_encode(job->live, job->width, job->height, job->pixels, &job->out, NULL) ? 0 : job->out.size;
+}
+
+static size_t by_jpeg(struct job *job) /* at quality `level` */
+{
+    job->out.size = 0;
+    return kd_jpeg_encode(job->width, job->height, job->pixels, (unsigned)job->level, &job->out, NULL) ? 0
+                                                                                                       : job->out.size;
 }
 
 static size_t by_libdeflate(struct job *job)
@@ -160,9 +171,9 @@ static void row(cJSON *rows, struct job *job, size_t (*work)(struct job *), cons
 
 static void measure(struct job *job, cJSON *rows, int repeat)
 {
-    job->filter = 1; /* libpng: as kd_png_encode chooses it at level 1 */
+    job->filter = 1; /* as kd_png_encode chooses it at level 1 */
     job->level = 1;
-    row(rows, job, by_libpng, "libpng", repeat);
+    row(rows, job, by_png, "file", repeat);
     for (enum kd_deflate_engine e = 0; e < KD_DEFLATE_COUNT; e++) {
         if (kd_png_live_create(e, &job->live, NULL))
             continue;
@@ -189,9 +200,11 @@ static void measure(struct job *job, cJSON *rows, int repeat)
 static void one_picture(const char *name, bool dither, const struct kd_frame *frame, int repeat, cJSON *pictures)
 {
     uint32_t width = frame->width, height = frame->height;
-    struct job job = {
-        .width = width, .height = height, .pixels = kd_frame_pixels(frame), .filtered = (3 * (size_t)width + 1) * height
-    };
+    struct job job = { .width = width,
+                       .height = height,
+                       .depth = 8,
+                       .pixels = kd_frame_pixels(frame),
+                       .filtered = (3 * (size_t)width + 1) * height };
     job.room = 2 * job.filtered + 65536;
     job.rows = malloc(job.filtered);
     job.packed = malloc(job.room);
@@ -206,6 +219,70 @@ static void one_picture(const char *name, bool dither, const struct kd_frame *fr
     kd_buffer_finish(&job.out);
     free(job.rows);
     free(job.packed);
+}
+
+/* The least time on the wall. */
+static void timed(cJSON *rows, struct job *job, size_t (*work)(struct job *), const char *name, int repeat)
+{
+    double best = INFINITY;
+    size_t bytes = 0;
+    for (int i = 0; i < repeat; i++) {
+        const double start = kd_clock_ms();
+        bytes = work(job);
+        best = fmin(best, kd_clock_ms() - start);
+    }
+    cJSON *r = cJSON_CreateObject();
+    cJSON_AddStringToObject(r, "encoder", name);
+    cJSON_AddNumberToObject(r, "depth", job->depth);
+    cJSON_AddNumberToObject(r, "level", job->level);
+    cJSON_AddNumberToObject(r, "height", job->height);
+    cJSON_AddNumberToObject(r, "threads", kd_parallel_threads);
+    cJSON_AddNumberToObject(r, "ms", best);
+    cJSON_AddNumberToObject(r, "bytes", (double)bytes);
+    cJSON_AddItemToArray(rows, r);
+}
+
+/* Files at both levels that kerrd writes, and what live views get. */
+static void on_threads(const struct kd_frame *frame, int repeat, cJSON *rows)
+{
+    struct job job = { .width = frame->width,
+                       .height = frame->height,
+                       .pixels = kd_frame_pixels(frame),
+                       .depth = kd_frame_bit_depth(frame) };
+    for (job.level = 1; job.level <= 5; job.level += 4)
+        timed(rows, &job, by_png, "PNG", repeat);
+    job.level = 1;
+    if (job.depth == 8 && !kd_png_live_create(kd_deflate_fastest(), &job.live, NULL))
+        timed(rows, &job, by_live, "live PNG", repeat);
+    kd_png_live_destroy(job.live);
+    for (job.level = 75; job.depth == 8 && job.level <= 90; job.level += 15)
+        timed(rows, &job, by_jpeg, "JPEG", repeat);
+    kd_buffer_finish(&job.out);
+}
+
+/* The default scene at 1280 x 720 and 3840 x 2160, of 8 and 16 bits. */
+static enum kd_status by_threads(struct kd_renderer *renderer, unsigned most, int repeat, cJSON *rows,
+                                 struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    for (int k = 0; k < 4 && !status; k++) {
+        struct kd_scene scene;
+        struct kd_plan plan;
+        struct kd_frame frame;
+        kd_scene_defaults(&scene);
+        scene.image.height = k < 2 ? 720 : 2160;
+        scene.image.width = scene.image.height * 16 / 9;
+        scene.image.bit_depth = k % 2 ? 16 : 8;
+        KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
+        KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
+        for (kd_parallel_threads = 1; kd_parallel_threads <= most; kd_parallel_threads *= 2)
+            on_threads(&frame, repeat, rows);
+        kd_frame_finish(&frame);
+    }
+done:
+    return status;
 }
 
 static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, bool dither, int height, int repeat,
@@ -238,7 +315,7 @@ static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, 
 
 struct options {
     const char *device;
-    int repeat;
+    int repeat, threads;
 };
 
 static error_t option(int key, char *text, struct argp_state *state)
@@ -247,6 +324,7 @@ static error_t option(int key, char *text, struct argp_state *state)
     switch (key) {
     case 'd': o->device = text; return 0;
     case 'r': o->repeat = atoi(text); return 0;
+    case 't': o->threads = atoi(text); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -256,9 +334,10 @@ int main(int argc, char **argv)
     static const struct argp_option table[] = {
         { "device", 'd', "DEVICE", 0, "auto, an index or part of a name", 0 },
         { "repeat", 'r', "N", 0, "times that each encoder gets each picture (9)", 0 },
+        { "threads", 't', "N", 0, "what files take on 1, 2, 4 ... N threads, and nothing else", 0 },
         { 0 },
     };
-    struct options o = { "auto", 9 };
+    struct options o = { "auto", 9, 0 };
     struct argp parser = { table, option, NULL, "What encoding a live frame costs.", NULL, NULL, NULL };
     argp_parse(&parser, argc, argv, 0, NULL, &o);
 
@@ -269,7 +348,10 @@ int main(int argc, char **argv)
     cJSON *root = cJSON_CreateObject(), *pictures = cJSON_AddArrayToObject(root, "pictures");
     if (!status)
         cJSON_AddStringToObject(root, "device", kd_renderer_device_name(renderer));
-    for (int height = 360; height <= 720 && !status; height += 360)
+    if (!status && o.threads > 0)
+        status = by_threads(renderer, (unsigned)o.threads, o.repeat, cJSON_AddArrayToObject(root, "threads"), &error);
+    kd_parallel_threads = 1;
+    for (int height = 360; height <= 720 && !status && !o.threads; height += 360)
         for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
             for (int dither = 1; dither >= subjects[i].noise && !status; dither--)
                 status = one_subject(renderer, i, dither, height, o.repeat, pictures, &error);

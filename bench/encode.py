@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What encoding a live frame costs, in ms and bytes: kd_bench_encode on one core, as tables."""
+"""What encoding a frame costs, in ms and bytes: kd_bench_encode on one core, and files on several, as tables."""
 
 import json
 import os
 
 import measure
 
-WHOLE = ["libpng", "live, libdeflate", "live, isa-l"]
+WHOLE = ["file", "live, libdeflate", "live, isa-l"]
 
 
 def figure(picture, encoder, level, filter_):
@@ -39,15 +39,40 @@ def parts_table(picture):
     return measure.table(["", *filters], rows)
 
 
+def threads_table(rows):
+    threads = sorted({r["threads"] for r in rows})
+    cells = {}
+    for r in rows:
+        quality = "quality" if r["encoder"] == "JPEG" else "level"
+        name = f"{r['encoder']}, {r['depth']} bit, {quality} {r['level']}"
+        cells.setdefault((r["height"], name), {})[r["threads"]] = r
+    table = [
+        [
+            f"{16 * height // 9} × {height}",
+            name,
+            *(f"{by[t]['ms']:.1f}" for t in threads),
+            f"{by[1]['bytes'] / 1000:.0f}",
+        ]
+        for (height, name), by in cells.items()
+    ]
+    heads = [f"{t} thread{'s' if t > 1 else ''}, ms" for t in threads]
+    return measure.table(["size", "file", *heads, "kB"], table)
+
+
 def main():
     p = measure.parser(__doc__)
     p.add_argument("--repeat", type=int, default=9, help="times that each encoder gets each picture (9)")
+    p.add_argument("--threads", type=int, default=os.cpu_count(), help="threads of files, at most (the cores)")
     o = p.parse_args()
     load = os.getloadavg()[0]
     text = measure.one_core([measure.binary(o.build, "bench/kd_bench_encode"), "--repeat", str(o.repeat)], o.core)
     run = json.loads(text.strip().splitlines()[-1])
+    several = measure.run(
+        [measure.binary(o.build, "bench/kd_bench_encode"), "--repeat", str(o.repeat), "--threads", str(o.threads)]
+    )
+    threads = json.loads(several.strip().splitlines()[-1])["threads"]
     h = measure.head(run["device"], load)
-    text = measure.head_markdown("Encoding a live frame", h)
+    text = measure.head_markdown("Encoding a frame", h)
     text += (
         f"Processor time of one thread, the least of {o.repeat}; 1 kB is 1000 bytes. All at level 1 after the filter Sub, "
         "the file whole:\n\n" + whole_table(run["pictures"])
@@ -57,7 +82,11 @@ def main():
         if size.startswith("1280") and picture["dither"] and picture["picture"] != "noise":
             text += f"\n{name[0].upper() + name[1:]}, {size}; filter and stream, ms / kB by filter and level:\n\n"
             text += parts_table(picture)
-    measure.save(o.out, "encode", h, {"pictures": run["pictures"]}, text)
+    text += (
+        f"\nThe default scene by kerrd's encoders on threads, by the clock on the wall, the least of {o.repeat}:\n\n"
+        + threads_table(threads)
+    )
+    measure.save(o.out, "encode", h, {"pictures": run["pictures"], "threads": threads}, text)
 
 
 if __name__ == "__main__":

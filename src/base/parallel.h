@@ -1,6 +1,6 @@
 /* Runs a function for each of n items, on the caller's thread and others, and returns when all are done. The items must
- * not depend on one another; their order is not fixed. Any thread may call it. It runs on as many threads as there are
- * cores, at most KD_PARALLEL_THREADS; where none can be started, the caller does all the work. */
+ * not depend on one another; their order is not fixed, but they begin in order. Any thread may call it. Where no thread
+ * can be started, the caller does all the work. */
 #ifndef KD_BASE_PARALLEL_H
 #define KD_BASE_PARALLEL_H
 
@@ -8,6 +8,16 @@
 
 #define KD_PARALLEL_THREADS 16
 
+/* On as many threads as there are cores, at most KD_PARALLEL_THREADS. */
 void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user);
+
+/* On as many cores as are idle, for items of some 100 us or more: before each of its items the caller starts threads
+ * for cores that are idle, and a thread that it started ends after an item if more threads want to run than there are
+ * cores. All calls together start at most one thread less than there are cores. */
+void kd_parallel_idle(size_t n, void (*each)(void *user, size_t item), void *user);
+
+/* kd_parallel_idle runs on this many threads if the calling thread sets it, however busy the cores are: for tests and
+ * benchmarks. 0: by idle cores. */
+extern _Thread_local unsigned kd_parallel_threads;
 
 #endif

@@ -1,13 +1,14 @@
 #include "image/deflate.h"
 
+#include "image/deflate_walk.h"
+
 #include <libdeflate.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #ifdef KD_HAVE_ISAL
 #include <isa-l/igzip_lib.h>
 #endif
-
-enum { LEVEL = 1 }; /* docs/decisions/0004-live-png.md */
 
 struct kd_deflate {
     enum kd_deflate_engine engine;
@@ -41,7 +42,8 @@ enum kd_deflate_engine kd_deflate_fastest(void)
     return kd_deflate_has(KD_DEFLATE_ISAL) ? KD_DEFLATE_ISAL : KD_DEFLATE_LIBDEFLATE;
 }
 
-enum kd_status kd_deflate_create(enum kd_deflate_engine engine, struct kd_deflate **out, struct kd_error *error)
+enum kd_status kd_deflate_create(enum kd_deflate_engine engine, int level, struct kd_deflate **out,
+                                 struct kd_error *error)
 {
     *out = NULL;
     if (!kd_deflate_has(engine))
@@ -49,7 +51,7 @@ enum kd_status kd_deflate_create(enum kd_deflate_engine engine, struct kd_deflat
                             kd_deflate_name(engine));
     struct kd_deflate *deflate = calloc(1, sizeof *deflate);
     if (deflate && engine == KD_DEFLATE_LIBDEFLATE)
-        deflate->compressor = libdeflate_alloc_compressor(LEVEL);
+        deflate->compressor = libdeflate_alloc_compressor(level);
     if (!deflate || (engine == KD_DEFLATE_LIBDEFLATE && !deflate->compressor)) {
         kd_deflate_destroy(deflate);
         return kd_error_set(error, KD_ENOMEM, "out of memory for a deflate engine");
@@ -68,9 +70,28 @@ void kd_deflate_destroy(struct kd_deflate *deflate)
     free(deflate);
 }
 
-static enum kd_status by_libdeflate(struct kd_deflate *deflate, const void *data, size_t size, struct kd_buffer *out)
+/* Bytes of an empty stored block (RFC 1951, 3.2.4) after its three bits and what fills up their byte. */
+static const uint8_t empty_block[4] = { 0, 0, 0xff, 0xff };
+
+/* What was a whole stream becomes a piece: its last block is no longer the last, and the empty one follows. Bits behind
+ * a stream's end are zeros, as the three bits of that block are. Returns the size; there is room for 5 bytes more. 0:
+ * it is no deflate stream. */
+static size_t make_piece(uint8_t *stream, size_t size)
 {
-    size_t bound = libdeflate_deflate_compress_bound(deflate->compressor, size);
+    struct kd_deflate_walk walk;
+    if (!kd_deflate_walk(stream, size, &walk))
+        return 0;
+    stream[walk.last / 8] &= (uint8_t)~(1u << walk.last % 8);
+    if (8 * size - walk.end < 3)
+        stream[size++] = 0;
+    memcpy(stream + size, empty_block, sizeof empty_block);
+    return size + sizeof empty_block;
+}
+
+static enum kd_status by_libdeflate(struct kd_deflate *deflate, const void *data, size_t size, bool last,
+                                    struct kd_buffer *out)
+{
+    const size_t bound = libdeflate_deflate_compress_bound(deflate->compressor, size) + 1 + sizeof empty_block;
     if (bound > deflate->room) {
         free(deflate->packed);
         deflate->packed = malloc(bound);
@@ -79,49 +100,68 @@ static enum kd_status by_libdeflate(struct kd_deflate *deflate, const void *data
             return KD_ENOMEM;
     }
     size_t packed = libdeflate_deflate_compress(deflate->compressor, data, size, deflate->packed, bound);
-    return kd_buffer_append(out, deflate->packed, packed);
+    if (!last)
+        packed = make_piece(deflate->packed, packed);
+    return packed ? kd_buffer_append(out, deflate->packed, packed) : KD_EINTERNAL;
 }
 
 #ifdef KD_HAVE_ISAL
 /* The output grows piece by piece, since igzip has no bound on the size of what it writes. */
-static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size_t size, struct kd_buffer *out)
+static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size_t size, bool last,
+                              struct kd_buffer *out)
 {
     struct isal_zstream *stream = &deflate->stream;
     isal_deflate_init(stream);
-    stream->level = LEVEL;
+    stream->level = 1;
     stream->level_buf = deflate->level_memory;
     stream->level_buf_size = sizeof deflate->level_memory;
-    stream->end_of_stream = 1;
+    stream->end_of_stream = last;
+    stream->flush = last ? NO_FLUSH : SYNC_FLUSH;
     stream->next_in = (uint8_t *)data; /* it only reads */
     stream->avail_in = (uint32_t)size;
     enum kd_status status = KD_OK;
-    while (!status && stream->internal_state.state != ZSTATE_END) {
+    do {
         stream->next_out = deflate->piece;
         stream->avail_out = sizeof deflate->piece;
         isal_deflate(stream); /* fails for arguments alone, which are right */
         status = kd_buffer_append(out, deflate->piece, sizeof deflate->piece - stream->avail_out);
-    }
+    } while (!status && (last ? stream->internal_state.state != ZSTATE_END : !stream->avail_out));
     return status;
 }
 #endif
 
-enum kd_status kd_deflate_append(struct kd_deflate *deflate, const void *data, size_t size, struct kd_buffer *out)
+enum kd_status kd_deflate_piece(struct kd_deflate *deflate, const void *data, size_t size, bool last,
+                                struct kd_buffer *out)
 {
-    static const uint8_t head[2] = { 0x78, 0x01 }; /* a window of 32 KiB, the fastest level */
-    size_t start = out->size;
-    enum kd_status status;
-    KD_TRY(kd_buffer_append(out, head, sizeof head));
-    if (deflate->engine == KD_DEFLATE_LIBDEFLATE)
-        KD_TRY(by_libdeflate(deflate, data, size, out));
+    const size_t start = out->size;
+    enum kd_status status = KD_OK;
 #ifdef KD_HAVE_ISAL
-    else
-        KD_TRY(by_isal(deflate, data, size, out));
+    if (deflate->engine == KD_DEFLATE_ISAL)
+        status = by_isal(deflate, data, size, last, out);
 #endif
-    uint32_t sum = libdeflate_adler32(1, data, size);
-    const uint8_t tail[4] = { (uint8_t)(sum >> 24), (uint8_t)(sum >> 16), (uint8_t)(sum >> 8), (uint8_t)sum };
-    KD_TRY(kd_buffer_append(out, tail, sizeof tail));
-done:
+    if (deflate->engine == KD_DEFLATE_LIBDEFLATE)
+        status = by_libdeflate(deflate, data, size, last, out);
     if (status)
         out->size = start;
     return status;
+}
+
+/* A window of 32 KiB, and a word about how it was made, by which the two bytes are a multiple of 31 (RFC 1950, 2.2). */
+void kd_zlib_head(int level, uint8_t to[2])
+{
+    to[0] = 0x78;
+    to[1] = level < 2 ? 0x01 : level < 6 ? 0x5e : level < 8 ? 0x9c : 0xda;
+}
+
+uint32_t kd_zlib_sum(const void *data, size_t size) { return libdeflate_adler32(1, data, size); }
+
+/* Adler-32 (RFC 1950, 8.2): a is 1 and the sum of all bytes, b the sum of a after each byte, modulo a prime. Behind
+ * other data a is larger by what it was there less the 1 that it began with, and so is each a that b sums. */
+uint32_t kd_zlib_sum_join(uint32_t sum, uint32_t other, size_t size)
+{
+    enum { PRIME = 65521 };
+    const uint64_t a = sum & 0xffff, b = sum >> 16, more = (a + PRIME - 1) % PRIME;
+    const uint64_t a_all = ((other & 0xffff) + more) % PRIME;
+    const uint64_t b_all = (b + (other >> 16) + size % PRIME * more) % PRIME;
+    return (uint32_t)(b_all << 16 | a_all);
 }

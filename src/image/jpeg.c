@@ -1,12 +1,22 @@
 #include "image/jpeg.h"
 
+#include "image/strips.h"
+
 #include <setjmp.h>
 #include <stdio.h> /* jpeglib.h does not include what it needs */
 #include <stdlib.h>
 
 #include <jpeglib.h>
 
-enum { PIECE = 16 << 10 };
+enum {
+    PIECE = 16 << 10,
+    STRIP = 256 << 10,      /* pixels of a strip, at least */
+    INTERVAL_MOST = 0xffff, /* MCUs between two restart markers (ITU-T T.81, B.2.4.4) */
+    SOF0 = 0xc0,
+    RST0 = 0xd0,
+    EOI = 0xd9,
+    SOS = 0xda,
+};
 
 /* One compression: libjpeg's state with what it calls back. */
 struct work {
@@ -15,14 +25,12 @@ struct work {
     struct jpeg_destination_mgr destination;
     struct kd_buffer *out;
     jmp_buf back;
-    char text[JMSG_LENGTH_MAX];
     JOCTET piece[PIECE];
 };
 
 static void give_up(j_common_ptr info)
 {
     struct work *work = (struct work *)info;
-    work->errors.format_message(info, work->text);
     longjmp(work->back, 1);
 }
 
@@ -37,10 +45,8 @@ static void begin_piece(j_compress_ptr info)
 
 static void append(struct work *work, size_t size)
 {
-    if (!kd_buffer_append(work->out, work->piece, size))
-        return;
-    snprintf(work->text, sizeof work->text, "out of memory for its bytes");
-    longjmp(work->back, 1);
+    if (kd_buffer_append(work->out, work->piece, size))
+        longjmp(work->back, 1);
 }
 
 static boolean put_piece(j_compress_ptr info) /* libjpeg wants all of it gone, whatever it says is free */
@@ -66,13 +72,15 @@ static void choose(struct jpeg_compress_struct *info, unsigned quality)
         info->comp_info[0].h_samp_factor = info->comp_info[0].v_samp_factor = 1;
 }
 
-static void compress(struct work *work, const uint8_t *pixels, unsigned quality)
+/* strip_rows: MCU rows from one restart marker to the next; 0: no markers. */
+static void compress(struct work *work, const uint8_t *pixels, unsigned quality, unsigned strip_rows)
 {
     struct jpeg_compress_struct *info = &work->info;
     info->dest = &work->destination;
     info->input_components = 3;
     info->in_color_space = JCS_RGB;
     choose(info, quality);
+    info->restart_in_rows = (int)strip_rows;
     jpeg_start_compress(info, TRUE);
     while (info->next_scanline < info->image_height) {
         JSAMPROW row = (JSAMPROW)(uintptr_t)(pixels + (size_t)3 * info->image_width * info->next_scanline);
@@ -81,18 +89,23 @@ static void compress(struct work *work, const uint8_t *pixels, unsigned quality)
     jpeg_finish_compress(info);
 }
 
-enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
-                              struct kd_buffer *out, struct kd_error *error)
+/* One picture in strips. */
+struct picture {
+    uint32_t width, height, rows; /* rows of pixels in a strip; the last may have fewer */
+    const uint8_t *pixels;
+    unsigned quality, strip_rows; /* MCU rows in a strip; 0: there is one strip */
+    size_t n;
+    struct kd_buffer *out;
+};
+
+/* A JPEG of a strip alone. */
+static enum kd_status encode_strip(void *user, size_t strip, struct kd_buffer *out)
 {
-    if (quality < 1 || quality > 100)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of quality %u: allowed are 1 to 100", quality);
-    if (width < 1 || width > JPEG_MAX_DIMENSION || height < 1 || height > JPEG_MAX_DIMENSION)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side is 1 to %ld", width, height,
-                            JPEG_MAX_DIMENSION);
+    const struct picture *p = user;
+    const size_t first = strip * p->rows, rest = p->height - first;
     struct work *work = calloc(1, sizeof *work);
     if (!work)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for a JPEG of %u x %u pixels", width, height);
-    const size_t before = out->size;
+        return KD_ENOMEM;
     volatile enum kd_status status = KD_OK;
     work->out = out;
     work->info.err = jpeg_std_error(&work->errors);
@@ -103,15 +116,79 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
                                                         .term_destination = put_last_piece };
     if (!setjmp(work->back)) {
         jpeg_create_compress(&work->info);
-        work->info.image_width = width;
-        work->info.image_height = height;
-        compress(work, pixels, quality);
+        work->info.image_width = p->width;
+        work->info.image_height = (JDIMENSION)(rest < p->rows ? rest : p->rows);
+        compress(work, p->pixels + 3 * first * p->width, p->quality, p->strip_rows);
     } else {
-        out->size = before;
-        status =
-            kd_error_set(error, KD_ENOMEM, "a JPEG of %u x %u pixels could not be made: %s", width, height, work->text);
+        status = KD_ENOMEM; /* nothing else can fail */
     }
     jpeg_destroy_compress(&work->info);
     free(work);
+    return status;
+}
+
+/* Where the scan's data begin. On the way the height in the frame's header becomes that of all strips. libjpeg writes
+ * segments of a marker, a length of two bytes and so many less two, up to the scan (T.81, B.1.1.4). */
+static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
+{
+    for (size_t at = 2;; at += 2 + (size_t)(jpeg->data[at + 2] << 8 | jpeg->data[at + 3])) {
+        uint8_t *segment = jpeg->data + at;
+        if (segment[1] == SOF0) {
+            segment[5] = (uint8_t)(height >> 8);
+            segment[6] = (uint8_t)height;
+        } else if (segment[1] == SOS) {
+            return at + 2 + (size_t)(segment[2] << 8 | segment[3]);
+        }
+    }
+}
+
+/* The first strip's file is the head of all; of the others the scans follow, a restart marker before each. All have the
+ * same tables, and a decoder begins anew at such a marker, as an encoder of the whole does (T.81, F.1.1.5.1). */
+static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffer *bytes)
+{
+    const struct picture *p = user;
+    const uint8_t restart[2] = { 0xff, (uint8_t)(RST0 + (strip + 7) % 8) }, end[2] = { 0xff, EOI };
+    const size_t scan = scan_of(bytes, p->height), first = strip ? scan : 0;
+    enum kd_status status = KD_OK;
+    if (strip)
+        status = kd_buffer_append(p->out, restart, sizeof restart);
+    if (!status)
+        status = kd_buffer_append(p->out, bytes->data + first, bytes->size - sizeof end - first);
+    if (!status && strip + 1 == p->n)
+        status = kd_buffer_append(p->out, end, sizeof end);
+    return status;
+}
+
+/* Tables that are made for the picture are made of all of it: it is one strip. */
+static void cut(struct picture *p)
+{
+    const uint32_t side = p->quality < KD_JPEG_FULL_COLOUR ? 16 : 8, across = (p->width + side - 1) / side;
+    const uint32_t rows = (STRIP + p->width * side - 1) / (p->width * side);
+    p->n = 1;
+    p->rows = p->height;
+    if (p->quality < KD_JPEG_THRIFTY || rows * across > INTERVAL_MOST || rows * side >= p->height)
+        return;
+    p->strip_rows = rows;
+    p->rows = rows * side;
+    p->n = (p->height + p->rows - 1) / p->rows;
+}
+
+enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
+                              struct kd_buffer *out, struct kd_error *error)
+{
+    if (quality < 1 || quality > 100)
+        return kd_error_set(error, KD_EINVAL, "a JPEG of quality %u: it must be 1 to 100", quality);
+    if (width < 1 || width > JPEG_MAX_DIMENSION || height < 1 || height > JPEG_MAX_DIMENSION)
+        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side is 1 to %ld", width, height,
+                            JPEG_MAX_DIMENSION);
+    struct picture picture = { .width = width, .height = height, .pixels = pixels, .quality = quality, .out = out };
+    const size_t before = out->size;
+    cut(&picture);
+    const enum kd_status status =
+        kd_strips_encode(&(struct kd_strips) { picture.n, encode_strip, join_strip, &picture });
+    if (status) {
+        out->size = before;
+        kd_error_set(error, status, "out of memory for a JPEG of %u x %u pixels", width, height);
+    }
     return status;
 }

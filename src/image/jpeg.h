@@ -3,7 +3,11 @@
  *
  * Sampling of colour, by measurement (docs/decisions/0004-live-png.md): below KD_JPEG_FULL_COLOUR at half width and
  * height (4:2:0), from there on at every pixel (4:4:4). Below KD_JPEG_THRIFTY Huffman's tables are made for the
- * picture: 5 to 12 % fewer bytes for twice the time. */
+ * picture: 5 to 12 % fewer bytes for twice the time.
+ *
+ * Strips of 256 Ki pixels and more are encoded apart, on as many cores as are idle, as restart intervals of one scan:
+ * the pixels that a decoder makes are those of a scan without. Below KD_JPEG_THRIFTY, and where the picture is smaller
+ * than that, there is one strip and no interval. */
 #ifndef KD_IMAGE_JPEG_H
 #define KD_IMAGE_JPEG_H
 

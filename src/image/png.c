@@ -1,7 +1,7 @@
 #include "image/png.h"
 
-#include "image/png_pixels.h"
 #include "base/utf8.h"
+#include "image/png_strips.h"
 
 #include <png.h>
 #include <stdbool.h>
@@ -23,7 +23,6 @@ struct job {
     struct kd_buffer *sink;   /* encoding */
     const uint8_t *source;    /* decoding */
     size_t left, size, texts; /* texts: chunks of text in the file */
-    struct kd_buffer stream;  /* encoding: all pixels; empty: they are written row by row */
     struct kd_png *picture;
 };
 
@@ -115,48 +114,33 @@ static void put_text(struct job *job, const struct kd_png_text *text)
     png_set_text(job->png, job->info, &chunk, 1);
 }
 
-static void set_compression(png_structp png, int level)
-{
-    png_set_compression_level(png, level);
-    png_set_compression_buffer_size(png, 64 * 1024); /* larger IDAT chunks than libpng's 8 KiB: fewer calls */
-    if (level <= 1) /* trying five filters a row costs more than zlib does at these levels */
-        png_set_filter(png, PNG_FILTER_TYPE_BASE, level ? PNG_FILTER_SUB : PNG_FILTER_NONE);
-}
-
-static void put_rows(struct job *job, const struct kd_png_params *params)
-{
-    if (params->bit_depth == 16 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
-        png_set_swap(job->png);
-    size_t stride = (size_t)params->width * 3 * ((size_t)params->bit_depth / 8);
-    for (uint32_t y = 0; y < params->height; y++)
-        png_write_row(job->png, (png_const_bytep)params->pixels + y * stride);
-    png_write_end(job->png, NULL); /* the text is out already */
-}
-
-static void put_stream(struct job *job)
-{
-    png_write_chunk(job->png, (png_const_bytep) "IDAT", job->stream.data, job->stream.size);
-    png_write_chunk(job->png, (png_const_bytep) "IEND", NULL, 0);
-}
-
-static bool encode(struct job *job, const struct kd_png_params *params)
+/* What stands before the pixels. */
+static bool encode_head(struct job *job, const struct kd_png_params *params)
 {
     if (setjmp(png_jmpbuf(job->png)))
         return false;
     png_set_write_fn(job->png, job, sink_write, sink_flush);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
-    set_compression(job->png, params->compression);
     png_set_IHDR(job->png, job->info, params->width, params->height, params->bit_depth, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     for (size_t i = 0; i < params->n_text; i++)
         put_text(job, &params->text[i]);
     png_write_info(job->png, job->info);
-    if (job->stream.size)
-        put_stream(job);
-    else
-        put_rows(job, params);
     return true;
+}
+
+static enum kd_status encode_pixels(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_png_strips *strips;
+    enum kd_status status = kd_png_strips_create(KD_DEFLATE_LIBDEFLATE, &strips, error);
+    if (status)
+        return status;
+    status = kd_png_strips_append(strips, params, out, error);
+    if (!status && (status = kd_png_chunk(out, "IEND", NULL, 0)))
+        kd_error_set(error, status, "out of memory for the end of a PNG");
+    kd_png_strips_destroy(strips);
+    return status;
 }
 
 enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error)
@@ -168,14 +152,15 @@ enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffe
     struct job job = { .sink = out };
     job.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
-    if (!job.info || (kd_png_filtered_bytes(params) <= KD_PNG_WHOLE && kd_png_pixels(params, &job.stream)))
+    if (!job.info)
         status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG encoder");
-    else if (!encode(&job, params) || job.no_memory)
+    else if (!encode_head(&job, params) || job.no_memory)
         status = job.no_memory ? kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels",
                                               params->width, params->height)
                                : kd_error_set(error, KD_EINVAL, "cannot encode the PNG: %s", job.message);
     png_destroy_write_struct(&job.png, &job.info);
-    kd_buffer_finish(&job.stream);
+    if (!status)
+        status = encode_pixels(params, out, error);
     if (status)
         out->size = start;
     return status;

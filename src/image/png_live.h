@@ -10,11 +10,10 @@
  *     kd_png_live_destroy(live);
  *
  * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working
- * memory grows to the largest and stays, 3 bytes a pixel with ISA-L and 6 with libdeflate. What a frame costs:
- * bench/results, *-encode.md.
+ * memory stays (png_strips.h). What a frame costs: bench/results, *-encode.md.
  *
- * The file: IHDR, sRGB, one IDAT, IEND. No text: what a live frame shows is told beside it, and one that is to be
- * kept is rendered again, as a file that carries its scene (render/output/png.h). */
+ * The file: IHDR, sRGB, IDAT for each strip, IEND. No text: what a live frame shows is told beside it, and one that is
+ * to be kept is rendered again, as a file that carries its scene (render/output/png.h). */
 #ifndef KD_IMAGE_PNG_LIVE_H
 #define KD_IMAGE_PNG_LIVE_H
 
@@ -24,12 +23,14 @@
 
 #include <stdint.h>
 
+#define KD_PNG_LIVE_MAX ((size_t)1 << 30) /* bytes of filtered rows */
+
 struct kd_png_live;
 enum kd_status kd_png_live_create(enum kd_deflate_engine engine, struct kd_png_live **out, struct kd_error *error);
 void kd_png_live_destroy(struct kd_png_live *live); /* NULL is fine */
 
 /* Append one file. pixels: rows from the top, three bytes a pixel, no padding, as kd_frame of 8 bits has them.
- * KD_EINVAL for a side outside 1 to 32768 pixels, KD_ETOOBIG over 1 GiB of pixels, KD_ENOMEM; on error out->size is
+ * KD_EINVAL for a side outside 1 to 32768 pixels, KD_ETOOBIG over KD_PNG_LIVE_MAX, KD_ENOMEM; on error out->size is
  * as it was, and the next frame may be tried. */
 enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint32_t height, const uint8_t *pixels,
                                   struct kd_buffer *out, struct kd_error *error);

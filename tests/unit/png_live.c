@@ -1,5 +1,6 @@
 /* Live frames, by every engine that was built in: pixel for pixel what libpng decodes; each chunk and checksum
  * judged by zlib. */
+#include "base/parallel.h"
 #include "image/png.h"
 #include "image/png_live.h"
 
@@ -48,43 +49,69 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* The file is these four chunks and nothing else, each with its own CRC; zlib checks its own sum, and nothing is
- * left over. */
+/* What a file has in its IDAT chunks, one behind the other. */
+struct stream {
+    uint8_t *data;
+    size_t size;
+};
+
+static void check_stream(const struct stream *stream, uint32_t width, uint32_t height)
+{
+    uLong expected = (3 * (uLong)width + 1) * height, used = stream->size;
+    uLongf got = expected + 1;
+    uint8_t *rows = malloc(got);
+    assert_non_null(rows);
+    assert_int_equal(uncompress2(rows, &got, stream->data, &used), Z_OK);
+    assert_int_equal(got, expected);
+    assert_int_equal(used, stream->size);
+    free(rows);
+}
+
+static void check_header(const uint8_t *data, uint32_t length, uint32_t width, uint32_t height)
+{
+    static const uint8_t tail[5] = { 8, 2, 0, 0, 0 };
+    assert_int_equal(length, 13);
+    assert_int_equal(big_endian(data), width);
+    assert_int_equal(big_endian(data + 4), height);
+    assert_memory_equal(data + 8, tail, 5);
+}
+
+/* The file is IHDR, sRGB, an IDAT for each strip, IEND and nothing else, each with its own CRC; zlib checks its own
+ * sum, and nothing is left over. A frame below 1 MiB has one IDAT. */
 static void check_strictly(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
 {
-    static const char *const types[] = { "IHDR", "sRGB", "IDAT", "IEND" };
-    static const uint8_t tail[5] = { 8, 2, 0, 0, 0 };
-    size_t at = 8;
+    struct stream stream = { malloc(size), 0 };
+    size_t at = 8, chunks = 0, strips = 0;
+    assert_non_null(stream.data);
     assert_memory_equal(file, "\x89PNG\r\n\x1a\n", 8);
-    for (int i = 0; i < 4; i++) {
+    for (bool ended = false; !ended; chunks++) {
         assert_true(size - at >= 12);
-        uint32_t length = big_endian(file + at);
+        const uint32_t length = big_endian(file + at);
         const uint8_t *data = file + at + 8;
         assert_true(length <= size - at - 12);
-        assert_memory_equal(file + at + 4, types[i], 4);
         assert_int_equal(big_endian(data + length), crc32(0, file + at + 4, length + 4));
-        if (i == 0) {
-            assert_int_equal(length, 13);
-            assert_int_equal(big_endian(data), width);
-            assert_int_equal(big_endian(data + 4), height);
-            assert_memory_equal(data + 8, tail, 5);
-        } else if (i == 1) {
-            assert_int_equal(length, 1);
-        } else if (i == 2) {
-            uLong expected = (3 * (uLong)width + 1) * height, used = length;
-            uLongf got = expected + 1;
-            uint8_t *rows = malloc(got);
-            assert_non_null(rows);
-            assert_int_equal(uncompress2(rows, &got, data, &used), Z_OK);
-            assert_int_equal(got, expected);
-            assert_int_equal(used, length);
-            free(rows);
-        } else {
+        ended = chunks > 2 && !memcmp(file + at + 4, "IEND", 4);
+        if (ended)
             assert_int_equal(length, 0);
+        else
+            assert_memory_equal(file + at + 4, chunks == 0 ? "IHDR" : chunks == 1 ? "sRGB" : "IDAT", 4);
+        if (chunks == 0)
+            check_header(data, length, width, height);
+        if (chunks == 1)
+            assert_int_equal(length, 1);
+        if (chunks < 2 || ended) {
+            at += 12 + length;
+            continue;
         }
+        memcpy(stream.data + stream.size, data, length);
+        stream.size += length;
+        strips++;
         at += 12 + length;
     }
     assert_int_equal(at, size);
+    assert_int_equal(strips > 1, (3 * (size_t)width + 1) * height >= 1 << 20 && height > 1);
+    check_stream(&stream, width, height);
+    free(stream.data);
 }
 
 static void check(struct kd_png_live *live, enum content content, uint32_t width, uint32_t height)
@@ -135,6 +162,59 @@ static void pixels_survive(void **state)
     }
 }
 
+/* zlib makes the n bytes of the raw stream, and nothing is left. */
+static void inflate_all(const struct kd_buffer *stream, const uint8_t *data, size_t n)
+{
+    uint8_t *back = malloc(n + 1);
+    z_stream z = {
+        .next_in = stream->data, .avail_in = (uInt)stream->size, .next_out = back, .avail_out = (uInt)n + 1
+    };
+    assert_non_null(back);
+    assert_int_equal(inflateInit2(&z, -15), Z_OK);
+    assert_int_equal(inflate(&z, Z_FINISH), Z_STREAM_END);
+    assert_int_equal(z.avail_in, 0);
+    assert_int_equal(z.total_out, n);
+    assert_memory_equal(back, data, n);
+    inflateEnd(&z);
+    free(back);
+}
+
+/* Of every engine and level, pieces one behind the other are one stream, whatever kinds of blocks they end with, and
+ * the sums of pieces are joined to that of all. */
+static void pieces_are_one_stream(void **state)
+{
+    (void)state;
+    enum { ROOM = 400 * 1000 };
+    static uint8_t data[ROOM];
+    for (int level = 0; level <= 12; level++)
+        for (int kind = 0; kind < 6; kind++) {
+            const enum kd_deflate_engine engine = level == 12 ? KD_DEFLATE_COUNT - 1 : KD_DEFLATE_LIBDEFLATE;
+            struct kd_deflate *deflate;
+            struct kd_buffer out = { 0 };
+            uint32_t sum = 1;
+            if (kd_deflate_create(engine, level, &deflate, NULL))
+                continue; /* said above */
+            for (uint32_t i = 0; i < ROOM; i++)
+                data[i] = (uint8_t)(kind == 0           ? 0
+                                    : kind == 1         ? random_bits()
+                                    : kind == 2         ? random_bits() % (1 + i / 2000 % 256)
+                                    : kind == 3         ? (random_bits() % 900 ? 7 : random_bits())
+                                    : kind == 4         ? (i * i >> 9) + random_bits() % 2
+                                    : i % 60000 < 30000 ? random_bits()
+                                                        : (uint32_t)__builtin_ctz(random_bits() | 4096));
+            for (size_t at = 0, n; at < ROOM; at += n) {
+                n = 1 + random_bits() % (kind % 2 ? 90000 : 700);
+                n = n > ROOM - at ? ROOM - at : n;
+                assert_int_equal(kd_deflate_piece(deflate, data + at, n, at + n == ROOM, &out), KD_OK);
+                sum = kd_zlib_sum_join(sum, kd_zlib_sum(data + at, n), n);
+            }
+            assert_int_equal(sum, adler32(1, data, ROOM));
+            inflate_all(&out, data, ROOM);
+            kd_buffer_finish(&out);
+            kd_deflate_destroy(deflate);
+        }
+}
+
 /* Streams of any length, of bytes that end where no more may be read: assembler, which the sanitizers cannot watch. */
 static void streams_of_every_length(void **state)
 {
@@ -145,24 +225,18 @@ static void streams_of_every_length(void **state)
     assert_true(memory != MAP_FAILED);
     assert_int_equal(mprotect(memory, page, PROT_NONE), 0);
     assert_int_equal(mprotect(memory + page + ROOM, page, PROT_NONE), 0);
-    static uint8_t back[ROOM + 1];
     for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
         struct kd_deflate *deflate;
         for (uint32_t i = 0; i < ROOM; i++)
             memory[page + i] = (uint8_t)(random_bits() % (i % 5000 < 2500 ? 3 : 256));
-        if (kd_deflate_create(engine, &deflate, NULL))
+        if (kd_deflate_create(engine, 1, &deflate, NULL))
             continue; /* said above */
         for (size_t n = 0; n <= ROOM; n += n < SHORT ? 1 : 1 + random_bits() % 9000)
             for (int end = 0; end < 2; end++) {
                 const uint8_t *data = memory + page + (end ? ROOM - n : 0);
                 struct kd_buffer out = { 0 };
-                assert_int_equal(kd_deflate_append(deflate, data, n, &out), KD_OK);
-                uLong used = out.size;
-                uLongf got = sizeof back;
-                assert_int_equal(uncompress2(back, &got, out.data, &used), Z_OK);
-                assert_int_equal(got, n);
-                assert_int_equal(used, out.size);
-                assert_memory_equal(back, data, n);
+                assert_int_equal(kd_deflate_piece(deflate, data, n, true, &out), KD_OK);
+                inflate_all(&out, data, n);
                 kd_buffer_finish(&out);
             }
         kd_deflate_destroy(deflate);
@@ -194,6 +268,31 @@ static void appends_the_same_bytes(void **state)
     }
     free(pixels);
     free(other);
+}
+
+/* The bytes are the same on any number of threads. */
+static void the_same_bytes_on_any_threads(void **state)
+{
+    (void)state;
+    static const unsigned threads[] = { 1, 2, 3, 7, 0 };
+    uint8_t *pixels = picture(DITHERED, 1920, 1080);
+    for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
+        struct kd_buffer first = { 0 };
+        for (size_t i = 0; kd_deflate_has(engine) && i < sizeof threads / sizeof *threads; i++) {
+            struct kd_png_live *live = encoder(engine);
+            struct kd_buffer file = { 0 };
+            kd_parallel_threads = threads[i];
+            assert_int_equal(kd_png_live_encode(live, 1920, 1080, pixels, i ? &file : &first, NULL), KD_OK);
+            if (i) {
+                assert_int_equal(file.size, first.size);
+                assert_memory_equal(file.data, first.data, file.size);
+            }
+            kd_buffer_finish(&file);
+            kd_png_live_destroy(live);
+        }
+        kd_buffer_finish(&first);
+    }
+    free(pixels);
 }
 
 static void bad_sides_are_refused(void **state)
@@ -242,6 +341,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_survive),
         cmocka_unit_test(streams_of_every_length),
+        cmocka_unit_test(pieces_are_one_stream),
+        cmocka_unit_test(the_same_bytes_on_any_threads),
         cmocka_unit_test(appends_the_same_bytes),
         cmocka_unit_test(bad_sides_are_refused),
         cmocka_unit_test(an_engine_that_is_not_there_is_refused),

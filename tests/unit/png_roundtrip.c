@@ -1,6 +1,7 @@
 /* What kd_png_encode writes, kd_png_decode reads back; other colour types, written by libpng itself, come as
  * RGB. */
-#include "image/png_pixels.h"
+#include "base/parallel.h"
+#include "image/png.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -65,29 +66,55 @@ static void pixels_survive(void **state)
     round_trip(1, 32768, 16, 1);
 }
 
-/* A picture whose rows are too many to be kept at once is written row by row. */
+/* Noise, ramps and flat parts of any depth. */
+static void fill_picture(uint8_t *pixels, uint32_t width, uint32_t height, size_t step)
+{
+    for (uint32_t y = 0; y < height; y++)
+        for (size_t i = 0; i < width * step; i++)
+            *pixels++ = (uint8_t)(y % 300 < 100 ? random_bits() >> 28 : y % 300 < 200 ? i * y >> 6 : 0);
+}
+
+/* A picture of several strips is the same file on any number of threads, and has its pixels; so have rows that are
+ * strips of their own. */
+static void strips_survive(uint32_t width, uint32_t height, int depth, int level)
+{
+    static const unsigned threads[] = { 1, 2, 3, 7, 0 };
+    const size_t step = 3 * (size_t)depth / 8, size = step * width * height;
+    uint8_t *pixels = malloc(size);
+    struct kd_buffer first = { 0 };
+    struct kd_png png;
+    assert_non_null(pixels);
+    fill_picture(pixels, width, height, step);
+    const struct kd_png_params params = {
+        .width = width, .height = height, .bit_depth = depth, .compression = level, .pixels = pixels
+    };
+    for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
+        struct kd_buffer file = { 0 };
+        kd_parallel_threads = threads[i];
+        assert_int_equal(kd_png_encode(&params, i ? &file : &first, NULL), KD_OK);
+        if (i) {
+            assert_int_equal(file.size, first.size);
+            assert_memory_equal(file.data, first.data, file.size);
+        }
+        kd_buffer_finish(&file);
+    }
+    assert_int_equal(kd_png_decode(first.data, first.size, &png, NULL), KD_OK);
+    assert_memory_equal(png.pixels, pixels, size);
+    kd_png_finish(&png);
+    kd_buffer_finish(&first);
+    free(pixels);
+}
+
 static void large_pictures_survive(void **state)
 {
     (void)state;
-    enum { WIDTH = 2048, HEIGHT = 1400 };
-    const size_t size = 6 * (size_t)WIDTH * HEIGHT;
-    uint16_t *pixels = calloc(1, size);
-    struct kd_buffer file = { 0 };
-    struct kd_png png;
-    struct kd_error error = { 0 };
-    assert_non_null(pixels);
-    for (size_t i = 0; i < size / 2; i += 997)
-        pixels[i] = (uint16_t)i;
-    const struct kd_png_params params = {
-        .width = WIDTH, .height = HEIGHT, .bit_depth = 16, .compression = 1, .pixels = pixels
-    };
-    assert_true(kd_png_filtered_bytes(&params) > KD_PNG_WHOLE);
-    assert_int_equal(kd_png_encode(&params, &file, &error), KD_OK);
-    assert_int_equal(kd_png_decode(file.data, file.size, &png, &error), KD_OK);
-    assert_memory_equal(png.pixels, pixels, size);
-    kd_png_finish(&png);
-    kd_buffer_finish(&file);
-    free(pixels);
+    static const int levels[] = { 0, 1, 5 };
+    for (size_t i = 0; i < sizeof levels / sizeof *levels; i++) {
+        strips_survive(1027, 803, 8, levels[i]);
+        strips_survive(1027, 803, 16, levels[i]);
+    }
+    strips_survive(32768, 37, 16, 1);
+    strips_survive(7, 32768, 16, 5);
 }
 
 /* Rows that go on downwards, or by the mean of left and above, are small by the filter that says so alone: noise

@@ -1,0 +1,224 @@
+#include "image/png_strips.h"
+
+#include "image/png_filter.h"
+#include "image/strips.h"
+
+#include <libdeflate.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STRIP = 512 << 10, ROW_ROOM = 7 /* two rows, and what the filters need */ };
+
+/* What a thread works with; in a list while none does. */
+struct bench {
+    struct bench *next;
+    struct kd_deflate *deflate;
+    uint8_t *rows; /* filtered */
+    uint8_t *room; /* for ROW_ROOM rows */
+    size_t rows_size, room_size;
+};
+
+struct kd_png_strips {
+    enum kd_deflate_engine engine;
+    pthread_mutex_t lock;
+    struct bench *idle; /* under the lock */
+};
+
+/* One picture. */
+struct work {
+    struct kd_png_strips *strips;
+    const struct kd_png_params *p;
+    size_t step, stride, n; /* bytes of a pixel and of a row; strips */
+    uint32_t rows;          /* of a strip; the last may have fewer */
+    uint32_t *sums;         /* of each strip */
+    uint32_t sum;           /* of those that are joined */
+    struct kd_buffer *out;
+};
+
+static void big_endian(uint8_t to[4], uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        to[i] = (uint8_t)(value >> (24 - 8 * i));
+}
+
+/* A chunk of up to three parts. */
+static enum kd_status put_chunk(struct kd_buffer *out, const char type[5], const void *const parts[3],
+                                const size_t sizes[3])
+{
+    uint8_t head[8], tail[4];
+    const size_t length = sizes[0] + sizes[1] + sizes[2], start = out->size;
+    enum kd_status status;
+    big_endian(head, (uint32_t)length);
+    memcpy(head + 4, type, 4);
+    KD_TRY(kd_buffer_append(out, head, sizeof head));
+    for (int i = 0; i < 3; i++)
+        KD_TRY(kd_buffer_append(out, parts[i], sizes[i]));
+    big_endian(tail, libdeflate_crc32(0, out->data + start + 4, length + 4));
+    KD_TRY(kd_buffer_append(out, tail, sizeof tail));
+done:
+    return status;
+}
+
+enum kd_status kd_png_chunk(struct kd_buffer *out, const char type[5], const void *data, size_t size)
+{
+    return put_chunk(out, type, (const void *const[3]) { data }, (const size_t[3]) { size });
+}
+
+static void bench_destroy(struct bench *bench)
+{
+    kd_deflate_destroy(bench->deflate);
+    free(bench->rows);
+    free(bench->room);
+    free(bench);
+}
+
+/* One that is idle, or a new one; NULL: out of memory. */
+static struct bench *bench_take(struct kd_png_strips *strips, int level)
+{
+    pthread_mutex_lock(&strips->lock);
+    struct bench *bench = strips->idle;
+    if (bench)
+        strips->idle = bench->next;
+    pthread_mutex_unlock(&strips->lock);
+    if (bench || !(bench = calloc(1, sizeof *bench)) || !kd_deflate_create(strips->engine, level, &bench->deflate, NULL))
+        return bench;
+    bench_destroy(bench);
+    return NULL;
+}
+
+static void bench_put_back(struct kd_png_strips *strips, struct bench *bench)
+{
+    pthread_mutex_lock(&strips->lock);
+    bench->next = strips->idle;
+    strips->idle = bench;
+    pthread_mutex_unlock(&strips->lock);
+}
+
+static bool make_room(uint8_t **memory, size_t *size, size_t wanted)
+{
+    if (wanted <= *size)
+        return true;
+    free(*memory); /* what it held is of no use: no copy, as realloc would make */
+    *memory = malloc(wanted);
+    *size = *memory ? wanted : 0;
+    return *memory;
+}
+
+/* Samples of 16 bits stand with the larger byte first. */
+static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
+{
+    const uint8_t *from = (const uint8_t *)w->p->pixels + y * w->stride;
+    if (w->p->bit_depth == 8)
+        return from;
+    for (size_t i = 0; i < w->stride / 2; i++) {
+        uint16_t sample;
+        memcpy(&sample, from + 2 * i, 2);
+        room[2 * i] = (uint8_t)(sample >> 8);
+        room[2 * i + 1] = (uint8_t)sample;
+    }
+    return room;
+}
+
+/* Trying filters costs more than it gains at the lowest levels. Sub makes kerrd's pictures smallest, among those whose
+ * cost is nothing beside deflate's (docs/decisions/0004-live-png.md). */
+static void filter(const struct work *w, uint32_t first, uint32_t end, struct bench *bench)
+{
+    const size_t stride = w->stride;
+    uint8_t *to = bench->rows, *room[2] = { bench->room, bench->room + stride };
+    memset(room[1], 0, stride); /* above the first row of a picture */
+    const uint8_t *above = first ? row_at(w, first - 1, room[1]) : room[1];
+    for (uint32_t y = first; y < end; y++, to += stride + 1) {
+        const uint8_t *row = row_at(w, y, room[(y - first) % 2]);
+        if (w->p->compression > 1) {
+            kd_png_filter_least(to, row, above, stride, w->step, bench->room + 2 * stride);
+        } else if (w->p->compression == 1) {
+            kd_png_filter_sub(to, row, stride, w->step);
+        } else {
+            to[0] = 0;
+            memcpy(to + 1, row, stride);
+        }
+        above = row;
+    }
+}
+
+static enum kd_status encode(void *user, size_t strip, struct kd_buffer *out)
+{
+    struct work *w = user;
+    const uint32_t first = (uint32_t)strip * w->rows, rest = w->p->height - first;
+    const uint32_t rows = rest < w->rows ? rest : w->rows;
+    const size_t size = (w->stride + 1) * rows;
+    struct bench *bench = bench_take(w->strips, w->p->compression);
+    if (!bench)
+        return KD_ENOMEM;
+    enum kd_status status = KD_ENOMEM;
+    if (make_room(&bench->rows, &bench->rows_size, size) &&
+        make_room(&bench->room, &bench->room_size, ROW_ROOM * w->stride)) {
+        filter(w, first, first + rows, bench);
+        w->sums[strip] = kd_zlib_sum(bench->rows, size);
+        status = kd_deflate_piece(bench->deflate, bench->rows, size, strip + 1 == w->n, out);
+    }
+    bench_put_back(w->strips, bench);
+    return status;
+}
+
+static enum kd_status join(void *user, size_t strip, const struct kd_buffer *bytes)
+{
+    struct work *w = user;
+    const size_t first = strip * w->rows, rest = w->p->height - first, rows = rest < w->rows ? rest : w->rows;
+    const bool last = strip + 1 == w->n;
+    uint8_t head[2], tail[4];
+    w->sum = kd_zlib_sum_join(w->sum, w->sums[strip], rows * (w->stride + 1));
+    kd_zlib_head(w->p->compression, head);
+    big_endian(tail, w->sum);
+    return put_chunk(w->out, "IDAT", (const void *const[3]) { head, bytes->data, tail },
+                     (const size_t[3]) { strip ? 0 : sizeof head, bytes->size, last ? sizeof tail : 0 });
+}
+
+enum kd_status kd_png_strips_create(enum kd_deflate_engine engine, struct kd_png_strips **out, struct kd_error *error)
+{
+    *out = NULL;
+    if (!kd_deflate_has(engine))
+        return kd_error_set(error, KD_EINVAL, "this kerrd was built without the deflate engine %s",
+                            kd_deflate_name(engine));
+    *out = calloc(1, sizeof **out);
+    if (!*out)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a PNG encoder");
+    (*out)->engine = engine;
+    pthread_mutex_init(&(*out)->lock, NULL);
+    return KD_OK;
+}
+
+void kd_png_strips_destroy(struct kd_png_strips *strips)
+{
+    if (!strips)
+        return;
+    for (struct bench *next, *bench = strips->idle; bench; bench = next) {
+        next = bench->next;
+        bench_destroy(bench);
+    }
+    pthread_mutex_destroy(&strips->lock);
+    free(strips);
+}
+
+enum kd_status kd_png_strips_append(struct kd_png_strips *strips, const struct kd_png_params *params,
+                                    struct kd_buffer *out, struct kd_error *error)
+{
+    struct work w = { .strips = strips, .p = params, .sum = 1, .out = out, .step = 3 * ((size_t)params->bit_depth / 8) };
+    const size_t start = out->size;
+    w.stride = params->width * w.step;
+    const size_t size = (w.stride + 1) * params->height, most = size / STRIP ? size / STRIP : 1;
+    w.rows = (uint32_t)((params->height + most - 1) / most);
+    w.n = (params->height + w.rows - 1) / w.rows;
+    w.sums = malloc(w.n * sizeof *w.sums);
+    const enum kd_status status =
+        w.sums ? kd_strips_encode(&(struct kd_strips) { w.n, encode, join, &w }) : KD_ENOMEM;
+    free(w.sums);
+    if (status) {
+        out->size = start;
+        kd_error_set(error, status, "%s for a PNG of %u x %u pixels",
+                     status == KD_ENOMEM ? "out of memory" : "a damaged deflate stream", params->width,
+                     params->height);
+    }
+    return status;
+}
