@@ -5,6 +5,7 @@
 #include "cli/progress.h"
 #include "cli/trace.h"
 #include "render/rays/answer.h"
+#include "render/rays/looks.h"
 #include "render/rays/request.h"
 #include "scene/number.h"
 
@@ -17,6 +18,13 @@ enum {
     KEY_SPIN = 256,
     KEY_R,
     KEY_INCLINATION,
+    KEY_MOTION,
+    KEY_VELOCITY_R,
+    KEY_VELOCITY_THETA,
+    KEY_VELOCITY_PHI,
+    KEY_INFALL_FROM,
+    KEY_INFALL_ENERGY,
+    KEY_INFALL_MOMENTUM,
     KEY_ORDERS,
     KEY_PROFILE,
     KEY_TOLERANCE,
@@ -29,8 +37,22 @@ enum {
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
 /* The fields in the order of their keys, by the names that kd_rays_request_set has for them. */
-static const char *const names[N_FIELDS] = { "spin",      "r",      "inclination_deg", "orders", "profile",
-                                             "tolerance", "engine", "precision",       "steps" };
+static const char *const names[N_FIELDS] = { "spin",
+                                             "r",
+                                             "inclination_deg",
+                                             "motion",
+                                             "velocity_r",
+                                             "velocity_theta",
+                                             "velocity_phi",
+                                             "infall_from",
+                                             "infall_energy",
+                                             "infall_momentum",
+                                             "orders",
+                                             "profile",
+                                             "tolerance",
+                                             "engine",
+                                             "precision",
+                                             "steps" };
 
 struct arguments {
     const char *input, *output, *device, *format;
@@ -47,6 +69,17 @@ static const struct argp_option table[] = {
     { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
     { "r", KEY_R, "R|infinity", 0, "radius of the observer in M", 0 },
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
+    { "motion", KEY_MOTION, KD_OBSERVER_WORDS, 0,
+      "how an observer at a finite radius moves, as camera.observer; rays are then directions in its frame, in "
+      "degrees: "
+      "YAW,PITCH instead of ALPHA,BETA",
+      0 },
+    { "velocity-r", KEY_VELOCITY_R, "V", 0, "of --motion velocity, outwards, in c", 0 },
+    { "velocity-theta", KEY_VELOCITY_THETA, "V", 0, "of --motion velocity, away from the north pole", 0 },
+    { "velocity-phi", KEY_VELOCITY_PHI, "V", 0, "of --motion velocity, along the disk's rotation", 0 },
+    { "infall-from", KEY_INFALL_FROM, "R|infinity", 0, "of --motion infall: where it was at rest, in M", 0 },
+    { "infall-energy", KEY_INFALL_ENERGY, "E|rest", 0, "of --motion infall: energy per mass", 0 },
+    { "infall-momentum", KEY_INFALL_MOMENTUM, "L", 0, "of --motion infall: angular momentum per mass, in M", 0 },
     { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
     { "profile", KEY_PROFILE, "draft|interactive|balanced|high|reference", 0, "how exactly, in a word", 0 },
     { "tolerance", KEY_TOLERANCE, "T", 0,
@@ -243,6 +276,8 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     struct kd_rays_steps steps = { 0 };
     struct kd_told_steps trace = { 0 };
     struct kd_renderer *renderer = NULL;
+    double energy;
+    bool outward = false;
     kd_rays_request_init(&request);
     enum kd_status status;
     KD_TRY(load(arguments, &request, error));
@@ -251,8 +286,12 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     if (arguments->output && strcmp(arguments->output, "-"))
         KD_TRY(kd_file_check(arguments->output, error));
     KD_TRY(settle(arguments, &request, &renderer, error));
-    status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, NULL, 1 }, &steps,
-                           error);
+    if (request.params.observer) {
+        kd_rays_looks_label(&request.params, request.alpha_beta, 1, request.alpha_beta, &outward, &energy);
+        request.params.observer = 0; /* the ray itself is every observer's */
+    }
+    status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, &outward, 1 },
+                           &steps, error);
     if (status == KD_EDEVICE && !*error->pointer) /* as in trace() */
         kd_cli_device_lost(error);
     KD_TRY(status);

@@ -12,8 +12,10 @@
 enum {
     FEWEST = 64,
     MOST = 512,
-    COARSEST = 8
-}; /* rings; how many times fewer of them, and of angles, the roughest sum looks at */
+    COARSEST = 16,
+    LOOKED = 128
+}; /* rings; how many times fewer of them, and of angles, the roughest sum looks at; parts of a line that it is looked
+      at by */
 
 double kd_line_limb(enum kd_line_limb limb, double mu)
 {
@@ -200,33 +202,106 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     }
 }
 
-/* How far two sums differ in the cumulative share, at the edge where they do most. */
-static double apart(const struct sum *x, const struct sum *y)
+/* Edges of the sums: those asked for, and between and beyond them as many more as the error needs. Where two sums are
+ * told apart at a few edges alone they may agree there by chance. */
+struct edges {
+    double *at;
+    int n, bins;       /* n edges asked for; bins of the sums */
+    const double *own; /* those asked for */
+    int first;         /* own[0] is at[first] */
+};
+
+struct range { double low, high; };
+
+/* The energies of the line, roughly: those of a few rings in a few directions. */
+static struct range energies(const struct kd_disk_image *image, const struct kd_line_params *p)
 {
-    double a = 0, b = 0, most = 0;
-    for (int i = 0; i < x->bins; i++) {
-        a += x->in[i] / x->total, b += y->in[i] / y->total;
-        most = fmax(most, fabs(a - b));
+    enum { RINGS = 8, AROUND = 32 };
+    double alpha[AROUND], beta[AROUND];
+    struct range range = { INFINITY, 0 };
+    for (int i = 0; i <= RINGS; i++) {
+        double r = i == RINGS ? p->outer : p->inner * pow(p->outer / p->inner, (double)i / RINGS);
+        struct kd_disk_ring gas = kd_disk_image_gas(image, r);
+        kd_disk_image_ring(image, r, 1, AROUND, alpha, beta);
+        for (int j = 0; j < AROUND; j++) {
+            double g = kd_disk_image_redshift(image, &gas, alpha[j]);
+            range.low = fmin(range.low, g), range.high = fmax(range.high, g);
+        }
+    }
+    return range;
+}
+
+/* Edges from `from` on and before `to`: the first one, and within the line one every LOOKED-th part of it. */
+static int divide(double from, double to, const struct range *line, double *at)
+{
+    double low = fmax(from, line->low), high = fmin(to, line->high);
+    int n = 0, parts = high > low ? (int)ceil(LOOKED * ((high - low) / (line->high - line->low))) : 0;
+    at[n++] = from;
+    for (int i = low > from ? 0 : 1; i < parts; i++)
+        at[n++] = low + (high - low) * i / parts;
+    return n;
+}
+
+/* at: room for bins + 2 LOOKED + 4 edges. */
+static struct edges edges_of(const struct range *line, const double *own, int bins, double *at)
+{
+    struct edges e = { .at = at, .n = bins + 1, .own = own };
+    int n = line->low < own[0] ? divide(line->low, own[0], line, at) : 0;
+    e.first = n;
+    for (int i = 0; i < bins; i++)
+        n += divide(own[i], own[i + 1], line, at + n);
+    if (line->high > own[bins])
+        n += divide(own[bins], line->high, line, at + n), at[n++] = line->high;
+    else
+        at[n++] = own[bins];
+    e.bins = n - 1;
+    return e;
+}
+
+/* How far two sums differ in the cumulative share from the first edge asked for, at the edge where they do most. */
+static double apart(const struct edges *edges, const struct sum *x, const struct sum *y)
+{
+    double off = 0, most = 0, first = 0;
+    for (int i = 0; i < edges->first; i++)
+        first += x->in[i] / x->total - y->in[i] / y->total;
+    most = fabs(first);
+    for (int i = 0; i < edges->bins; i++) {
+        off += x->in[i] / x->total - y->in[i] / y->total;
+        most = fmax(most, fabs(off - first));
     }
     return most;
 }
 
-enum { LEVELS = 4 }; /* looks: 8, 4, 2 and 1 times fewer rings and angles */
-
-/* Sums ever closer until the error is as small as it may be: at least two, of which the later one is the answer, in
- * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
- * difference three quarters are counted, since in some profiles two sums come nearer by chance. The table errs with
- * the sixth power of its step, so that twice the step shows 63 times what is left: an eighth is counted. */
-static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
-                       const struct kd_lamppost *lamp, struct work *work, struct sum sums[LEVELS + 1], int *n)
+/* The shares of the bins asked for, of those that the sum has. */
+static void gather(const struct edges *edges, const struct sum *s, double *share)
 {
-    integrate(image, p, lamp, (struct looks) { COARSEST, 2 }, work, &sums[LEVELS]);
+    for (int i = 0, at = edges->first; i < edges->n - 1; i++)
+        for (share[i] = 0; at < s->bins && edges->at[at] < edges->own[i + 1]; at++)
+            share[i] += s->in[at] / s->total;
+}
+
+enum { LEVELS = 5 }; /* looks: 16, 8, 4, 2 and 1 times fewer rings and angles */
+
+/* Sums ever closer until the error is as small as it may be: at least three, of which the last one is the answer, in
+ * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
+ * difference three quarters are counted. Two sums may come nearer by chance, wherever they are looked at: so no less is
+ * counted than a quarter of what the halving before shows. The table errs with the sixth power of its step, so that
+ * twice the step shows 63 times what is left: an eighth is counted. */
+static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
+                       const struct kd_lamppost *lamp, const struct edges *edges, struct work *work,
+                       struct sum sums[LEVELS + 1], int *n)
+{
     integrate(image, p, lamp, (struct looks) { COARSEST, 1 }, work, &sums[0]);
-    double table = 0.125 * apart(&sums[0], &sums[LEVELS]), error = INFINITY;
-    for (*n = 0; *n < LEVELS - 1 && !(error <= p->tolerance);) {
+    integrate(image, p, lamp, (struct looks) { COARSEST / 2, 1 }, work, &sums[1]);
+    integrate(image, p, lamp, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
+    double table = 0.125 * apart(edges, &sums[1], &sums[LEVELS]), before = apart(edges, &sums[1], &sums[0]),
+           error = INFINITY;
+    for (*n = 1; *n < LEVELS - 1 && !(error <= p->tolerance);) {
         ++*n;
         integrate(image, p, lamp, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);
-        error = 0.75 * apart(&sums[*n], &sums[*n - 1]) + table;
+        double here = apart(edges, &sums[*n], &sums[*n - 1]);
+        error = 0.75 * fmax(here, 0.25 * before) + table;
+        before = here;
     }
     return error;
 }
@@ -242,17 +317,19 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
         return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk",
                               params->height);
     struct work *work = malloc(sizeof *work);
-    double *in = calloc((size_t)bins * (LEVELS + 1), sizeof *in);
+    const size_t most = (size_t)bins + 2 * LOOKED + 4;
+    double *in = calloc(most * (LEVELS + 2), sizeof *in);
     enum kd_status status = work && in ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d bins", bins);
     if (!status) {
         int n;
+        const struct range line = energies(image, params);
+        const struct edges all = edges_of(&line, edges, bins, in + most * (LEVELS + 1));
         for (int i = 0; i <= LEVELS; i++)
-            sums[i] = (struct sum) { .edges = edges, .bins = bins, .in = in + (size_t)i * (size_t)bins };
-        double left = approach(image, params, &lamp, work, sums, &n);
+            sums[i] = (struct sum) { .edges = all.at, .bins = all.bins, .in = in + (size_t)i * most };
+        double left = approach(image, params, &lamp, &all, work, sums, &n);
         *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3,
                                               .error = left };
-        for (int i = 0; i < bins; i++)
-            share[i] = sums[n].in[i] / sums[n].total;
+        gather(&all, &sums[n], share);
         if (!(sums[n].total > 0 && isfinite(profile->total)))
             status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole",
                                     image->spin);

@@ -5,6 +5,7 @@
 #include "render/explain/explain.h"
 #include "render/lens/label.h"
 #include "render/rays/rays.h"
+#include "render/view/critical_pixels.h"
 
 #include "render_support.h"
 
@@ -129,6 +130,36 @@ static uint32_t judge_rays(const struct kd_frame *frame)
     return others;
 }
 
+/* What the list of rays has of the direction that an observer at a finite radius looks in. */
+static void judge_direction(const struct kd_scene *scene, const struct kd_explained *x, uint32_t side,
+                            struct kd_rays_params params)
+{
+    const struct kd_scene counted =
+        x->told->steps_a_pixel == side ? x->scene : kd_critical_camera(&x->scene, x->told->steps_a_pixel);
+    const struct kd_camera_exact camera = kd_camera_exact(&counted);
+    const struct kd_observer_motion motion = kd_scene_observer(scene);
+    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
+    struct kd_ray_end end;
+    double at[3];
+    kd_camera_direction(&camera, x->told->x, x->told->y, at);
+    const double look[2] = { atan2(at[2], -at[0]) * (180 / M_PI), asin(-at[1]) * (180 / M_PI) };
+    params.observer = 1 + (int)motion.observer, params.fall_from = motion.fall_from;
+    params.fall_energy = motion.fall_energy, params.fall_momentum = motion.fall_momentum;
+    memcpy(params.velocity, motion.velocity, sizeof params.velocity);
+    OK(kd_rays_trace(NULL, &params, look, 1, crossings, &end, NULL, NULL, &error));
+    near("energy", end.energy, x->label.energy, 1e-11);
+    assert_int_equal(end.fate, x->end.fate);
+    assert_int_equal(end.n_crossings, x->end.n_crossings);
+    for (uint32_t n = 0; n < end.n_crossings; n++) {
+        const double bound =
+            (1e-11 + 1e3 * x->end.error) * fmax(x->crossings[n].r, 1); /* a direction's rounding grows */
+        near("r of a direction", x->crossings[n].r, crossings[n].r, bound);
+        near("phi of a direction", x->crossings[n].phi, crossings[n].phi + x->frame.twist, bound);
+        near("delay of a direction", x->crossings[n].delay, crossings[n].delay, bound);
+        near("g of a direction", x->crossings[n].g, crossings[n].g, bound);
+    }
+}
+
 /* The closed form's crossings are those that the list of rays has, and the picture's but for its rounding. */
 static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
 {
@@ -155,6 +186,8 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
             near("g", x.crossings[n].g, crossings[n].g / x.label.energy, 1e-15);
         }
     }
+    if (isfinite(scene->camera.r) && !x.motion.within)
+        judge_direction(scene, &x, plan->side, params);
     for (size_t i = 0; i < x.told->n_places; i++) {
         const struct kd_told_place *p = &x.told->places[i];
         const struct kd_ray_crossing *c = &x.crossings[p->order];

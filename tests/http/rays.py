@@ -214,6 +214,24 @@ class Requests(daemon.Case):
             ('{%s,"accuracy":{"profile":"best"}}' % one, "/accuracy/profile"),
             ('{%s,"accuracy":{"profile":2}}' % one, "/accuracy/profile"),
             ('{"rays":[[1,2],[100,0]],"observer":{"r":10}}', "/rays/1"),
+            ('{%s,"observer":{"r":10,"motion":"still"}}' % one, "/observer/motion"),
+            ('{%s,"observer":{"r":10,"motion":1}}' % one, "/observer/motion"),
+            ('{%s,"observer":{"motion":"zamo"}}' % one, "/observer/motion"),
+            ('{%s,"observer":{"r":1.5,"motion":"static"},"spin":0.9}' % one, "/observer/r"),
+            ('{%s,"observer":{"r":2.5,"motion":"keplerian"},"spin":0}' % one, "/observer/r"),
+            ('{%s,"observer":{"r":1.2,"motion":"infall"},"spin":0.9}' % one, "/observer/r"),
+            ('{%s,"observer":{"r":9,"velocity_r":0.1}}' % one, "/observer/velocity_r"),
+            ('{%s,"observer":{"r":9,"motion":"zamo","infall_from":20}}' % one, "/observer/infall_from"),
+            ('{%s,"observer":{"r":9,"motion":"velocity","velocity_phi":1.1}}' % one, "/observer/velocity_phi"),
+            (
+                '{%s,"observer":{"r":9,"motion":"velocity","velocity_phi":0.8,"velocity_r":0.7}}' % one,
+                "/observer/velocity_phi",
+            ),
+            ('{%s,"observer":{"r":9,"motion":"infall","infall_from":8}}' % one, "/observer/infall_from"),
+            ('{%s,"observer":{"r":9,"motion":"infall","infall_energy":0.1}}' % one, "/observer/infall_energy"),
+            ('{%s,"observer":{"r":9,"motion":"infall","infall_momentum":900}}' % one, "/observer/infall_momentum"),
+            ('{"rays":[[1,2],[181,0]],"observer":{"r":10,"motion":"zamo"}}', "/rays/1/0"),
+            ('{"rays":[[1,91]],"observer":{"r":10,"motion":"zamo"}}', "/rays/0/1"),
         )
         for body, pointer in table:
             with self.subTest(body):
@@ -264,6 +282,8 @@ class Requests(daemon.Case):
             ("precision=f16", "/accuracy/precision"),
             ("steps=3", "/accuracy/steps"),
             ("observer.r=10", "/observer.r"),
+            ("r=9&motion=x", "/observer/motion"),
+            ("r=9&velocity_phi=0.1", "/observer/velocity_phi"),
             ("rays=1", "/rays"),
         ):
             with self.subTest(query):
@@ -328,7 +348,9 @@ class Requests(daemon.Case):
         self.assertEqual(set(post["responses"]["200"]["content"]), {"application/json", "application/x-npy"})
         self.assertEqual(
             [p["name"] for p in post["parameters"]],
-            ["spin", "r", "inclination_deg", "orders", "profile", "tolerance", "engine", "precision", "steps"],
+            ["spin", "r", "inclination_deg", "motion"]
+            + ["velocity_r", "velocity_theta", "velocity_phi", "infall_from", "infall_energy", "infall_momentum"]
+            + ["orders", "profile", "tolerance", "engine", "precision", "steps"],
         )
         engines = document["components"]["schemas"]["RaysRequest"]["properties"]["accuracy"]["properties"]["engine"]
         detail = self.post('{"rays":[[1,2]],"accuracy":{"engine":"x"}}').json()["detail"]

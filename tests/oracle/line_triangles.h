@@ -51,23 +51,37 @@ static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const stru
     s->total += light;
 }
 
-/* cumulative[i]: of photons below edges[i + 1], edges grow, of a line r^-index from the ISCO to `outer`; n
- * directions, m rings, both even. Returns by how much the two sums differ, the most of all edges; less than 0: a
- * place was not found. */
-static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m,
-                                const double *edges, int bins, double *cumulative)
+/* What a line's gas sends out, as the profile is asked for it; mu is the cosine off the disk's normal. */
+struct lt_law {
+    double inner, outer;
+    double (*light)(const void *user, double r, double g, double mu);
+    const void *user;
+};
+
+/* mu = g sqrt(eta)/r, eta = (alpha^2 - a^2) cos^2 i + beta^2 (Cunningham & Bardeen 1973, ApJ 183, 237). */
+static inline double lt_cosine(const struct kd_disk_image *image, const struct lt_place *p, double r)
+{
+    double a = image->spin, c = image->cos_i, eta = (p->alpha * p->alpha - a * a) * c * c + p->beta * p->beta;
+    return fmin(1, p->g * sqrt(fmax(eta, 0)) / r);
+}
+
+/* cumulative[i]: of photons below edges[i + 1], edges grow, of a line of that law; n directions, m rings, both even.
+ * Returns by how much the two sums differ, the most of all edges; less than 0: a place was not found. */
+static inline double lt_profile_of(const struct kd_disk_image *image, const struct lt_law *law, int n, int m,
+                                   const double *edges, int bins, double *cumulative)
 {
     struct lt_place *at = malloc((size_t)n * (size_t)(m + 1) * sizeof *at);
     double *in = calloc((size_t)bins * 2, sizeof *in), apart = 0, a = image->spin;
     for (int i = 0; i <= m && apart >= 0; i++) {
         double part = (double)i / m,
-               r = i == m ? outer : image->isco * pow(outer / image->isco, part * (0.4 + 0.6 * part)), q = pow(r, -1.5);
+               r = i == m ? law->outer : law->inner * pow(law->outer / law->inner, part * (0.4 + 0.6 * part)),
+               q = pow(r, -1.5);
         for (int j = 0; j < n; j++) {
             struct lt_place *p = &at[i * n + j];
             if (!kd_disk_image_place(image, r, 2 * M_PI * j / n, &p->alpha, &p->beta))
                 apart = -1;
             p->g = sqrt(1 - 3 / r + 2 * a * q) / (1 + a * q + p->alpha * image->sin_i * q);
-            p->light = p->g * p->g * p->g * pow(r, -index);
+            p->light = law->light(law->user, r, p->g, lt_cosine(image, p, r));
         }
     }
     struct lt_sum sums[2];
@@ -91,6 +105,20 @@ static inline double lt_profile(const struct kd_disk_image *image, double index,
     free(at);
     free(in);
     return apart;
+}
+
+static inline double lt_power(const void *user, double r, double g, double mu)
+{
+    (void)mu;
+    return g * g * g * pow(r, -*(const double *)user);
+}
+
+/* The same of a line r^-index from the ISCO to `outer`. */
+static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m,
+                                const double *edges, int bins, double *cumulative)
+{
+    const struct lt_law law = { image->isco, outer, lt_power, &index };
+    return lt_profile_of(image, &law, n, m, edges, bins, cumulative);
 }
 
 #endif

@@ -96,7 +96,7 @@ done:
 
 #define WHEN(name, condition) \
     static bool name(const struct kd_rays_params *params) { return condition; }
-WHEN(is_near, !isinf(params->r))
+WHEN(is_labelled, !isinf(params->r) && !params->observer)
 WHEN(is_single, params->precision == KD_PRECISION_F32 && !(params->tolerance > 0))
 WHEN(is_compared, params->engine >= KD_ENGINE_KS_EULER)
 WHEN(is_held, params->tolerance > 0 && params->engine != KD_ENGINE_CLOSED)
@@ -113,7 +113,7 @@ static const struct {
       NULL },
     { { "rays.infinity",
         "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity" },
-      is_near },
+      is_labelled },
     { { "rays.f32", "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong" },
       is_single },
     { { "rays.from-1000",
@@ -134,6 +134,26 @@ bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, st
     return false;
 }
 
+/* The observer's motion and its numbers, but for those that stand at a word. */
+static enum kd_status json_motion(const struct kd_rays_params *p, struct kd_buffer *out)
+{
+    const int of = p->observer - 1;
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, ",\"motion\":\"%s\"", kd_observers[of].word));
+    if (of == KD_OBSERVER_VELOCITY) {
+        KD_TRY(add_number(out, ",\"velocity_r\":", p->velocity[0]));
+        KD_TRY(add_number(out, ",\"velocity_theta\":", p->velocity[1]));
+        KD_TRY(add_number(out, ",\"velocity_phi\":", p->velocity[2]));
+    }
+    if (of == KD_OBSERVER_INFALL) {
+        KD_TRY(add_number(out, ",\"infall_from\":", p->fall_from));
+        KD_TRY(add_number(out, ",\"infall_energy\":", p->fall_energy));
+        KD_TRY(add_number(out, ",\"infall_momentum\":", p->fall_momentum));
+    }
+done:
+    return status;
+}
+
 static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
 {
     const struct kd_rays_params *p = &answer->params;
@@ -143,6 +163,8 @@ static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_b
     KD_TRY(isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
                        : add_number(out, ",\"observer\":{\"r\":", p->r));
     KD_TRY(add_number(out, ",\"inclination_deg\":", p->inclination_deg));
+    if (p->observer)
+        KD_TRY(json_motion(p, out));
     KD_TRY(kd_buffer_printf(out, "},\"orders\":%u,\"accuracy\":", p->orders));
     KD_TRY(json_accuracy(answer, out));
     KD_TRY(kd_buffer_printf(out, ",\"approximations\":["));
@@ -165,8 +187,9 @@ static enum kd_status npy_head(const struct kd_rays_answer *answer, struct kd_bu
                     { "r", KD_NPY_F8, orders },
                     { "phi", KD_NPY_F8, orders },
                     { "delay", KD_NPY_F8, orders },
-                    { "g", KD_NPY_F8, orders } },
-        .n_fields = 9,
+                    { "g", KD_NPY_F8, orders },
+                    { "energy", KD_NPY_F8, 0 } },
+        .n_fields = answer->params.observer ? 10 : 9,
         .shape = { answer->n },
         .n_dimensions = 1,
     };
@@ -176,10 +199,11 @@ static enum kd_status npy_head(const struct kd_rays_answer *answer, struct kd_bu
 static enum kd_status csv_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "alpha,beta,fate,n_crossings,error,sky_theta,sky_phi"));
+    KD_TRY(kd_buffer_printf(out, "%s,fate,n_crossings,error,sky_theta,sky_phi",
+                            answer->params.observer ? "yaw_deg,pitch_deg" : "alpha,beta"));
     for (uint32_t n = 0; n < answer->params.orders; n++)
         KD_TRY(kd_buffer_printf(out, ",r%u,phi%u,delay%u,g%u", n, n, n, n));
-    KD_TRY(kd_buffer_printf(out, "\n"));
+    KD_TRY(kd_buffer_printf(out, answer->params.observer ? ",energy\n" : "\n"));
 done:
     return status;
 }
@@ -208,7 +232,8 @@ size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
 {
     if (stream->format != KD_RAYS_NPY)
         return 0;
-    return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)stream->answer->params.orders));
+    const struct kd_rays_params *p = &stream->answer->params;
+    return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)p->orders + (p->observer ? 1 : 0)));
 }
 
 /* Writes the next ray, or what closes the list, to stream->row. False at the end. */

@@ -4,12 +4,13 @@
  * JSON  {"spin", "observer", "orders", "accuracy": {engine, precision, steps, rays, undecided, tolerance,
  * followed_again, beyond, holds, worst_error, median_error},
  *       "approximations": [...], "rays": [{"fate", "crossings": [{order, r, phi, delay, g}], "sky": {theta, phi},
- *         "error"}]}
+ *         "energy", "error"}]}
  *       A number that does not exist is left out, a sky too for a ray that does not escape.
  * NPY   records, in the order of the rays: fate (u1: 0 captured, 1 escaped, 2 undecided), n_crossings (u1), error,
  *       sky_theta, sky_phi (f8), r, phi, delay, g (f8, one a wanted order); NaN where there is none.
- * CSV   one line a ray: alpha, beta, then as NPY, the wanted orders as r0, phi0, delay0, g0, r1, ...; empty where
- *       there is none. */
+ *       Of an observer whose motion is told, `energy` (f8) comes last.
+ * CSV   one line a ray: alpha, beta (of such an observer yaw_deg, pitch_deg), then as NPY, the wanted orders as r0,
+ * phi0, delay0, g0, r1, ...; empty where there is none. */
 #ifndef KD_RENDER_RAYS_ANSWER_H
 #define KD_RENDER_RAYS_ANSWER_H
 

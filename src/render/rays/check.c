@@ -3,6 +3,7 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "render/rays/fields.h"
+#include "render/rays/looks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +21,8 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
                               p->r, horizon, KD_RAYS_FAR);
     if (!(p->r > 0))
         return kd_error_field(error, "/observer/r", "r is negative");
-    return kd_rays_field_check("inclination_deg", p->inclination_deg, error);
+    status = kd_rays_field_check("inclination_deg", p->inclination_deg, error);
+    return status || !p->observer ? status : kd_rays_looks_check(p, error);
 }
 
 static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_error *error)
@@ -52,6 +54,25 @@ static enum kd_status check_number(double value, size_t ray, int component, stru
                           component ? "beta" : "alpha", ray, value);
 }
 
+static enum kd_status check_direction(const double *yaw_pitch, size_t ray, struct kd_error *error)
+{
+    static const struct {
+        const char *name;
+        double most;
+    } angles[] = { { "yaw", 180 }, { "pitch", 90 } };
+    char pointer[64];
+    for (int i = 0; i < 2; i++) {
+        if (fabs(yaw_pitch[i]) <= angles[i].most)
+            continue;
+        snprintf(pointer, sizeof pointer, "/rays/%zu/%d", ray, i);
+        return kd_error_field(error, pointer,
+                              "%s of ray %zu is %.16g; with an observer's motion a ray is [yaw, pitch], and %s must be "
+                              "-%g to %g degrees",
+                              angles[i].name, ray, yaw_pitch[i], angles[i].name, angles[i].most, angles[i].most);
+    }
+    return KD_OK;
+}
+
 enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha_beta, size_t n, struct kd_error *error)
 {
     enum kd_status status;
@@ -59,6 +80,10 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
     KD_TRY(check_accuracy(p, error));
     if (!n || n > KD_RAYS_MAX)
         KD_TRY(kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX));
+    for (size_t i = 0; i < n && p->observer; i++)
+        KD_TRY(check_direction(alpha_beta + 2 * i, i, error));
+    if (p->observer)
+        return KD_OK;
     double s = kd_sin_deg(p->inclination_deg), u = kd_cos_deg(p->inclination_deg), u2 = u * u, a = p->spin, r = p->r;
     double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
     for (size_t i = 0; i < n; i++) {

@@ -143,15 +143,17 @@ static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_
     return (int)crossing >= path.crossings || path.crossing[crossing].sense > 0;
 }
 
-void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
 {
     double isco = kd_kerr_isco(params->spin);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < rays->n; i++)
         for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
+            const double *alpha_beta = rays->alpha_beta + 2 * i;
             struct kd_ray_crossing *c = &crossings[i * params->orders + k];
-            bool outwards = c->r >= isco || leaves_outwards(params, alpha_beta + 2 * i, false, &ends[i], k);
-            c->g = redshift(params, alpha_beta + 2 * i, c->r, outwards);
+            bool outwards =
+                c->r >= isco || leaves_outwards(params, alpha_beta, rays->outward && rays->outward[i], &ends[i], k);
+            c->g = redshift(params, alpha_beta, c->r, outwards);
         }
 }
 

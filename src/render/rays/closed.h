@@ -12,7 +12,7 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
                               void *user, struct kd_error *error);
 
 /* Fill in g where an engine gave positions alone. */
-void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
 
 /* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, which any engine found to be at r.

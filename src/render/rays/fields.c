@@ -15,6 +15,22 @@ const struct kd_rays_field kd_rays_fields[KD_RAYS_FIELDS] = {
       "numbers and \"infinity\"", "from which the rays are followed back, M: outside the horizon", AT(params.r) },
     { "observer", "inclination_deg", "/observer/inclination_deg", KD_RAYS_REAL, 0, 180, KD_RAYS_CLOSED, 0, NULL,
       "0 to 180 degrees", "from the hole's axis", AT(params.inclination_deg) },
+    { "observer", "motion", "/observer/motion", KD_RAYS_WORD_OR_NONE, 0, 0, KD_RAYS_CLOSED, 0, NULL, NULL,
+      "as camera.observer of a scene, at a finite r: rays are then directions in the observer's frame, [yaw, pitch] in "
+      "degrees",
+      AT(params.observer) },
+    { "observer", "velocity_r", "/observer/velocity_r", KD_RAYS_REAL, -1, 1, KD_RAYS_CLOSED, 0, NULL, "-1 to 1",
+      "motion velocity: as camera.velocity_r", AT(params.velocity[0]) },
+    { "observer", "velocity_theta", "/observer/velocity_theta", KD_RAYS_REAL, -1, 1, KD_RAYS_CLOSED, 0, NULL, "-1 to 1",
+      "motion velocity: as camera.velocity_theta", AT(params.velocity[1]) },
+    { "observer", "velocity_phi", "/observer/velocity_phi", KD_RAYS_REAL, -1, 1, KD_RAYS_CLOSED, 0, NULL, "-1 to 1",
+      "motion velocity: as camera.velocity_phi", AT(params.velocity[2]) },
+    { "observer", "infall_from", "/observer/infall_from", KD_RAYS_REAL_OR_WORD, 1, 1e7, KD_RAYS_CLOSED, 0, "infinity",
+      "1 to 1e7 M, and \"infinity\"", "motion infall: as camera.infall_from, M", AT(params.fall_from) },
+    { "observer", "infall_energy", "/observer/infall_energy", KD_RAYS_REAL_OR_WORD, -100, 1000, KD_RAYS_CLOSED, 0,
+      "rest", "-100 to 1000, and \"rest\"", "motion infall: as camera.infall_energy", AT(params.fall_energy) },
+    { "observer", "infall_momentum", "/observer/infall_momentum", KD_RAYS_REAL, -1e4, 1e4, KD_RAYS_CLOSED, 0, NULL,
+      "-10000 to 10000 M", "motion infall: as camera.infall_momentum, M", AT(params.fall_momentum) },
     { "", "orders", "/orders", KD_RAYS_WHOLE, 1, KD_RAYS_MAX_ORDERS, KD_RAYS_CLOSED, 0, NULL,
       "whole numbers from 1 to 16", "crossings of the equatorial plane that are wanted", AT(params.orders) },
     { "accuracy", "profile", "/accuracy/profile", KD_RAYS_PROFILE, 0, 0, KD_RAYS_CLOSED, 0, NULL, NULL,
@@ -42,7 +58,8 @@ const struct kd_rays_field *kd_rays_field_find(const char *name)
 
 const struct kd_field *kd_rays_field_words(const struct kd_rays_field *field)
 {
-    return kd_field_find("accuracy", field->name);
+    return field->kind == KD_RAYS_WORD_OR_NONE ? kd_field_find("camera", "observer")
+                                               : kd_field_find("accuracy", field->name);
 }
 
 enum kd_status kd_rays_field_check(const char *name, double value, struct kd_error *error)

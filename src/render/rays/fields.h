@@ -7,7 +7,14 @@
 #include "render/rays/request.h"
 #include "scene/table.h"
 
-enum kd_rays_kind { KD_RAYS_REAL, KD_RAYS_REAL_OR_WORD, KD_RAYS_WHOLE, KD_RAYS_PROFILE, KD_RAYS_WORD_OR_AUTO };
+enum kd_rays_kind {
+    KD_RAYS_REAL,
+    KD_RAYS_REAL_OR_WORD,
+    KD_RAYS_WHOLE,
+    KD_RAYS_PROFILE,
+    KD_RAYS_WORD_OR_AUTO,
+    KD_RAYS_WORD_OR_NONE /* 0 where it is not given */
+};
 enum kd_rays_open { KD_RAYS_CLOSED, KD_RAYS_OPEN, KD_RAYS_OPEN_BELOW };
 
 struct kd_rays_field {
@@ -22,12 +29,12 @@ struct kd_rays_field {
     size_t offset; /* in struct kd_rays_request: double, uint32_t or int */
 };
 
-enum { KD_RAYS_FIELDS = 9 };
+enum { KD_RAYS_FIELDS = 16 };
 extern const struct kd_rays_field kd_rays_fields[KD_RAYS_FIELDS];
 
 /* Finds by the last part of its name; NULL: there is none. */
 const struct kd_rays_field *kd_rays_field_find(const char *name);
-/* The field of the scene that has the same words: "accuracy" with a profile, an engine and a precision. */
+/* The field of the scene that has the same words: that of the section "accuracy" of its name, or camera.observer. */
 const struct kd_field *kd_rays_field_words(const struct kd_rays_field *field);
 /* Checks that a value is within the bounds of the field of this name; else KD_EINVAL, which says what is allowed. */
 enum kd_status kd_rays_field_check(const char *name, double value, struct kd_error *error);

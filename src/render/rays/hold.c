@@ -15,6 +15,7 @@
 struct batch {
     size_t n, *which;
     double *alpha_beta;
+    bool *outward;
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
 };
@@ -23,6 +24,7 @@ static void finish(struct batch *b)
 {
     free(b->which);
     free(b->alpha_beta);
+    free(b->outward);
     free(b->crossings);
     free(b->ends);
 }
@@ -31,22 +33,24 @@ static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd
 {
     *b = (struct batch) { .which = malloc(n * sizeof *b->which),
                           .alpha_beta = malloc(2 * n * sizeof *b->alpha_beta),
+                          .outward = malloc(n * sizeof *b->outward),
                           .crossings = malloc(n * orders * sizeof *b->crossings),
                           .ends = malloc(n * sizeof *b->ends) };
-    if (b->which && b->alpha_beta && b->crossings && b->ends)
+    if (b->which && b->alpha_beta && b->outward && b->crossings && b->ends)
         return KD_OK;
     finish(b);
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays that are followed again", n);
 }
 
 /* Gathers, from *at on, as many rays as fit; *at moves on. */
-static void gather(struct batch *b, const double *alpha_beta, const struct kd_ray_end *ends, size_t n, double tolerance,
+static void gather(struct batch *b, const struct kd_ray_labels *rays, const struct kd_ray_end *ends, double tolerance,
                    size_t *at)
 {
-    for (b->n = 0; *at < n && b->n < SLICE; ++*at) {
+    for (b->n = 0; *at < rays->n && b->n < SLICE; ++*at) {
         if (kd_rays_held(&ends[*at], tolerance))
             continue;
-        memcpy(b->alpha_beta + 2 * b->n, alpha_beta + 2 * *at, 2 * sizeof *alpha_beta);
+        memcpy(b->alpha_beta + 2 * b->n, rays->alpha_beta + 2 * *at, 2 * sizeof *b->alpha_beta);
+        b->outward[b->n] = rays->outward && rays->outward[*at];
         b->which[b->n++] = *at;
     }
 }
@@ -66,17 +70,18 @@ static void adopt(const struct batch *b, uint32_t orders, struct kd_ray_crossing
 }
 
 static enum kd_status follow(struct kd_renderer *renderer, const struct kd_rays_params *finer, double tolerance,
-                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                             const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
     struct batch b;
-    enum kd_status status = init(&b, n < SLICE ? n : SLICE, finer->orders, error);
+    enum kd_status status = init(&b, rays->n < SLICE ? rays->n : SLICE, finer->orders, error);
     if (status)
         return status;
-    for (size_t at = 0; at < n && !status;) {
-        gather(&b, alpha_beta, ends, n, tolerance, &at);
+    for (size_t at = 0; at < rays->n && !status;) {
+        gather(&b, rays, ends, tolerance, &at);
+        const struct kd_ray_labels some = { b.alpha_beta, b.outward, b.n };
         if (b.n)
-            status = kd_rays_trace(renderer, finer, b.alpha_beta, b.n, b.crossings, b.ends, NULL, NULL, error);
+            status = kd_rays_follow(renderer, finer, &some, b.crossings, b.ends, NULL, NULL, error);
         if (!status)
             adopt(&b, finer->orders, crossings, ends);
         if (!status && progress && !progress(user, 1))
@@ -111,19 +116,19 @@ static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_
     return true;
 }
 
-enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta,
-                            size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
-                            kd_progress_fn progress, void *user, struct kd_error *error)
+enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                            const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                            struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
     struct kd_rays_params finer = *params;
     enum kd_status status = KD_OK;
     finer.tolerance = finer.holds = 0;
-    if (beyond(ends, n, params->tolerance) >= WORTH_A_KERNEL && finer_on_device(renderer, params, &finer))
-        status = follow(renderer, &finer, params->tolerance, alpha_beta, n, crossings, ends, progress, user, error);
+    if (beyond(ends, rays->n, params->tolerance) >= WORTH_A_KERNEL && finer_on_device(renderer, params, &finer))
+        status = follow(renderer, &finer, params->tolerance, rays, crossings, ends, progress, user, error);
     finer.engine = KD_ENGINE_CLOSED;
     finer.precision = KD_PRECISION_F64;
     finer.steps = 0;
-    if (!status && beyond(ends, n, params->tolerance))
-        status = follow(NULL, &finer, params->tolerance, alpha_beta, n, crossings, ends, progress, user, error);
+    if (!status && beyond(ends, rays->n, params->tolerance))
+        status = follow(NULL, &finer, params->tolerance, rays, crossings, ends, progress, user, error);
     return status;
 }

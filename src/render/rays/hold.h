@@ -7,9 +7,9 @@
 
 /* Called after kd_rays_trace with this setting; params->tolerance > 0. Replaces crossings and ends of the rays
  * concerned. */
-enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta,
-                            size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
-                            kd_progress_fn progress, void *user, struct kd_error *error);
+enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                            const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                            struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 /* Whether a ray is decided and within the tolerance by its own error. A ray without an error has nothing that could
  * be wrong. */

@@ -4,6 +4,7 @@
 #include "render/rays/closed.h"
 #include "render/rays/device.h"
 #include "render/rays/hold.h"
+#include "render/rays/looks.h"
 
 #include <float.h>
 #include <math.h>
@@ -49,7 +50,7 @@ static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_
 
 /* The Kerr-Schild engines have no estimate of their own. They are there to be compared, and so they are: with the
  * closed form, which takes less time than they do. */
-static enum kd_status compare(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+static enum kd_status compare(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                               const struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error)
 {
@@ -57,7 +58,7 @@ static enum kd_status compare(const struct kd_rays_params *params, const double 
     closed.engine = KD_ENGINE_CLOSED;
     closed.precision = KD_PRECISION_F64;
     closed.steps = 0;
-    size_t most = n < SLICE ? n : SLICE;
+    size_t n = rays->n, most = n < SLICE ? n : SLICE;
     struct kd_ray_crossing *truth = malloc(most * params->orders * sizeof *truth);
     struct kd_ray_end *true_ends = malloc(most * sizeof *true_ends);
     enum kd_status status = KD_OK;
@@ -65,7 +66,8 @@ static enum kd_status compare(const struct kd_rays_params *params, const double 
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", most));
     for (size_t first = 0, m; first < n; first += m) {
         m = n - first < SLICE ? n - first : SLICE;
-        const struct kd_ray_labels labels = { alpha_beta + 2 * first, NULL, m };
+        const struct kd_ray_labels labels = { rays->alpha_beta + 2 * first,
+                                              rays->outward ? rays->outward + first : NULL, m };
         KD_TRY(kd_rays_closed(&closed, &labels, true, truth, true_ends, NULL, NULL, error));
         for (size_t i = 0; i < m; i++)
             ends[first + i].error = error_of(crossings + (first + i) * params->orders, &ends[first + i],
@@ -80,20 +82,19 @@ done:
 }
 
 static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                                      const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                                      const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                                       struct kd_ray_end *ends, kd_progress_fn progress, void *user,
                                       struct kd_error *error)
 {
     if (!renderer)
         return kd_error_field(error, "/accuracy/engine", "engine %s needs a device", kd_engine_name(params->engine));
     enum kd_status status;
-    KD_TRY(kd_rays_device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, crossings, ends, progress,
-                          user, error));
-    kd_rays_redshift(params, alpha_beta, n, crossings, ends);
+    KD_TRY(kd_rays_device(renderer, params, rays, crossings, ends, progress, user, error));
+    kd_rays_redshift(params, rays, crossings, ends);
     if (params->engine >= KD_ENGINE_KS_EULER)
-        KD_TRY(compare(params, alpha_beta, n, crossings, ends, progress, user, error));
+        KD_TRY(compare(params, rays, crossings, ends, progress, user, error));
     if (params->tolerance > 0)
-        KD_TRY(kd_rays_hold(renderer, params, alpha_beta, n, crossings, ends, progress, user, error));
+        KD_TRY(kd_rays_hold(renderer, params, rays, crossings, ends, progress, user, error));
 done:
     return status;
 }
@@ -107,19 +108,47 @@ static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
             ends[i].error = NAN;
 }
 
-enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
-                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+enum kd_status kd_rays_follow(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
-    enum kd_status status = kd_rays_check(params, alpha_beta, n, error);
+    enum kd_status status = params->engine == KD_ENGINE_CLOSED
+                                ? kd_rays_closed(params, rays, true, crossings, ends, progress, user, error)
+                                : trace_on_device(renderer, params, rays, crossings, ends, progress, user, error);
+    if (!status)
+        drop_idle_errors(ends, rays->n);
+    return status;
+}
+
+static enum kd_status look(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *directions,
+                           size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
+                           kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    double *alpha_beta = malloc(2 * n * sizeof *alpha_beta), *energy = malloc(n * sizeof *energy);
+    bool *outward = malloc(n * sizeof *outward);
+    enum kd_status status = KD_OK;
+    if (!alpha_beta || !energy || !outward)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu directions", n));
+    kd_rays_looks_label(params, directions, n, alpha_beta, outward, energy);
+    const struct kd_ray_labels rays = { alpha_beta, outward, n };
+    KD_TRY(kd_rays_follow(renderer, params, &rays, crossings, ends, progress, user, error));
+    kd_rays_looks_see(params, energy, n, crossings, ends);
+done:
+    free(alpha_beta);
+    free(energy);
+    free(outward);
+    return status;
+}
+
+enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
+                             size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
+                             kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    enum kd_status status = kd_rays_check(params, rays, n, error);
     if (status)
         return status;
-    if (params->engine == KD_ENGINE_CLOSED)
-        status = kd_rays_closed(params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, true, crossings, ends,
-                                progress, user, error);
-    else
-        status = trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
-    if (!status)
-        drop_idle_errors(ends, n);
-    return status;
+    if (params->observer)
+        return look(renderer, params, rays, n, crossings, ends, progress, user, error);
+    const struct kd_ray_labels labels = { rays, NULL, n };
+    return kd_rays_follow(renderer, params, &labels, crossings, ends, progress, user, error);
 }

@@ -5,11 +5,15 @@
  * traced back from an observer at r (INFINITY, or finite: then inwards). Crossings of the equatorial plane are
  * counted from the eye; azimuths are Boyer-Lindquist, source minus observer; delay is t_observed - t_emitted, for an
  * observer at infinity less r_o + 2 ln r_o. g = E_infinity / (-p.u) of gas on circular orbits outside the ISCO,
- * plunging from it inside (Cunningham 1975); a finite observer multiplies by its own nu/E_infinity. */
+ * plunging from it inside (Cunningham 1975); a finite observer multiplies by its own nu/E_infinity.
+ *
+ * Of an observer whose motion is told a ray is a direction in the observer's own frame instead, and g is the energy
+ * that it measures over that for the gas. */
 #ifndef KD_RENDER_RAYS_RAYS_H
 #define KD_RENDER_RAYS_RAYS_H
 
 #include "base/error.h"
+#include "physics/observer.h"
 #include "render/accuracy/engine.h"
 #include "render/device/renderer.h"
 
@@ -29,6 +33,9 @@ struct kd_rays_params {
     uint32_t steps;              /* a half period, a multiple of 4; 0: the engine's default; closed: 0 */
     double tolerance;            /* > 0: rays whose own error is beyond it are followed again, finer; 0: none */
     double holds; /* what the table says that the setting holds, for the answer; 0: no tolerance was asked for */
+    int observer; /* 0: rays are labels, of any observer there; else 1 + enum kd_observer: directions, of this one, and
+                     its numbers as in kd_observer_motion: */
+    double velocity[3], fall_from, fall_energy, fall_momentum;
 };
 
 /* Rays by their labels. A list from outside starts inwards; those of a picture from a finite radius may not. */
@@ -52,19 +59,26 @@ struct kd_ray_end {
      * there may be another number of crossings, one next to the horizon or very far out (Mino engines, closed form), or
      * there is another number or fate than the closed form's (Kerr-Schild engines). */
     double error;
-    bool again; /* followed again by a finer setting, for the tolerance */
+    double energy; /* at infinity, per unit that the observer measures; of an observer whose motion is told */
+    bool again;    /* followed again by a finer setting, for the tolerance */
 };
 
 /* Whether two ends are equal bit for bit, but for what lies between the members. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
-/* Trace n rays. With a tolerance each that is not within it by its own error, or undecided, is followed again by
- * more steps in double precision, then in closed form: what is beyond it after that no double holds. alpha_beta: 2 n
- * numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer may be
- * NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL with a
- * pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
-enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
-                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
+/* Trace n rays: labels [alpha, beta], or, if params->observer is set, directions [yaw, pitch] in degrees. With a
+ * tolerance each that is not within it by its own error, or undecided, is followed again by more steps in double
+ * precision, then in closed form: what is beyond it after that no double holds. rays: 2 n numbers. crossings: n *
+ * orders records, those of one ray together; unused ones are NaN. ends: n. renderer may be NULL for KD_ENGINE_CLOSED,
+ * which any thread may call; other engines belong to the render thread. KD_EINVAL with a pointer such as "/observer/r"
+ * or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
+enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
+                             size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
+                             kd_progress_fn progress, void *user, struct kd_error *error);
+
+/* The same of labels that are known to be sound. */
+enum kd_status kd_rays_follow(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 #endif

@@ -23,6 +23,8 @@ void kd_rays_request_init(struct kd_rays_request *request)
         .params = { .spin = scene.spacetime.spin,
                     .r = scene.camera.r,
                     .inclination_deg = scene.camera.inclination_deg,
+                    .fall_from = scene.camera.infall_from,
+                    .fall_energy = scene.camera.infall_energy,
                     .orders = 3 },
         .wish = KD_WISH_NONE,
     };
@@ -39,7 +41,9 @@ static bool store_word(int *at, const struct kd_rays_field *field, const struct 
     int index = value->kind == KD_VALUE_STRING ? kd_field_word_index(kd_rays_field_words(field), value->text) : -1;
     if (index < 0)
         return false;
-    *at = field->kind == KD_RAYS_PROFILE ? index : index - 1; /* "auto" comes first */
+    *at = field->kind == KD_RAYS_PROFILE        ? index
+          : field->kind == KD_RAYS_WORD_OR_NONE ? index + 1
+                                                : index - 1; /* "auto" comes first */
     return true;
 }
 
@@ -64,6 +68,7 @@ static bool store(struct kd_rays_request *request, const struct kd_rays_field *f
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
     case KD_RAYS_PROFILE:
+    case KD_RAYS_WORD_OR_NONE:
     case KD_RAYS_WORD_OR_AUTO: return store_word(at, field, value);
     }
     return false;
@@ -90,7 +95,7 @@ enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *
     const struct kd_rays_field *field = kd_rays_field_find(name);
     if (field)
         return put(request, field, &value, error);
-    char pointer[sizeof error->pointer] = "", shown[60], known[160] = "";
+    char pointer[sizeof error->pointer] = "", shown[60], known[320] = "";
     for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
         snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s",
                  !i                       ? ""
@@ -128,7 +133,7 @@ static enum kd_status once(struct document *d, size_t bit, const char *pointer)
 
 static enum kd_status unknown(struct document *d, const char *section, const char *name)
 {
-    char pointer[sizeof d->error->pointer] = "", shown[60], known[160] = "";
+    char pointer[sizeof d->error->pointer] = "", shown[60], known[320] = "";
     if (*section)
         kd_text_pointer(pointer, sizeof pointer, section);
     kd_text_pointer(pointer, sizeof pointer, name);
@@ -341,7 +346,39 @@ enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const str
     return KD_OK;
 }
 
+/* What belongs to one motion is refused beside another, as it would do nothing. */
+static enum kd_status check_belongings(const struct kd_rays_params *p, struct kd_error *error)
+{
+    const struct {
+        const char *name;
+        double value, idle;
+        enum kd_observer of;
+    } belongs[] = {
+        { "velocity_r", p->velocity[0], 0, KD_OBSERVER_VELOCITY },
+        { "velocity_theta", p->velocity[1], 0, KD_OBSERVER_VELOCITY },
+        { "velocity_phi", p->velocity[2], 0, KD_OBSERVER_VELOCITY },
+        { "infall_from", p->fall_from, INFINITY, KD_OBSERVER_INFALL },
+        { "infall_energy", p->fall_energy, INFINITY, KD_OBSERVER_INFALL },
+        { "infall_momentum", p->fall_momentum, 0, KD_OBSERVER_INFALL },
+    };
+    for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++) {
+        const struct kd_rays_field *f = kd_rays_field_find(belongs[i].name);
+        if (belongs[i].value == belongs[i].idle)
+            continue;
+        if (p->observer != 1 + (int)belongs[i].of)
+            return kd_error_field(error, f->pointer, "%s is %.9g, and belongs to motion \"%s\"", f->name,
+                                  belongs[i].value, kd_observers[belongs[i].of].word);
+        enum kd_status status = kd_rays_field_check(f->name, belongs[i].value, error);
+        if (status)
+            return status;
+    }
+    return KD_OK;
+}
+
 enum kd_status kd_rays_request_check(const struct kd_rays_request *request, struct kd_error *error)
 {
+    enum kd_status status = check_belongings(&request->params, error);
+    if (status)
+        return status;
     return kd_rays_check(&request->params, request->alpha_beta, request->n, error);
 }

@@ -56,6 +56,7 @@ static size_t json(const struct kd_rays_answer *answer, size_t i, char *out)
         member(&row, "phi", end->phi);
         *row.at++ = '}';
     }
+    member(&row, "energy", answer->params.observer ? end->energy : NAN);
     member(&row, "error", end->error);
     *row.at++ = '}';
     return (size_t)(row.at - out);
@@ -89,6 +90,8 @@ static size_t npy(const struct kd_rays_answer *answer, size_t i, char *out)
         put(&row, c[n].delay);
     for (uint32_t n = 0; n < orders; n++)
         put(&row, c[n].g);
+    if (answer->params.observer)
+        put(&row, end->energy);
     return (size_t)(row.at - out);
 }
 
@@ -119,6 +122,8 @@ static size_t csv(const struct kd_rays_answer *answer, size_t i, char *out)
         cell(&row, c[n].delay);
         cell(&row, c[n].g);
     }
+    if (answer->params.observer)
+        cell(&row, end->energy);
     *row.at++ = '\n';
     return (size_t)(row.at - out);
 }

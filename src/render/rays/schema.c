@@ -75,7 +75,7 @@ static void add_rays(struct kd_json *json)
     kd_json_string(json, "type", "array");
     kd_json_number(json, "minItems", 1);
     kd_json_number(json, "maxItems", KD_RAYS_MAX);
-    kd_json_string(json, "description", "pairs [alpha, beta], in M");
+    kd_json_string(json, "description", "pairs [alpha, beta], in M; with observer.motion [yaw, pitch], in degrees");
     kd_json_object(json, "items");
     kd_json_string(json, "type", "array");
     kd_json_number(json, "minItems", 2);
@@ -156,6 +156,7 @@ void kd_rays_answer_schemas(struct kd_json *json)
         { "fate", NULL, false, fate },
         { "crossings", KD_SCHEMA_LIST(KD_SCHEMA_REF("RayCrossing")) },
         { "sky", KD_SCHEMA_REF("RaySky"), true },
+        { "energy", KD_SCHEMA_NUMBER, true },
         { "error", KD_SCHEMA_NUMBER, true },
     };
     static const struct kd_schema_member answer[] = {

@@ -118,7 +118,7 @@ static enum kd_status trace(struct bench *b, const struct kd_accuracy_row *row, 
     enum kd_status status = kd_rays_device(b->renderer, &params, &labels, b->crossings, b->ends, NULL, NULL, b->error);
     *s = seconds_of(CLOCK_MONOTONIC) - begun;
     if (!status)
-        kd_rays_redshift(&params, rays, n, b->crossings, b->ends);
+        kd_rays_redshift(&params, &labels, b->crossings, b->ends);
     if (status || !b->table->device_clock)
         return status;
     *s = 0;

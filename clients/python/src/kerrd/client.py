@@ -192,7 +192,8 @@ class Client:
 
     def rays(self, pairs: ArrayLike, **settings: Any) -> NDArray[Any]:
         """End points of rays, pairs of alpha and beta in M of shape (n, 2); settings: spin, r, inclination_deg, orders,
-        profile, tolerance, engine.
+        profile, tolerance, engine. With motion ("infall", "velocity", ...: as camera.observer) pairs are directions of
+        that observer, yaw and pitch in degrees.
 
         A record each: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative), sky_theta, sky_phi, and
         r, phi, delay, g of shape (orders,).

@@ -1,0 +1,104 @@
+#include "render/rays/looks.h"
+
+#include "physics/angle.h"
+#include "render/view/camera.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static struct kd_vantage vantage(const struct kd_rays_params *p)
+{
+    return (struct kd_vantage) { p->spin, p->r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+}
+
+static struct kd_observer_motion motion_of(const struct kd_rays_params *p)
+{
+    return (struct kd_observer_motion) { .observer = (enum kd_observer)(p->observer - 1),
+                                         .velocity = { p->velocity[0], p->velocity[1], p->velocity[2] },
+                                         .fall_from = p->fall_from,
+                                         .fall_energy = p->fall_energy,
+                                         .fall_momentum = p->fall_momentum };
+}
+
+static enum kd_status check_numbers(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                                    struct kd_error *error)
+{
+    char pointer[40];
+    double bound;
+    switch (kd_observer_check(m, at, &bound)) {
+    case KD_OBSERVER_SOUND: return KD_OK;
+    case KD_OBSERVER_TOO_FAST:
+        snprintf(pointer, sizeof pointer, "/observer/%s", kd_observer_fastest(m->velocity, &bound));
+        return kd_error_field(error, pointer,
+                              "velocity_r, velocity_theta and velocity_phi make a speed of %.9g; it must be less than "
+                              "1, that of light",
+                              hypot(hypot(m->velocity[0], m->velocity[1]), m->velocity[2]));
+    case KD_OBSERVER_TWO_ENERGIES:
+        return kd_error_field(error, "/observer/infall_energy",
+                              "infall_energy is %.9g with infall_from %.9g M; it must be \"rest\" then", m->fall_energy,
+                              m->fall_from);
+    case KD_OBSERVER_FROM_INSIDE:
+        return kd_error_field(error, "/observer/infall_from", "infall_from is %.9g M; it must be at least r, %.9g M",
+                              m->fall_from, bound);
+    case KD_OBSERVER_TURNS: break;
+    }
+    if (isfinite(m->fall_energy))
+        return kd_error_field(error, "/observer/infall_energy",
+                              "infall_energy is %.9g; with this angular momentum at r %.9g M it must be at least %.9g",
+                              m->fall_energy, at->r, bound);
+    return kd_error_field(error, "/observer/infall_momentum",
+                          "infall_momentum is %.9g M, with which the observer turns outside r %.9g M; it must be nearer "
+                          "to 0",
+                          m->fall_momentum, at->r);
+}
+
+enum kd_status kd_rays_looks_check(const struct kd_rays_params *p, struct kd_error *error)
+{
+    const struct kd_observer_motion motion = motion_of(p);
+    const struct kd_observer_row *row = &kd_observers[motion.observer];
+    if (isinf(p->r))
+        return kd_error_field(error, "/observer/motion",
+                              "motion is \"%s\" and r is \"infinity\"; r must be finite for an observer that moves",
+                              row->word);
+    const struct kd_vantage at = vantage(p);
+    char others[KD_OBSERVER_TEXT];
+    if (!kd_observer_exists(motion.observer, &at))
+        return kd_error_field(error, "/observer/r",
+                              "r is %.9g M; with motion \"%s\" at this inclination it must be more than %.9g M, %s; "
+                              "motion %s can be inside",
+                              p->r, row->word, row->outside(at.spin, at.u), row->edge, kd_observer_others(&at, others));
+    return check_numbers(&motion, &at, error);
+}
+
+void kd_rays_looks_label(const struct kd_rays_params *p, const double *directions, size_t n, double *alpha_beta,
+                         bool *outward, double *energy)
+{
+    const struct kd_observer_motion motion = motion_of(p);
+    const struct kd_vantage at = vantage(p);
+    const struct kd_tetrad frame = kd_observer_tetrad(&motion, &at);
+    for (size_t i = 0; i < n; i++) {
+        double cy = kd_cos_deg(directions[2 * i]), sy = kd_sin_deg(directions[2 * i]),
+               cp = kd_cos_deg(directions[2 * i + 1]), sp = kd_sin_deg(directions[2 * i + 1]);
+        /* It looks inwards along -e_r, to the right along e_phi and up along -e_theta; light flies the other way. */
+        const struct kd_covector p_i = kd_tetrad_covector(&frame, (double[4]) { 1, cp * cy, sp, -cp * sy });
+        struct kd_camera_label label;
+        kd_camera_label_of(p_i.energy, p_i.momentum, p_i.polar, p_i.radial < 0, &label);
+        alpha_beta[2 * i] = label.alpha, alpha_beta[2 * i + 1] = label.beta;
+        outward[i] = label.outward, energy[i] = label.energy;
+    }
+}
+
+void kd_rays_looks_see(const struct kd_rays_params *p, const double *energy, size_t n,
+                       struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double sense = energy[i] < 0 ? -1 : 1;
+        ends[i].energy = energy[i];
+        ends[i].phi *= sense;
+        for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
+            struct kd_ray_crossing *c = &crossings[i * p->orders + k];
+            c->phi *= sense, c->delay *= sense;
+            c->g /= energy[i]; /* of light whose energy at infinity is below 0 both are */
+        }
+    }
+}

@@ -1,0 +1,163 @@
+/* The error that a line profile tells against its true one, over a random sample of all that can be asked: at least
+ * 999 of 1000 are within it. The true one is by triangles between rays (tests/oracle/line_triangles.h), ever more of
+ * them until it is known to be less than the told one.
+ *
+ *     unit_told_lines [PROFILES [SEED]]      a long run: 2000 take some ten minutes
+ */
+#include "base/random.h"
+#include "physics/kerr.h"
+#include "physics/lamppost.h"
+#include "physics/line_profile.h"
+
+#include "line_triangles.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define RADIAN (M_PI / 180)
+enum { BINS = 500, SHORT = 8, FINEST = 4 };
+
+static int profiles = SHORT;
+static uint64_t seed = 1;
+static struct kd_disk_image image;
+
+struct asked {
+    double spin, inclination_deg;
+    struct kd_line_params params;
+    struct kd_lamppost lamp;
+    int bins;
+    double edges[BINS + 1];
+};
+
+static double between(struct kd_random *random, double low, double high) { return low + (high - low) * kd_random(random); }
+
+static bool one_in(struct kd_random *random, int n) { return kd_random(random) * n < 1; }
+
+static double any_spin(struct kd_random *random)
+{
+    double spin = one_in(random, 4) ? 1 - pow(10, between(random, -6, -2)) : between(random, 0, 0.998);
+    return one_in(random, 2) ? -spin : spin;
+}
+
+static void ask_light(struct kd_random *random, struct kd_line_params *p, double horizon)
+{
+    double ends[2] = { one_in(random, 5) ? -10 : 0, one_in(random, 5) ? 20 : 8 };
+    p->emissivity = (enum kd_line_emissivity)(3 * kd_random(random));
+    p->limb = (enum kd_line_limb)(3 * kd_random(random));
+    p->energy = one_in(random, 2);
+    p->index = between(random, ends[0], ends[1]);
+    p->outer_index = between(random, ends[0], ends[1]);
+    p->break_r = p->inner * pow(p->outer / p->inner, kd_random(random));
+    p->height = 1.05 * horizon * pow(100, kd_random(random));
+    p->photon_index = between(random, 1, 3.5);
+}
+
+/* Even bins as they are by default, or a few edges anywhere. */
+static void ask_edges(struct kd_random *random, struct asked *q)
+{
+    double at = 0;
+    q->bins = one_in(random, 2) ? BINS : 1 + (int)between(random, 0, 20);
+    for (int e = 0; e <= q->bins; e++)
+        q->edges[e] = q->bins == BINS ? 1.7 * e / BINS : (at += between(random, 1e-3, 3. / q->bins));
+}
+
+static struct asked ask(struct kd_random *random)
+{
+    struct asked q = { .spin = any_spin(random), .inclination_deg = between(random, 0, 87) };
+    struct kd_line_params *p = &q.params;
+    double isco = kd_kerr_isco(q.spin);
+    p->inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 3));
+    p->outer = one_in(random, 2) ? 400 : p->inner * exp(between(random, 0.05, 7));
+    ask_light(random, p, kd_kerr_horizon(q.spin));
+    p->tolerance = one_in(random, 4) ? 0 : pow(10, between(random, -4, -1));
+    ask_edges(random, &q);
+    return q;
+}
+
+static double light_of(const void *user, double r, double g, double mu)
+{
+    const struct asked *q = user;
+    const struct kd_line_params *p = &q->params;
+    double emitted = p->emissivity == KD_LINE_LAMPPOST                       ? kd_lamppost_at(&q->lamp, r)
+                     : p->emissivity == KD_LINE_POWER || r < p->break_r ? pow(r / p->break_r, -p->index)
+                                                                             : pow(r / p->break_r, -p->outer_index);
+    double limb = p->limb == KD_LIMB_LAOR ? 1 + 2.06 * mu : p->limb == KD_LIMB_HAARDT ? log(1 + 1 / mu) : 1;
+    return emitted * limb * g * g * g * (p->energy ? g : 1);
+}
+
+static double worst_of(const double *share, const double *want, int bins)
+{
+    double sum = 0, worst = 0;
+    for (int i = 0; i < bins; i++) {
+        sum += share[i];
+        worst = fmax(worst, fabs(sum - want[i]));
+    }
+    return worst;
+}
+
+struct truth { double error, known; }; /* to how much it is known */
+
+static struct truth truth_of(const struct asked *q, const double *share, double told)
+{
+    const struct lt_law law = { q->params.inner, q->params.outer, light_of, q };
+    static double want[BINS];
+    struct truth t = { 0, INFINITY };
+    for (int n = 64, level = 0; level <= FINEST && !(t.error + t.known < told); level++, n *= 2) {
+        double apart = lt_profile_of(&image, &law, n, n, q->edges, q->bins, want);
+        assert_true(apart >= 0);
+        t = (struct truth) { worst_of(share, want, q->bins), level ? 0.25 * apart : INFINITY };
+    }
+    return t;
+}
+
+static void describe(const struct asked *q, double told, struct truth t)
+{
+    const struct kd_line_params *p = &q->params;
+    print_message("a = %.17g, i = %.17g, %g to %g M, law %d (%g, %g from %g; lamp at %g, %g), limb %d, energy %d, %d "
+                  "bins, tolerance %.1e: told %.2e, off by %.2e +- %.1e\n",
+                  q->spin, q->inclination_deg, p->inner, p->outer, (int)p->emissivity, p->index, p->outer_index,
+                  p->break_r, p->height, p->photon_index, (int)p->limb, p->energy, q->bins, p->tolerance, told, t.error,
+                  t.known);
+}
+
+static void test_lines(void **state)
+{
+    struct kd_random random = { seed };
+    int beyond = 0, asked = 0;
+    (void)state;
+    while (asked < profiles) {
+        static double share[BINS];
+        struct asked q = ask(&random);
+        const struct kd_line_params *p = &q.params;
+        struct kd_line_profile profile;
+        struct kd_error error;
+        assert_true(kd_disk_image_init(&image, q.spin, q.inclination_deg * RADIAN));
+        if (p->emissivity == KD_LINE_LAMPPOST &&
+            !kd_lamppost_init(&q.lamp, q.spin, p->height, p->photon_index, p->inner, p->outer))
+            continue;
+        if (kd_line_profile(&image, p, q.edges, q.bins, share, &profile, &error))
+            continue;
+        struct truth t = truth_of(&q, share, profile.error);
+        asked++;
+        if (t.error - t.known > profile.error || !(profile.error <= 1)) {
+            describe(&q, profile.error, t);
+            beyond++;
+        } else if (profiles > SHORT && t.error > 0.7 * profile.error)
+            describe(&q, profile.error, t);
+    }
+    print_message("%d of %d beyond what was told\n", beyond, asked);
+    assert_true(1000 * beyond <= asked);
+}
+
+int main(int count, char **words)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_lines) };
+    profiles = count > 1 ? atoi(words[1]) : SHORT;
+    seed = count > 2 ? strtoull(words[2], NULL, 10) : 1;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
