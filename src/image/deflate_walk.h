@@ -13,8 +13,8 @@ struct kd_deflate_walk {
     size_t end;  /* the first bit after it */
 };
 
-/* false: the bytes are no deflate stream. It goes through the symbols without what they stand for, several times as fast
- * as level 1 makes them. */
+/* false: the bytes are no deflate stream. It goes through the symbols without what they stand for, several times as
+ * fast as level 1 makes them. */
 bool kd_deflate_walk(const uint8_t *stream, size_t size, struct kd_deflate_walk *out);
 
 #endif

@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRIP = 512 << 10, ROW_ROOM = 7 /* two rows, and what the filters need */ };
+enum { STRIP = 512 << 10, MIB = 1 << 20, ROW_ROOM = 7 /* two rows, and what the filters need */ };
 
 /* What a thread works with; in a list while none does. */
-struct bench {
-    struct bench *next;
+struct workspace {
+    struct workspace *next;
     struct kd_deflate *deflate;
     uint8_t *rows; /* filtered */
     uint8_t *room; /* for ROW_ROOM rows */
@@ -22,7 +22,7 @@ struct bench {
 struct kd_png_strips {
     enum kd_deflate_engine engine;
     pthread_mutex_t lock;
-    struct bench *idle; /* under the lock */
+    struct workspace *idle; /* under the lock */
 };
 
 /* One picture. */
@@ -65,33 +65,34 @@ enum kd_status kd_png_chunk(struct kd_buffer *out, const char type[5], const voi
     return put_chunk(out, type, (const void *const[3]) { data }, (const size_t[3]) { size });
 }
 
-static void bench_destroy(struct bench *bench)
+static void workspace_destroy(struct workspace *workspace)
 {
-    kd_deflate_destroy(bench->deflate);
-    free(bench->rows);
-    free(bench->room);
-    free(bench);
+    kd_deflate_destroy(workspace->deflate);
+    free(workspace->rows);
+    free(workspace->room);
+    free(workspace);
 }
 
 /* One that is idle, or a new one; NULL: out of memory. */
-static struct bench *bench_take(struct kd_png_strips *strips, int level)
+static struct workspace *workspace_take(struct kd_png_strips *strips, int level)
 {
     pthread_mutex_lock(&strips->lock);
-    struct bench *bench = strips->idle;
-    if (bench)
-        strips->idle = bench->next;
+    struct workspace *workspace = strips->idle;
+    if (workspace)
+        strips->idle = workspace->next;
     pthread_mutex_unlock(&strips->lock);
-    if (bench || !(bench = calloc(1, sizeof *bench)) || !kd_deflate_create(strips->engine, level, &bench->deflate, NULL))
-        return bench;
-    bench_destroy(bench);
+    if (workspace || !(workspace = calloc(1, sizeof *workspace)) ||
+        !kd_deflate_create(strips->engine, level, &workspace->deflate, NULL))
+        return workspace;
+    workspace_destroy(workspace);
     return NULL;
 }
 
-static void bench_put_back(struct kd_png_strips *strips, struct bench *bench)
+static void workspace_put_back(struct kd_png_strips *strips, struct workspace *workspace)
 {
     pthread_mutex_lock(&strips->lock);
-    bench->next = strips->idle;
-    strips->idle = bench;
+    workspace->next = strips->idle;
+    strips->idle = workspace;
     pthread_mutex_unlock(&strips->lock);
 }
 
@@ -122,16 +123,16 @@ static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
 
 /* Trying filters costs more than it gains at the lowest levels. Sub makes kerrd's pictures smallest, among those whose
  * cost is nothing beside deflate's (docs/decisions/0004-live-png.md). */
-static void filter(const struct work *w, uint32_t first, uint32_t end, struct bench *bench)
+static void filter(const struct work *w, uint32_t first, uint32_t end, struct workspace *workspace)
 {
     const size_t stride = w->stride;
-    uint8_t *to = bench->rows, *room[2] = { bench->room, bench->room + stride };
+    uint8_t *to = workspace->rows, *room[2] = { workspace->room, workspace->room + stride };
     memset(room[1], 0, stride); /* above the first row of a picture */
     const uint8_t *above = first ? row_at(w, first - 1, room[1]) : room[1];
     for (uint32_t y = first; y < end; y++, to += stride + 1) {
         const uint8_t *row = row_at(w, y, room[(y - first) % 2]);
         if (w->p->compression > 1) {
-            kd_png_filter_least(to, row, above, stride, w->step, bench->room + 2 * stride);
+            kd_png_filter_least(to, row, above, stride, w->step, workspace->room + 2 * stride);
         } else if (w->p->compression == 1) {
             kd_png_filter_sub(to, row, stride, w->step);
         } else {
@@ -148,17 +149,17 @@ static enum kd_status encode(void *user, size_t strip, struct kd_buffer *out)
     const uint32_t first = (uint32_t)strip * w->rows, rest = w->p->height - first;
     const uint32_t rows = rest < w->rows ? rest : w->rows;
     const size_t size = (w->stride + 1) * rows;
-    struct bench *bench = bench_take(w->strips, w->p->compression);
-    if (!bench)
+    struct workspace *workspace = workspace_take(w->strips, w->p->compression);
+    if (!workspace)
         return KD_ENOMEM;
     enum kd_status status = KD_ENOMEM;
-    if (make_room(&bench->rows, &bench->rows_size, size) &&
-        make_room(&bench->room, &bench->room_size, ROW_ROOM * w->stride)) {
-        filter(w, first, first + rows, bench);
-        w->sums[strip] = kd_zlib_sum(bench->rows, size);
-        status = kd_deflate_piece(bench->deflate, bench->rows, size, strip + 1 == w->n, out);
+    if (make_room(&workspace->rows, &workspace->rows_size, size) &&
+        make_room(&workspace->room, &workspace->room_size, ROW_ROOM * w->stride)) {
+        filter(w, first, first + rows, workspace);
+        w->sums[strip] = kd_zlib_sum(workspace->rows, size);
+        status = kd_deflate_piece(workspace->deflate, workspace->rows, size, strip + 1 == w->n, out);
     }
-    bench_put_back(w->strips, bench);
+    workspace_put_back(w->strips, workspace);
     return status;
 }
 
@@ -193,32 +194,37 @@ void kd_png_strips_destroy(struct kd_png_strips *strips)
 {
     if (!strips)
         return;
-    for (struct bench *next, *bench = strips->idle; bench; bench = next) {
-        next = bench->next;
-        bench_destroy(bench);
+    for (struct workspace *next, *workspace = strips->idle; workspace; workspace = next) {
+        next = workspace->next;
+        workspace_destroy(workspace);
     }
     pthread_mutex_destroy(&strips->lock);
     free(strips);
 }
 
+/* A piece by libdeflate takes a quarter longer than a whole stream (deflate_walk.h): a picture that one core encodes in
+ * some ten milliseconds is one. */
+static size_t least_in_strips(enum kd_deflate_engine engine) { return engine == KD_DEFLATE_ISAL ? MIB : 4 * MIB; }
+
 enum kd_status kd_png_strips_append(struct kd_png_strips *strips, const struct kd_png_params *params,
                                     struct kd_buffer *out, struct kd_error *error)
 {
-    struct work w = { .strips = strips, .p = params, .sum = 1, .out = out, .step = 3 * ((size_t)params->bit_depth / 8) };
+    struct work w = {
+        .strips = strips, .p = params, .sum = 1, .out = out, .step = 3 * ((size_t)params->bit_depth / 8)
+    };
     const size_t start = out->size;
     w.stride = params->width * w.step;
-    const size_t size = (w.stride + 1) * params->height, most = size / STRIP ? size / STRIP : 1;
+    const size_t size = (w.stride + 1) * params->height,
+                 most = size >= least_in_strips(strips->engine) ? size / STRIP : 1;
     w.rows = (uint32_t)((params->height + most - 1) / most);
     w.n = (params->height + w.rows - 1) / w.rows;
     w.sums = malloc(w.n * sizeof *w.sums);
-    const enum kd_status status =
-        w.sums ? kd_strips_encode(&(struct kd_strips) { w.n, encode, join, &w }) : KD_ENOMEM;
+    const enum kd_status status = w.sums ? kd_strips_encode(&(struct kd_strips) { w.n, encode, join, &w }) : KD_ENOMEM;
     free(w.sums);
     if (status) {
         out->size = start;
         kd_error_set(error, status, "%s for a PNG of %u x %u pixels",
-                     status == KD_ENOMEM ? "out of memory" : "a damaged deflate stream", params->width,
-                     params->height);
+                     status == KD_ENOMEM ? "out of memory" : "a damaged deflate stream", params->width, params->height);
     }
     return status;
 }

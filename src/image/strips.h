@@ -17,8 +17,8 @@ struct kd_strips {
     void *user;
 };
 
-/* Bytes of strips wait for those before them; of strips that are joined none are kept. Returns the status of a call that
- * failed, after which no other strip begins; KD_ENOMEM. */
+/* Bytes of strips wait for those before them; of strips that are joined none are kept. Returns the status of a call
+ * that failed, after which no other strip begins; KD_ENOMEM. */
 enum kd_status kd_strips_encode(const struct kd_strips *strips);
 
 #endif

@@ -1,5 +1,5 @@
-/* JPEG in strips: what libjpeg decodes is what it decodes of the same picture in one scan, and the bytes are the same on
- * any number of threads. */
+/* JPEG in strips: what libjpeg decodes is what it decodes of the same picture in one scan, and the bytes are the same
+ * on any number of threads. */
 #include "image/jpeg.h"
 #include "base/parallel.h"
 
@@ -121,7 +121,7 @@ static void intervals_are_one_scan(void **state)
     check(1280, 720, 75, 4);
     check(1280, 720, 90, 4);
     check(1280, 721, 75, 4);
-    check(1279, 833, 75, 5); /* the last strip has one row */
+    check(1279, 833, 75, 5);   /* the last strip has one row */
     check(1027, 2590, 75, 11); /* numbers of markers begin anew after 8 */
     check(17, 65000, 92, 5);
     check(65500, 70, 75, 5);

@@ -76,6 +76,8 @@ static void check_header(const uint8_t *data, uint32_t length, uint32_t width, u
     assert_memory_equal(data + 8, tail, 5);
 }
 
+static size_t least_in_strips; /* filtered bytes of a frame, by the engine under test */
+
 /* The file is IHDR, sRGB, an IDAT for each strip, IEND and nothing else, each with its own CRC; zlib checks its own
  * sum, and nothing is left over. A frame below 1 MiB has one IDAT. */
 static void check_strictly(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
@@ -109,7 +111,7 @@ static void check_strictly(const uint8_t *file, size_t size, uint32_t width, uin
         at += 12 + length;
     }
     assert_int_equal(at, size);
-    assert_int_equal(strips > 1, (3 * (size_t)width + 1) * height >= 1 << 20 && height > 1);
+    assert_int_equal(strips > 1, (3 * (size_t)width + 1) * height >= least_in_strips && height > 1);
     check_stream(&stream, width, height);
     free(stream.data);
 }
@@ -145,14 +147,16 @@ static struct kd_png_live *encoder(enum kd_deflate_engine engine)
 static void pixels_survive(void **state)
 {
     (void)state;
-    static const uint32_t sides[][2] = { { 640, 360 }, { 1, 1 }, { 1, 97 },    { 97, 1 },    { 3, 2 },
-                                         { 641, 37 },  { 2, 1 }, { 32768, 2 }, { 1, 32768 }, { 1280, 720 } };
+    static const uint32_t sides[][2] = { { 640, 360 }, { 1, 1 },      { 1, 97 },    { 97, 1 },
+                                         { 3, 2 },     { 641, 37 },   { 2, 1 },     { 32768, 2 },
+                                         { 1, 32768 }, { 1280, 720 }, { 1408, 993 } };
     for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
         if (!kd_deflate_has(engine)) {
             print_message("skipped: %s is not built in\n", kd_deflate_name(engine));
             continue;
         }
         struct kd_png_live *live = encoder(engine);
+        least_in_strips = engine == KD_DEFLATE_ISAL ? 1 << 20 : 4 << 20;
         for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
             for (enum content content = 0; content < CONTENTS; content++)
                 check(live, content, sides[i][0], sides[i][1]);

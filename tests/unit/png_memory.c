@@ -26,7 +26,7 @@ void *__wrap_malloc(size_t size) { return fails() ? NULL : __real_malloc(size); 
 void *__wrap_realloc(void *old, size_t size) { return fails() ? NULL : __real_realloc(old, size); }
 void *__wrap_calloc(size_t n, size_t size) { return fails() ? NULL : __real_calloc(n, size); }
 
-enum { SIDE = 64, TALL = 4096 /* three strips */ };
+enum { SIDE = 64, TALL = 11264 /* eight strips */ };
 
 static enum kd_status encode(struct kd_buffer *out, struct kd_error *error)
 {

@@ -110,11 +110,11 @@ static void large_pictures_survive(void **state)
     (void)state;
     static const int levels[] = { 0, 1, 5 };
     for (size_t i = 0; i < sizeof levels / sizeof *levels; i++) {
-        strips_survive(1027, 803, 8, levels[i]);
-        strips_survive(1027, 803, 16, levels[i]);
+        strips_survive(1427, 1003, 8, levels[i]);
+        strips_survive(1427, 1003, 16, levels[i]);
     }
     strips_survive(32768, 37, 16, 1);
-    strips_survive(7, 32768, 16, 5);
+    strips_survive(23, 32768, 16, 5);
 }
 
 /* Rows that go on downwards, or by the mean of left and above, are small by the filter that says so alone: noise

@@ -34,7 +34,10 @@ struct asked {
     double edges[BINS + 1];
 };
 
-static double between(struct kd_random *random, double low, double high) { return low + (high - low) * kd_random(random); }
+static double between(struct kd_random *random, double low, double high)
+{
+    return low + (high - low) * kd_random(random);
+}
 
 static bool one_in(struct kd_random *random, int n) { return kd_random(random) * n < 1; }
 
@@ -83,9 +86,9 @@ static double light_of(const void *user, double r, double g, double mu)
 {
     const struct asked *q = user;
     const struct kd_line_params *p = &q->params;
-    double emitted = p->emissivity == KD_LINE_LAMPPOST                       ? kd_lamppost_at(&q->lamp, r)
+    double emitted = p->emissivity == KD_LINE_LAMPPOST                  ? kd_lamppost_at(&q->lamp, r)
                      : p->emissivity == KD_LINE_POWER || r < p->break_r ? pow(r / p->break_r, -p->index)
-                                                                             : pow(r / p->break_r, -p->outer_index);
+                                                                        : pow(r / p->break_r, -p->outer_index);
     double limb = p->limb == KD_LIMB_LAOR ? 1 + 2.06 * mu : p->limb == KD_LIMB_HAARDT ? log(1 + 1 / mu) : 1;
     return emitted * limb * g * g * g * (p->energy ? g : 1);
 }

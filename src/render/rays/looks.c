@@ -46,10 +46,11 @@ static enum kd_status check_numbers(const struct kd_observer_motion *m, const st
         return kd_error_field(error, "/observer/infall_energy",
                               "infall_energy is %.9g; with this angular momentum at r %.9g M it must be at least %.9g",
                               m->fall_energy, at->r, bound);
-    return kd_error_field(error, "/observer/infall_momentum",
-                          "infall_momentum is %.9g M, with which the observer turns outside r %.9g M; it must be nearer "
-                          "to 0",
-                          m->fall_momentum, at->r);
+    return kd_error_field(
+        error, "/observer/infall_momentum",
+        "infall_momentum is %.9g M, with which the observer turns outside r %.9g M; it must be nearer "
+        "to 0",
+        m->fall_momentum, at->r);
 }
 
 enum kd_status kd_rays_looks_check(const struct kd_rays_params *p, struct kd_error *error)
