@@ -137,7 +137,7 @@ class Documents(unittest.TestCase):
         self.run_all("docs/orbits.md", 2)
 
     def test_rays(self):
-        self.run_all("docs/rays.md", 2)
+        self.run_all("docs/rays.md", 3)
 
     def test_integrals(self):
         self.run_all("docs/physics/integrals.md", 8)

@@ -15,6 +15,9 @@ enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
     KD_GIVEN_MOST /* all of which may be open; and a dispatch has a quarter of 65535 workgroups then \
                    */
 
+/* Bytes that every device binds as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
+#define BOUND_EVERYWHERE (UINT64_C(1) << 27)
+
 /* The first of the block that a place lies in. */
 static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
 
@@ -62,7 +65,7 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
     plan->sample_rows = (uint32_t)least_of(least_of(rows, held), plan->band_rows);
     while (plan->sample_rows > 1 && !fits(plan, plan->sample_rows, bytes))
         plan->sample_rows /= 2;
-    if (!fits(plan, plan->sample_rows, bytes))
+    if (!fits(plan, 1, BOUND_EVERYWHERE))
         plan->interpolates = 0;
 }
 
