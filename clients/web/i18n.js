@@ -180,6 +180,7 @@ const choices = {
   rgb: 'the picture',
   'image.layers intensity': 'intensity I',
   'image.layers specific_intensity': 'intensity Iν of the frequency',
+  'image.layers jy_per_pixel': 'flux of each pixel, Jy',
   'image.layers brightness_temperature': 'brightness temperature',
   'image.layers g': 'redshift factor g',
   'image.layers temperature': 'temperature of the light',

@@ -58,6 +58,7 @@ export const values = {
   rgb: 'l’immagine',
   'image.layers intensity': 'intensità I',
   'image.layers specific_intensity': 'intensità Iν alla frequenza',
+  'image.layers jy_per_pixel': 'flusso di ogni pixel, Jy',
   'image.layers brightness_temperature': 'temperatura di brillanza',
   'image.layers g': 'fattore di redshift g',
   'image.layers temperature': 'temperatura della luce',

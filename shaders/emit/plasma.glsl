@@ -12,6 +12,7 @@
     F(frequency)           /* log2 of what is observed, GHz */ \
     F(light) F(depth)      /* log2 of the units of kd_radiates by M of length: of light, and of 1 */ \
     F(kelvin) F(jansky)    /* of light 1: brightness temperature, K, and Jy a steradian */ \
+    F(jansky_pixel)        /* and Jy from one pixel, where all are as large */ \
     F(gold_light) F(gold_depth) /* log2 of the light and the depth of a length M where the density is 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
     F(density) F(density_index) /* log2 of that at r = 1 M, cm^-3, and what it falls as */ \

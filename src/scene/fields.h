@@ -379,7 +379,7 @@
           "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers", \
           "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|" \
           "footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_" \
-          "temperature|specific_intensity|stokes_v") \
+          "temperature|specific_intensity|stokes_v|jy_per_pixel") \
     WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1", \
          "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto") \
     WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto") \

@@ -113,6 +113,41 @@ print(json.dumps([[z.real, z.imag] for z in v]))
                 self.assertAlmostEqual(re / columns["re"][0], theirs_re, delta=1e-5)
                 self.assertAlmostEqual(im / columns["re"][0], theirs_im, delta=1e-5)
 
+    def test_flux_and_polarisation(self):
+        """Stokes I, Q, U and V in Jy a pixel, each where it belongs; the flux is that which the file tells."""
+        code = """
+import json, sys
+import ehtim, numpy
+from astropy.io import fits
+image, arrays = ehtim.image.load_fits(sys.argv[1]), numpy.load(sys.argv[2])
+told = fits.getheader(sys.argv[1])["FLUX_JY"]
+light = arrays["intensity"].astype(float)
+unit = told / light.sum()
+ours = [unit * arrays[name].astype(float) for name in ("intensity", "stokes_q", "stokes_u", "stokes_v")]
+theirs = [v.reshape(light.shape) for v in (image.imvec, image.qvec, image.uvec, image.vvec)]
+off = [float(abs(a - b).max() / abs(b).max()) for a, b in zip(theirs, ours)]
+angles = [float(numpy.angle(q.sum() + 1j * u.sum()) / 2) for q, u in (theirs[1:3], ours[1:3])]
+print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles": angles,
+                  "fraction": float(abs(image.lin_polfrac())), "rate": image.rf / fits.getheader(sys.argv[1])["FREQ"]}))
+"""
+        layers = "image.layers=jy_per_pixel,stokes_q,stokes_u,stokes_v,intensity"
+        scene = ["-p", "riaf", "--size", "64x64", "--set", "polarization.model=transfer", "--set", layers]
+        for end in ("fits", "npz"):
+            self.good("render", *scene, "-o", self.path("a." + end))
+        done = subprocess.run(
+            [PYTHON, "-I", "-c", code, self.path("a.fits"), self.path("a.npz")],
+            capture_output=True,
+            text=True,
+            timeout=200,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout.splitlines()[-1])
+        self.assertAlmostEqual(found["flux"], 1, delta=1e-5)
+        self.assertLess(max(found["off"]), 1e-4)
+        self.assertAlmostEqual(*found["angles"], delta=1e-4)
+        self.assertGreater(found["fraction"], 0)
+        self.assertEqual(found["rate"], 1)
+
     def test_light_along_rays(self):
         self.read_by_ehtim(
             "-p",

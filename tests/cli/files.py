@@ -189,6 +189,37 @@ class Files(support.Case):
         right, up = WCS(header).pixel_to_world_values(31.5, 17.5 + 9)
         self.assertAlmostEqual(float(up), 45, places=6)
 
+    def test_janskys_of_each_pixel(self):
+        """They add up to the flux that is told; Stokes Q, U and V beside them have their unit, in FITS alone."""
+        layers = ["jy_per_pixel", "stokes_q", "stokes_u", "stokes_v", "intensity", "specific_intensity", "r"]
+        hot = ["-p", "riaf", "--size", "48x40", "--set", "polarization.model=transfer"]
+        for end in ("fits", "npz"):
+            self.good("render", *hot, "--set", "image.layers=" + ",".join(layers), "-o", self.path("a." + end))
+        units, arrays = self.opened(self.path("a.fits")), numpy.load(self.path("a.npz"))
+        header, jy = units[0].header, units[0].data.astype(float)
+        self.assertAlmostEqual(jy.sum() / header["FLUX_JY"], 1, delta=1e-5)
+        steradians = math.radians(header["CDELT2"]) ** 2
+        numpy.testing.assert_allclose(jy, units[5].data.astype(float) * steradians, rtol=1e-5)
+        for unit, name, bunit, stokes in zip(
+            units, layers, ["JY/PIXEL"] * 4 + ["", "Jy/sr", "M"], ["I", "Q", "U", "V", "I", "I", None], strict=True
+        ):
+            self.assertEqual((unit.header["BUNIT"], unit.header.get("STOKES")), (bunit, stokes), name)
+        factor = jy.sum() / units[4].data.astype(float).sum()
+        for i in (1, 2, 3):
+            self.assertGreater(abs(units[i].data).max(), 0)
+            numpy.testing.assert_allclose(units[i].data[::-1] / factor, arrays[layers[i]], rtol=1e-4, atol=1e-12)
+        self.assertEqual(units[0].header["TELESCOP"], "kerrd")
+        self.bad(
+            2,
+            "specific_intensity is known to every camera",
+            "plan",
+            *hot,
+            "--set",
+            "camera.r=1000",
+            "--set",
+            "image.layers=jy_per_pixel",
+        )
+
     def test_the_standard(self):
         """By the standard's own tool; and the sum of the pixels by astropy is that by numpy."""
         path = self.files["fits"]

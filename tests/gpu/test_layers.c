@@ -531,9 +531,9 @@ static void test_tiny_fields(void **state)
 static void test_too_bright(void **state)
 {
     (void)state;
-    static const char *const layers[] = { "brightness_temperature", "specific_intensity", "intensity" };
+    static const char *const layers[] = { "brightness_temperature", "specific_intensity", "jy_per_pixel", "intensity" };
     static const double emissions[] = { 3e-18, 3e-6, 1e30 };
-    for (size_t k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 4; k++) {
         double first = 0;
         for (size_t e = 0; e < 3; e++) {
             struct kd_scene scene;
@@ -574,6 +574,7 @@ static void test_each_is_a_picture(void **state)
                 struct kd_scene scene = scene_of(turns ? 0.9 : 0, 75, INFINITY, kd_layer_kinds[kind].name);
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
                 if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
+                    kind == KD_LAYER_jy_per_pixel ||
                     kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency, alone */
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;

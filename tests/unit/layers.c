@@ -44,6 +44,7 @@ static void words_are_the_layers(void **state)
         kd_words_length(field(), i, &numbered);
         assert_int_equal(numbered, i != KD_LAYER_order && i != KD_LAYER_brightness_temperature &&
                                        i != KD_LAYER_specific_intensity && i != KD_LAYER_stokes_v &&
+                                       i != KD_LAYER_jy_per_pixel &&
                                        (kind->of == KD_OF_CROSSING || kind->of == KD_OF_LIGHT));
         assert_non_null(kind->unit);
         assert_true(kind->of != KD_OF_CROSSING || kind->needs & KD_LENS_W);

@@ -15,4 +15,8 @@ double kd_radio_unit(const struct kd_scene *scene);
  * (kd_scene_width_uas). */
 double kd_radio_jansky(const struct kd_scene *scene, double flux);
 
+/* Jy that arrive from a pixel whose light is 1, seen from infinity: each stands for the same part of the image plane.
+ */
+double kd_radio_jansky_pixel(const struct kd_scene *scene);
+
 #endif

@@ -7,8 +7,10 @@
 #include "render/output/fits_cards.h"
 #include "render/output/notes.h"
 #include "render/output/numbers.h"
+#include "render/emit/radio.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture *picture, const struct kd_notes *notes)
@@ -39,19 +41,54 @@ done:
     return status;
 }
 
-static enum kd_status put_unit(struct kd_buffer *out, const struct kd_picture *picture,
+static bool is_stokes(int kind)
+{
+    return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_stokes_v;
+}
+
+static bool has(const struct kd_scene *scene, int kind)
+{
+    for (int i = 0; i < scene->image.layers.count; i++)
+        if (scene->image.layers.at[i].word == kind)
+            return true;
+    return false;
+}
+
+/* Stokes Q, U and V beside the layer jy_per_pixel are in its unit: programs that read both take them to be. Sets *out
+ * to numbers that the caller frees, or to NULL where they stay as they are. */
+static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
+                                float **out)
+{
+    const size_t n = (size_t)picture->frame->width * picture->frame->height;
+    *out = NULL;
+    if (!is_stokes(picture->scene->image.layers.at[word].word) || !has(picture->scene, KD_LAYER_jy_per_pixel))
+        return KD_OK;
+    const float unit = (float)kd_radio_jansky_pixel(picture->scene), *from = layer->data;
+    if (!(*out = malloc(n * sizeof **out)))
+        return KD_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        (*out)[i] = unit * from[i];
+    return KD_OK;
+}
+
+/* word: which of image.layers. */
+static enum kd_status put_unit(struct kd_buffer *out, const struct kd_picture *picture, size_t word,
                                const struct kd_number_layer *layer, const struct kd_notes *notes)
 {
     struct kd_buffer cards = { 0 };
+    float *jansky;
     const struct kd_wcs wcs = kd_wcs_of(picture->scene);
-    const struct kd_fits_array array = { picture->frame->width, picture->frame->height, layer->layer->channels,
-                                         layer->layer->data };
     enum kd_status status;
-    KD_TRY(kd_fits_put_layer(&cards, layer->name, layer->unit, layer->layer->channels > 1, &wcs));
+    KD_TRY(in_jansky(picture, word, layer->layer, &jansky));
+    const bool flux = jansky || picture->scene->image.layers.at[word].word == KD_LAYER_jy_per_pixel;
+    const struct kd_fits_array array = { picture->frame->width, picture->frame->height, layer->layer->channels,
+                                         jansky ? jansky : layer->layer->data };
+    KD_TRY(kd_fits_put_layer(&cards, layer->name, flux ? "JY/PIXEL" : layer->unit, layer->layer->channels > 1, &wcs));
     if (notes)
         KD_TRY(put_notes(&cards, picture, notes));
     KD_TRY(kd_fits_image(out, notes != NULL, &array, &cards));
 done:
+    free(jansky);
     kd_buffer_finish(&cards);
     return status;
 }
@@ -66,7 +103,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     KD_TRY(kd_numbers_of(picture, &numbers, error));
     KD_TRY(kd_notes_of(picture, &notes, error));
     for (size_t i = 0; i < numbers.n && !status; i++)
-        status = put_unit(out, picture, &numbers.at[i], i ? NULL : &notes);
+        status = put_unit(out, picture, i, &numbers.at[i], i ? NULL : &notes);
     if (status)
         kd_error_set(error, status, "out of memory for a FITS file of %zu layers", numbers.n);
 done:

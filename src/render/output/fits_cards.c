@@ -56,13 +56,27 @@ done:
     return status;
 }
 
+/* Which Stokes parameter of all the light it is; NULL: none. */
+static const char *stokes_of(const char *name)
+{
+    static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },
+                                            { "jy_per_pixel", "I" }, { "stokes_q", "Q" },
+                                            { "stokes_u", "U" },     { "stokes_v", "V" } };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (!strcmp(name, known[i][0]))
+            return known[i][1];
+    return NULL;
+}
+
 enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb,
                                  const struct kd_wcs *wcs)
 {
     enum kd_status status;
+    const char *stokes = stokes_of(name);
     KD_TRY(kd_fits_text(cards, "EXTNAME", name, "word of image.layers"));
-    if (*unit)
-        KD_TRY(kd_fits_text(cards, "BUNIT", unit, *unit == 'M' ? "G m/c^2" : NULL));
+    KD_TRY(kd_fits_text(cards, "BUNIT", unit, !*unit ? "a pure number" : *unit == 'M' ? "G m/c^2" : NULL));
+    if (stokes)
+        KD_TRY(kd_fits_text(cards, "STOKES", stokes, NULL));
     KD_TRY(put_world(cards, wcs));
     if (rgb) {
         KD_TRY(kd_fits_text(cards, "CTYPE3", "RGB", "linear sRGB"));
@@ -111,6 +125,7 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
     };
     enum kd_status status;
     KD_TRY(kd_fits_text(cards, "OBJECT", "Kerr black hole", NULL));
+    KD_TRY(kd_fits_text(cards, "TELESCOP", "kerrd", "a model, and no observation"));
     KD_TRY(kd_fits_real(cards, "OBSRA", 0, "deg; the hole is taken to be there"));
     KD_TRY(kd_fits_real(cards, "OBSDEC", 0, "deg"));
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)

@@ -22,6 +22,7 @@ static const char *const fates[] = { "sky", "hole", "?" };
 #define SHOWN_intensity .unit = "", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_brightness_temperature .unit = "K", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_specific_intensity .unit = "Jy/sr", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
+#define SHOWN_jy_per_pixel .unit = "Jy/pixel", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_g .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, true }
 #define SHOWN_temperature .unit = "K", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_r .unit = "M", .map = KD_MAP_SEQUENTIAL, .scale = { NAN, NAN, false }
@@ -101,12 +102,21 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
             error, "/image/layers",
             "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others",
             name);
-    if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity) &&
+    if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity ||
+         layer.kind == KD_LAYER_jy_per_pixel) &&
         !kd_scene_is_radio_alone(scene))
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: "
                               "volume.model \"gold\", \"riaf\", \"torus\" or \"grid\", "
                               "disk.model and sky.model \"none\", no jets, spots or bodies",
+                              name);
+    if (layer.kind == KD_LAYER_jy_per_pixel &&
+        (isfinite(scene->camera.r) || scene->camera.projection == KD_PROJECTION_RING ||
+         scene->camera.stereo != KD_STEREO_NONE))
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s, which must be of one picture from camera.r \"infinity\", not in "
+                              "the projection \"ring\": there each pixel is the same part of the sky. "
+                              "specific_intensity is known to every camera",
                               name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers",
