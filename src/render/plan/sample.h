@@ -18,9 +18,9 @@ struct kd_sample_grid {
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows);
 
-/* Sets plan->sample_rows, such that no buffer takes more than the given bytes, which the device binds. A picture so wide
- * that some device could not bind one row of pixels has every ray followed, on every device, so that its bytes are the
- * same. plan: its band_rows are known. */
+/* Sets plan->sample_rows, such that no buffer takes more than the given bytes, which the device binds. A picture so
+ * wide that some device could not bind one row of pixels has every ray followed, on every device, so that its bytes are
+ * the same. plan: its band_rows are known. */
 void kd_sample_fit(struct kd_plan *plan, uint64_t bytes);
 /* The bytes of all three buffers for sample_rows; 0 of a plan all of whose rays are followed. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);
