@@ -21,10 +21,10 @@ enum {
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,
                "it fits");
 
-/* A panel of dots on a canvas: where it begins, and pixels a dot. */
+/* A panel of dots on a canvas: where it begins, pixels a dot, and its width in pixels. */
 struct panel {
     const struct kd_canvas *canvas;
-    uint32_t left, top, dot;
+    uint32_t left, top, dot, width;
 };
 
 /* x, y, width and height in pixels of the panel. */
@@ -36,13 +36,13 @@ static void fill(const struct panel *p, uint32_t x, uint32_t y, uint32_t width, 
 
 static void write_text(const struct panel *p, uint32_t x, uint32_t y, const char *text)
 {
-    kd_canvas_write(p->canvas, p->left + x, p->top + y, p->left + PANEL_WIDTH * p->dot, p->dot, text);
+    kd_canvas_write(p->canvas, p->left + x, p->top + y, p->left + p->width, p->dot, text);
 }
 
 /* Centred at x, as far as the panel goes. */
 static void write_centred(const struct panel *p, double x, uint32_t y, const char *text)
 {
-    double width = kd_canvas_text_width(p->dot, text), most = (double)PANEL_WIDTH * p->dot - width - p->dot;
+    double width = kd_canvas_text_width(p->dot, text), most = (double)p->width - width - p->dot;
     write_text(p, (uint32_t)fmax(fmin(x - 0.5 * width, most), p->dot), y, text);
 }
 
@@ -171,16 +171,25 @@ uint32_t kd_legend_dot(const struct kd_canvas *canvas)
     return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
 }
 
+/* As wide as the bar needs, or as a title that ends at `title_end`, so far as the picture goes. */
+static uint32_t panel_width(const struct kd_canvas *canvas, uint32_t dot, uint32_t title_end)
+{
+    const uint32_t least = PANEL_WIDTH * dot, most = canvas->width - 2 * MARGIN * dot,
+                   wanted = title_end + PADDING * dot;
+    return wanted < least ? least : wanted < most ? wanted : most;
+}
+
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend)
 {
     if (canvas->width < KD_LEGEND_LEAST_WIDTH || canvas->height < KD_LEGEND_LEAST_HEIGHT)
         return false;
     const uint32_t dot = kd_legend_dot(canvas);
-    const struct panel p = { canvas, MARGIN * dot, canvas->height - (PANEL_HEIGHT + MARGIN) * dot, dot };
+    const uint32_t left = (PANEL_WIDTH - BAR_WIDTH) / 2 * dot, bar = (PADDING + KD_FONT_HEIGHT + GAP) * dot;
+    const struct panel p = { canvas, MARGIN * dot, canvas->height - (PANEL_HEIGHT + MARGIN) * dot, dot,
+                             panel_width(canvas, dot, left + kd_canvas_text_width(dot, legend->title)) };
     for (uint32_t y = 0; y < PANEL_HEIGHT * dot; y++)
-        for (uint32_t x = 0; x < PANEL_WIDTH * dot; x++)
+        for (uint32_t x = 0; x < p.width; x++)
             kd_canvas_darken(canvas, p.left + x, p.top + y);
-    uint32_t left = (PANEL_WIDTH - BAR_WIDTH) / 2 * dot, bar = (PADDING + KD_FONT_HEIGHT + GAP) * dot;
     write_text(&p, left, PADDING * dot, legend->title);
     (legend->map == KD_MAP_CATEGORICAL ? draw_classes : draw_bar)(&p, legend, left, bar);
     return true;

@@ -181,6 +181,21 @@ static void classes_have_boxes(void **state)
     free(canvas.pixels);
 }
 
+/* Two titles that differ in their last letter alone are two pictures: the panel is as wide as its title. */
+static void a_long_title_is_whole(void **state)
+{
+    (void)state;
+    struct kd_legend long_title = bar;
+    struct kd_canvas one = canvas_of(320, 200, 8, 0), other = canvas_of(320, 200, 8, 0);
+    long_title.title = "specific_intensity (Jy/sr)";
+    assert_true(kd_legend_draw(&one, &long_title));
+    long_title.title = "specific_intensity (Jy/sr(";
+    assert_true(kd_legend_draw(&other, &long_title));
+    assert_true(memcmp(one.pixels, other.pixels, (size_t)3 * 320 * 200) != 0);
+    free(one.pixels);
+    free(other.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -191,6 +206,7 @@ int main(void)
         cmocka_unit_test(too_small_a_picture_has_none),
         cmocka_unit_test(the_bar_is_the_map),
         cmocka_unit_test(classes_have_boxes),
+        cmocka_unit_test(a_long_title_is_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
