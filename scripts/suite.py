@@ -8,7 +8,7 @@
                                           of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
     suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was
                                           skipped and why; with --no-skip a skip is exit 1. BUILD/meson-logs/counts.txt
-                                          has how many ended how
+                                          has how many ended how, failed.txt which of them failed
 
 Meson itself runs no test at all for a name that it does not know, and calls that a success.
 """
@@ -109,6 +109,10 @@ def report(build, *options):
         for test in tests
     )
     passed_again = len(told.splitlines())
+    failed = [test["name"].split(" / ")[-1] for test in tests if test["result"] not in ("OK", "EXPECTEDFAIL", "SKIP")]
+    pathlib.Path(build, "meson-logs/failed.txt").write_text(
+        "".join(f"FAILED: {name}\n" for name in failed if f" {name} " not in told)
+    )
     ended.update(Ok=passed_again, Fail=-passed_again)
     pathlib.Path(build, "meson-logs/counts.txt").write_text(
         "".join(f"{word} {ended[word]}\n" for word in ("Ok", "Fail", "Skipped"))
