@@ -4,6 +4,7 @@
 
 #include "render/device/internal.h"
 #include "render/frame/frame.h"
+#include "render/plan/cost_class.h"
 
 #include <math.h>
 #include <string.h>
@@ -81,6 +82,7 @@ static void test_learned(void **state)
     for (int k = 0; k < 15; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
+        renderer->frames = 0; /* each of them teaches */
         frame = drawn(scene, &plan);
         for (size_t i = 0; i < plan.n_passes; i++) {
             learns[plan.passes[i].figure] = true;
@@ -96,6 +98,14 @@ static void test_learned(void **state)
             fail_msg("\"%s\" is %g ns, the last frame took %g", kd_figures[i].word, renderer->capacity.ns[i], last[i]);
     assert_true(learns[KD_NS_RAY_FULL] && learns[KD_NS_SAMPLE_TRANSFER] && learns[KD_NS_PIXEL_POST] &&
                 learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
+}
+
+static double estimated(const struct kd_plan *plan, const char *pass)
+{
+    for (size_t i = 0; i < plan->n_passes; i++)
+        if (!strcmp(plan->passes[i].name, pass))
+            return plan->passes[i].estimate_ms;
+    return 0;
 }
 
 /* Refining takes as many rays as the picture asks for: what the next one takes is estimated by those before. Of
@@ -118,12 +128,38 @@ static void test_refining_is_learned(void **state)
     }
     struct kd_frame frame = drawn(scene, &plan);
     kd_frame_finish(&frame);
-    double estimate = 0;
-    for (size_t i = 0; i < plan.n_passes; i++)
-        if (!strcmp(plan.passes[i].name, "refine"))
-            estimate = plan.passes[i].estimate_ms;
+    const double estimate = estimated(&plan, "refine");
     print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
     assert_true(estimate > took / 10 && estimate < 2 * took); /* less the time for which others had the cores */
+}
+
+/* A picture is estimated by those of its class, however many others were made meanwhile: the light of a volume takes a
+ * hundred times what that of a smooth disk does. */
+static void test_classes_are_learned(void **state)
+{
+    (void)state;
+    static const char *const volume =
+                                 "{\"image\": {\"width\": 96, \"height\": 64}, \"volume\": {\"model\": \"torus\"}}",
+                             *const thick = "{\"image\": {\"width\": 96, \"height\": 64}, \"disk\": {\"height\": 0.1}}",
+                             *const larger = "{\"image\": {\"width\": 192, \"height\": 128}, \"volume\": {\"model\": "
+                                             "\"torus\"}, \"camera\": {\"azimuth_deg\": 50}}";
+    struct kd_plan plan;
+    double took = 0;
+    for (int k = 0; k < 4; k++)
+        for (int other = 0; other < 2; other++) {
+            renderer->frames = 0; /* each of them teaches */
+            struct kd_frame frame = drawn(other ? thick : volume, &plan);
+            took = other ? took : timing_of(&frame, "march") * 1e6 / (double)(96 * 64);
+            kd_frame_finish(&frame);
+        }
+    struct kd_capacity learned;
+    kd_renderer_capacity(renderer, &learned);
+    struct kd_frame frame = drawn(larger, &plan);
+    kd_frame_finish(&frame);
+    const double known = kd_cost_known(&learned, plan.cost_class, KD_PASS_MARCH);
+    print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
+    assert_true(known > took / 100 && known < 4 * took); /* less the time for which others had the cores */
+    assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan)) < 1e-6 * known);
 }
 
 int main(void)
@@ -135,6 +171,7 @@ int main(void)
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_learned),
         cmocka_unit_test(test_refining_is_learned),
+        cmocka_unit_test(test_classes_are_learned),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -3,7 +3,7 @@
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
 #include "render/frame/frame.h"
-#include "render/plan/plan.h"
+#include "render/plan/cost_class.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -159,6 +159,56 @@ static void estimates_are_figures(void **state)
     assert_true(plan.trace_ns == 10);
 }
 
+static uint64_t class_of(const char *json)
+{
+    const struct kd_capacity c = device();
+    return planned(json, &c).cost_class;
+}
+
+/* What is learned of a picture is what another of its class is estimated by, whatever its size and its side of the
+ * hole, and no other. */
+static void estimates_are_of_a_class(void **state)
+{
+    (void)state;
+    static const char small[] =
+        "{\"image\": {\"width\": 100, \"height\": 50}, \"disk\": {\"gas\": {\"amplitude\": 1}}}";
+    static const char *const alike[] = {
+        "{\"image\": {\"width\": 640, \"height\": 320}, \"disk\": {\"gas\": {\"amplitude\": 1}}}",
+        "{\"time\": 70, \"camera\": {\"azimuth_deg\": 30, \"inclination_deg\": 20}, "
+        "\"disk\": {\"gas\": {\"amplitude\": 1}}}",
+        "{\"camera\": {\"field_m\": 50}, \"style\": {\"exposure\": 2}, \"disk\": {\"gas\": {\"amplitude\": 1}}}",
+    };
+    static const char *const others[] = {
+        "{}",
+        "{\"disk\": {\"gas\": {\"amplitude\": 1, \"octaves\": 2}}}",
+        "{\"camera\": {\"field_m\": 200}, \"disk\": {\"gas\": {\"amplitude\": 1}}}",
+        "{\"disk\": {\"gas\": {\"amplitude\": 1}}, \"spots\": [{\"brightness\": 1}]}",
+        "{\"disk\": {\"gas\": {\"amplitude\": 1}}, \"accuracy\": {\"profile\": \"high\"}}",
+    };
+    struct kd_capacity c = device();
+    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 1000);
+    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000); /* 1300 */
+    for (size_t i = 0; i < sizeof alike / sizeof *alike; i++) {
+        const struct kd_plan plan = planned(alike[i], &c);
+        assert_true(plan.cost_class == class_of(small));
+        for (size_t k = 0; k < plan.n_passes; k++)
+            if (!strcmp(plan.passes[k].name, "transfer"))
+                assert_true(fabs(plan.passes[k].estimate_ms - 1300e-6 * (double)plan.passes[k].invocations) < 1e-9);
+    }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        assert_true(class_of(others[i]) != class_of(small) &&
+                    !kd_cost_known(&c, class_of(others[i]), KD_PASS_TRANSFER));
+    for (uint64_t i = 1; i < KD_COST_CLASSES; i++) { /* as many others as there is room for beside it */
+        kd_cost_learn(&c, i, KD_PASS_POST, 5);
+        kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 1300);
+    }
+    assert_true(kd_cost_known(&c, 1, KD_PASS_POST) == 5 && kd_cost_known(&c, class_of(small), KD_PASS_TRANSFER) > 0);
+    kd_cost_learn(&c, KD_COST_CLASSES, KD_PASS_POST, 6);
+    assert_true(kd_cost_known(&c, 1, KD_PASS_POST) == 0 && kd_cost_known(&c, 2, KD_PASS_POST) == 5);
+    assert_true(kd_cost_known(&c, class_of(small), KD_PASS_TRANSFER) > 0 &&
+                kd_cost_known(&c, KD_COST_CLASSES, KD_PASS_POST) == 6);
+}
+
 static bool says(const char *json, const char *name)
 {
     const struct kd_capacity c = device();
@@ -188,6 +238,7 @@ int main(void)
         cmocka_unit_test(each_is_in_a_plan_and_each_figure_learned),
         cmocka_unit_test(emitters_are_prepared),
         cmocka_unit_test(estimates_are_figures),
+        cmocka_unit_test(estimates_are_of_a_class),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,23 @@
 #include "render/frame/job.h"
+#include "render/plan/cost_class.h"
 
 #include <math.h>
 #include <string.h>
 
-static void smooth(double *figure, bool probing, double ms, uint64_t items)
+/* Learns what an item of a pass took, of the pass's figure and of the picture's class. */
+static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const struct kd_plan_pass *pass, double ms)
 {
-    double ns = ms * 1e6 / (double)items;
-    if (ms > 0 && items >= 4096) /* a small picture measures the overhead */
-        *figure = probing ? fmin(*figure, ns) : *figure + 0.3 * (ns - *figure);
+    const double ns = ms * 1e6 / (double)pass->invocations;
+    if (!(ms > 0 && pass->invocations >= 4096)) /* a small picture measures the overhead */
+        return;
+    if (!job->r->probing)
+        kd_cost_learn(c, job->plan->cost_class, (enum kd_pass_id)(kd_pass_find(pass->name) - kd_passes), ns);
+    if (pass->figure == KD_NS_NONE)
+        return;
+    if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
+        return; /* takes what its cells ask for */
+    double *figure = &c->ns[pass->figure];
+    *figure = job->r->probing ? fmin(*figure, ns) : kd_cost_mean(*figure, ns);
 }
 
 static double timing(const struct kd_frame *frame, const char *pass)
@@ -42,13 +52,8 @@ void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame)
         return;
     const double share = on_the_host(renderer) ? kd_waiting_share(&job->waiting) : 1;
     pthread_mutex_lock(&renderer->lock);
-    for (size_t i = 0; i < plan->n_passes; i++) {
-        const struct kd_plan_pass *pass = &plan->passes[i];
-        if (pass->figure != KD_NS_NONE &&
-            !(pass->figure == KD_NS_RAY_MARCH &&
-              job->scene->volume.model == KD_VOLUME_GRID)) /* takes what its cells ask for */
-            smooth(&c->ns[pass->figure], renderer->probing, share * timing(frame, pass->name), pass->invocations);
-    }
+    for (size_t i = 0; i < plan->n_passes; i++)
+        learn(c, job, &plan->passes[i], share * timing(frame, plan->passes[i].name));
     c->measured = c->measured || (uint64_t)plan->width * plan->height >= 4096;
     pthread_mutex_unlock(&renderer->lock);
 }

@@ -9,6 +9,7 @@
 #include "render/accuracy/table.h"
 #include "render/view/camera.h"
 #include "render/view/layout.h"
+#include "render/plan/cost_class.h"
 #include "render/plan/lens_key.h"
 #include "render/plan/parts.h"
 #include "render/plan/room.h"
@@ -175,13 +176,15 @@ void kd_plan_say(struct kd_plan *plan, const struct kd_scene *scene)
 
 static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
+    plan->cost_class = kd_cost_class(plan, scene);
     plan->trace_ns = kd_pass_cost(&kd_passes[KD_PASS_TRACE], plan, c).ns;
     for (int i = 0; i < KD_PASS_COUNT; i++) {
         const struct kd_pass_cost cost = kd_pass_cost(&kd_passes[i], plan, c);
         uint64_t n = kd_passes[i].invocations(plan, scene);
         if (!n)
             continue;
-        double ms = (double)n * cost.ns * 1e-6;
+        const double known = kd_cost_known(c, plan->cost_class, (enum kd_pass_id)i);
+        double ms = (double)n * (known > 0 ? known : cost.ns) * 1e-6;
         plan->passes[plan->n_passes++] = (struct kd_plan_pass) { kd_passes[i].name, cost.kernel, n, ms, cost.figure };
         plan->estimate_ms += ms;
     }

@@ -21,9 +21,10 @@
 #include <stdint.h>
 
 #define KD_PLAN_EMITTERS \
-    16                    /* at least those of shaders/shared/emitters.h, which those who include this need not see \
-                           */
-#define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
+    16 /* at least those of shaders/shared/emitters.h, which those who include this need not see \
+        */
+#define KD_COST_CLASSES 16
+#define KD_AUDIT_RAYS 768              /* at most, on a grid of 16 x 48 */
 #define KD_PLAN_MAX_APPROXIMATIONS 116 /* a test compares it with all there are */
 
 /* The capacity says what the device allows and how fast it has been measured to be. */
@@ -35,6 +36,11 @@ struct kd_capacity {
     uint64_t max_allocation_bytes;            /* of one buffer; 0: 2^30, the least that Vulkan 1.2 has */
     uint32_t max_groups_x, max_groups_y;      /* workgroups of one dispatch; 0: 65535, the least that Vulkan has */
     double ns[KD_FIGURE_COUNT];               /* what an item costs, KD_NS_... of pass.h */
+    struct kd_class_cost {
+        uint64_t class, learned; /* of cost_class.h, 0: none; when it was learned from last, in measurements */
+        double ns[KD_PASS_COUNT];
+    } classes[KD_COST_CLASSES];               /* what an item costs in pictures of these */
+    uint64_t learned;                         /* measurements of those so far */
     bool measured;                            /* false: the figures are a default guess for this type of device */
     bool float64;                             /* the device has double precision */
     unsigned cores;                           /* of the host, that the closed form in double runs on */
@@ -110,6 +116,7 @@ struct kd_plan {
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
     double estimate_ms, trace_ns; /* of all; of one ray */
+    uint64_t cost_class;          /* that its passes' times are learned for (cost_class.h) */
     double kernels_ms;            /* what compiling its kernels takes beside that, estimated by who knows that they are
                                      missing (server/render/queue.h); 0: none are, or nobody knows */
     /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this
