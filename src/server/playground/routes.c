@@ -136,8 +136,6 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_play_read_pace(tree, &pace, error));
     kd_play_scene(t->play, &scene);
     KD_TRY(kd_play_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
-    if (look)
-        KD_TRY(kd_plays_takes(server->plays, &scene, error));
     struct kd_scene old;
     kd_play_scene(t->play, &old);
     if (look) { /* first: it can fail, and can be put back */
