@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "playground/show.h"
+#include "scene/tree.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -103,7 +104,7 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
 done:
     kd_playground_destroy(p);
     cJSON_Delete(look);
-    cJSON_Delete(tree);
+    kd_tree_free(tree);
     kd_task_drop_body(t->task.request);
     return status;
 }
@@ -166,7 +167,7 @@ static enum kd_status change(struct play_task *t, struct kd_playground **p, stru
     enum kd_status status = kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error);
     if (!status)
         status = change_taken(t, p, tree, error);
-    cJSON_Delete(tree);
+    kd_tree_free(tree);
     kd_task_drop_body(t->task.request);
     return status;
 }
