@@ -22,7 +22,7 @@
 
 #define RADIAN (M_PI / 180)
 #define APART 1e-3
-enum { SHORT = 2, FREQUENCIES = 6, AROUND = 1024, PANELS = 48, GAUSS = 3 };
+enum { SHORT = 2, FREQUENCIES = 6, AROUND = 2048, PANELS = 48, GAUSS = 3 };
 
 static int spectra = SHORT;
 static uint64_t seed = 1;
