@@ -134,7 +134,7 @@ static enum kd_status make_picture(struct work *w, const struct kd_integral_requ
     struct kd_buffer file = { 0 };
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
-    KD_TRY(kd_format_plan(format, &scene, &capacity, &plan, error));
+    KD_TRY(kd_integral_plan(request, &scene, &capacity, &plan, error));
     KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
     KD_TRY(kd_encode(format, &(struct kd_picture) { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), 0 },
                      KD_EFFORT_QUICK, NULL, &file, error));

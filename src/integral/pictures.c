@@ -95,3 +95,11 @@ const struct kd_format *kd_integral_picture_format(enum kd_integral what)
                                            .encode = encode_flux };
     return what == KD_INTEGRAL_VISIBILITY ? &maps : &flux;
 }
+
+enum kd_status kd_integral_plan(const struct kd_integral_request *r, struct kd_scene *scene,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    enum kd_status status = kd_format_plan(kd_integral_picture_format(r->what), scene, capacity, out, error);
+    out->shape.width = (uint32_t)r->scene->image.width, out->shape.height = (uint32_t)r->scene->image.height;
+    return status;
+}

@@ -22,6 +22,11 @@ bool kd_integral_is_finer(const struct kd_integral_request *request, unsigned pi
  * flux in Jy, as a double. */
 const struct kd_format *kd_integral_picture_format(enum kd_integral what);
 
+/* The plan of a picture's scene. Matter of a given flux has the same density in all of them: that of the scene as it
+ * was asked, whatever their pixels make of its shape. */
+enum kd_status kd_integral_plan(const struct kd_integral_request *request, struct kd_scene *scene,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
+
 /* Gives the scene that the request begins with: the default one, in place of what it has. A spectrum is that of a
  * volume from then on. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);

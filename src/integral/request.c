@@ -236,7 +236,7 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
         if (!kd_integral_is_scene_member(request, item->string))
             KD_TRY(read_item(request, item, error));
 done:
-    cJSON_Delete(root);
+    kd_tree_free(root);
     return status;
 }
 

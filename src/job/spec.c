@@ -183,7 +183,7 @@ enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd
     KD_TRY(kd_tree_parse(text, length, KD_JOB_FILM_MAX, VALUES_MAX, &root, error));
     KD_TRY(kd_playground_read_tree(cJSON_GetObjectItemCaseSensitive(root, "playground"), out, error));
 done:
-    cJSON_Delete(root);
+    kd_tree_free(root);
     return status;
 }
 
@@ -314,7 +314,7 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct k
     KD_TRY(read_exposure(&r));
     KD_TRY(read_blur(&r));
 done:
-    cJSON_Delete(root);
+    kd_tree_free(root);
     if (status)
         kd_job_spec_finish(&spec);
     else

@@ -246,7 +246,7 @@ enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const cha
     KD_TRY(read_tree(request, root, error));
     KD_TRY(kd_orbit_request_check(request, error));
 done:
-    cJSON_Delete(root);
+    kd_tree_free(root);
     return status;
 }
 

@@ -67,9 +67,8 @@ static void integrate(const struct kd_disk_image *image, const struct kd_disk_sp
 {
     static const double at[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
                         share[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
-    int n = (image->angles > 128 ? 512 : image->angles > 64 ? 256 : 128), panels = PANELS / looks.coarse;
+    int n = (image->angles > 128 ? 512 : image->angles > 64 ? 256 : 128) / looks.coarse, panels = PANELS / looks.coarse;
     double span = log(p->outer / p->inner);
-    n = n / looks.coarse < image->angles ? image->angles : n / looks.coarse;
     for (int i = 0; i < panels; i++)
         for (int k = 0; k < GAUSS; k++) {
             kd_pause();

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.03  /* of ln r between rings, in the mean */
-#define BRIGHT 0.5 /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
+#define STEP 0.03   /* of ln r between rings, in the mean */
+#define EDGE_ON 0.1 /* cos i below which rough sums do not yet err with the square of their cells */
+#define BRIGHT 0.5  /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
 enum {
     FEWEST = 64,
     MOST = 512,
@@ -180,7 +181,8 @@ struct work {
 /* How closely an integral looks: rings and angles `coarse` times fewer, and every `skip`th node of the table. */
 struct looks { int coarse, skip; };
 
-static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+/* The rings from p->inner to p->outer, between which light bends nowhere. */
+static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
                       struct looks looks, struct work *work, struct sum *s)
 {
     int around = image->angles > 64 || image->cos_i < 0.6 ? KD_DISK_IMAGE_ANGLES : KD_DISK_IMAGE_ANGLES / 2;
@@ -200,6 +202,20 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
             add_strip(s, &rings[!(i & 1)], &rings[i & 1], log(r / before), n, &work->strip);
         before = r;
     }
+}
+
+/* Where an emissivity breaks there is a ring: cells that had the break within them would err by where it lies. */
+static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+                      struct looks looks, struct work *work, struct sum *s)
+{
+    struct kd_line_params inside = *p, outside = *p;
+    if (p->emissivity != KD_LINE_BROKEN || p->break_r <= p->inner || p->break_r >= p->outer) {
+        add_rings(image, p, lamp, looks, work, s);
+        return;
+    }
+    inside.outer = outside.inner = p->break_r;
+    add_rings(image, &inside, lamp, looks, work, s);
+    add_rings(image, &outside, lamp, looks, work, s);
 }
 
 /* Edges of the sums: those asked for, and between and beyond them as many more as the error needs. Where two sums are
@@ -284,23 +300,25 @@ enum { LEVELS = 5 }; /* looks: 16, 8, 4, 2 and 1 times fewer rings and angles */
 
 /* Sums ever closer until the error is as small as it may be: at least three, of which the last one is the answer, in
  * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
- * difference three quarters are counted. Two sums may come nearer by chance, wherever they are looked at: so no less is
+ * difference three quarters are counted. Near edge on, where they do not yet, all of it is, and of four sums at least.
+ * Two sums may come nearer by chance, wherever they are looked at: so no less is
  * counted than a quarter of what the halving before shows. The table errs with the sixth power of its step, so that
- * twice the step shows 63 times what is left: an eighth is counted. */
+ * twice the step shows 63 times what is left: an eighth is counted, and near edge on a quarter. */
 static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
                        const struct kd_lamppost *lamp, const struct edges *edges, struct work *work,
                        struct sum sums[LEVELS + 1], int *n)
 {
+    const bool edge_on = image->cos_i < EDGE_ON;
     integrate(image, p, lamp, (struct looks) { COARSEST, 1 }, work, &sums[0]);
     integrate(image, p, lamp, (struct looks) { COARSEST / 2, 1 }, work, &sums[1]);
     integrate(image, p, lamp, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
-    double table = 0.125 * apart(edges, &sums[1], &sums[LEVELS]), before = apart(edges, &sums[1], &sums[0]),
-           error = INFINITY;
-    for (*n = 1; *n < LEVELS - 1 && !(error <= p->tolerance);) {
+    double table = (edge_on ? 0.25 : 0.125) * apart(edges, &sums[1], &sums[LEVELS]),
+           before = apart(edges, &sums[1], &sums[0]), error = INFINITY;
+    for (*n = 1; *n < LEVELS - 1 && (*n < (edge_on ? 3 : 2) || !(error <= p->tolerance));) {
         ++*n;
         integrate(image, p, lamp, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);
         double here = apart(edges, &sums[*n], &sums[*n - 1]);
-        error = 0.75 * fmax(here, 0.25 * before) + table;
+        error = (edge_on ? 1 : 0.75) * fmax(here, 0.25 * before) + table;
         before = here;
     }
     return error;

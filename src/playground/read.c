@@ -255,7 +255,7 @@ enum kd_status kd_playground_read(const char *text, size_t length, struct kd_pla
     cJSON *tree = NULL;
     enum kd_status status = kd_playground_parse(text, length, &tree, error);
     status = status ? status : kd_playground_read_tree(tree, out, error);
-    cJSON_Delete(tree);
+    kd_tree_free(tree);
     return status;
 }
 
@@ -318,7 +318,7 @@ enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, s
     cJSON *tree = NULL;
     enum kd_status status = kd_playground_parse(text, length, &tree, error);
     status = status ? status : kd_playground_patch_tree(p, tree, error);
-    cJSON_Delete(tree);
+    kd_tree_free(tree);
     return status;
 }
 

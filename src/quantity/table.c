@@ -1,6 +1,7 @@
 #include "quantity/define.h"
 
 #include "physics/kerr.h"
+#include "scene/observer_fault.h"
 #include "scene/number.h"
 
 #include <stdio.h>
@@ -56,43 +57,13 @@ enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *
                : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; allowed is outside", horizon);
 }
 
-static enum kd_status numbers_of(const struct kd_observer_motion *m, const struct kd_vantage *at,
-                                 struct kd_error *error)
-{
-    char pointer[40];
-    double bound;
-    switch (kd_observer_check(m, at, &bound)) {
-    case KD_OBSERVER_SOUND: return KD_OK;
-    case KD_OBSERVER_TOO_FAST:
-        snprintf(pointer, sizeof pointer, "/%s", kd_observer_fastest(m->velocity, &bound));
-        return kd_error_field(
-            error, pointer,
-            "velocity_r, velocity_theta and velocity_phi are %.9g together, allowed is less than 1, the speed of light",
-            hypot(hypot(m->velocity[0], m->velocity[1]), m->velocity[2]));
-    case KD_OBSERVER_TWO_ENERGIES:
-        return kd_quantity_outside(error, "infall_energy", m->fall_energy, "allowed is rest with infall_from %.9g",
-                                   m->fall_from);
-    case KD_OBSERVER_FROM_INSIDE:
-        return kd_quantity_outside(error, "infall_from", m->fall_from, "allowed is at least observer_r, %.9g", bound);
-    case KD_OBSERVER_TURNS: break;
-    }
-    if (isfinite(m->fall_energy))
-        return kd_quantity_outside(error, "infall_energy", m->fall_energy,
-                                   "allowed is more than %.9g at observer_r with this infall_momentum", bound);
-    return kd_quantity_outside(error, "infall_momentum", m->fall_momentum,
-                               "with which it turns outside observer_r; allowed are those nearer to 0");
-}
-
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error)
 {
-    const struct kd_observer_row *row = &kd_observers[motion->observer];
+    static const struct kd_observer_names names = { "", "", "observer_r", "observer" };
     const double horizon = kd_kerr_horizon(at->spin);
-    char others[KD_OBSERVER_TEXT];
-    if (!(at->r > horizon) && row->outside(at->spin, at->u) >= horizon)
+    if (!(at->r > horizon) && kd_observers[motion->observer].outside(at->spin, at->u) >= horizon)
         return kd_quantity_outside(error, "observer_r", at->r, "not outside the horizon at %.9g M", horizon);
-    if (kd_observer_exists(motion->observer, at))
-        return isfinite(at->r) ? numbers_of(motion, at, error) : KD_OK;
-    return kd_quantity_outside(error, "observer_r", at->r, "in %s, where %s; allowed is outside %.9g M, or observer %s",
-                               row->edge, row->why, row->outside(at->spin, at->u), kd_observer_others(at, others));
+    enum kd_status status = kd_observer_check_place(&names, motion->observer, at, error);
+    return status || !isfinite(at->r) ? status : kd_observer_check_numbers(&names, motion, at, error);
 }

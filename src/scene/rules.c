@@ -1,3 +1,4 @@
+#include "scene/observer_fault.h"
 #include "scene/rules.h"
 
 #include "physics/kerr.h"
@@ -117,62 +118,20 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
                           show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
+static const struct kd_observer_names observer_names = { "/camera", "camera.", "r", "observer" };
+
 static enum kd_status observer(const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_camera *camera = &scene->camera;
-    const struct kd_observer_row *row = &kd_observers[camera->observer];
     const struct kd_vantage at = kd_scene_vantage(scene);
-    char others[KD_OBSERVER_TEXT];
-    if (kd_observer_exists((enum kd_observer)camera->observer, &at))
-        return KD_OK;
-    if (camera->observer == KD_OBSERVER_INFALL)
-        return kd_error_field(
-            error, "/camera/r",
-            "camera.r is %s M, allowed for camera.observer \"infall\" is more than %s M, the inner horizon, where the "
-            "model ends",
-            show(camera->r).text, show_bound(row->outside(at.spin, at.u)).text);
-    return kd_error_field(error, "/camera/r",
-                          "camera.r is %s M, allowed for camera.observer \"%s\" at this inclination is more than %s M, "
-                          "%s; camera.observer %s can be inside",
-                          show(camera->r).text, row->word, show_bound(row->outside(at.spin, at.u)).text, row->edge,
-                          kd_observer_others(&at, others));
+    return kd_observer_check_place(&observer_names, (enum kd_observer)scene->camera.observer, &at, error);
 }
 
 /* What the numbers of an observer's own motion are worth. */
 static enum kd_status motion(const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_camera *camera = &scene->camera;
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_observer_motion m = kd_scene_observer(scene);
-    char pointer[40];
-    double bound;
-    switch (isfinite(camera->r) ? kd_observer_check(&m, &at, &bound) : KD_OBSERVER_SOUND) {
-    case KD_OBSERVER_SOUND: return KD_OK;
-    case KD_OBSERVER_TOO_FAST:
-        snprintf(pointer, sizeof pointer, "/camera/%s", kd_observer_fastest(m.velocity, &bound));
-        return kd_error_field(error, pointer,
-                              "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less "
-                              "than 1, that of light",
-                              show(hypot(hypot(m.velocity[0], m.velocity[1]), m.velocity[2])).text);
-    case KD_OBSERVER_TWO_ENERGIES:
-        return kd_error_field(error, "/camera/infall_energy",
-                              "camera.infall_energy is %s with camera.infall_from %s M, allowed is \"rest\"",
-                              show(m.fall_energy).text, show(m.fall_from).text);
-    case KD_OBSERVER_FROM_INSIDE:
-        return kd_error_field(error, "/camera/infall_from",
-                              "camera.infall_from is %s M, allowed is at least camera.r, %s M", show(m.fall_from).text,
-                              show(bound).text);
-    case KD_OBSERVER_TURNS: break;
-    }
-    if (isfinite(m.fall_energy))
-        return kd_error_field(error, "/camera/infall_energy",
-                              "camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at "
-                              "least %s",
-                              show(m.fall_energy).text, show(camera->r).text, show_bound(bound).text);
-    return kd_error_field(error, "/camera/infall_momentum",
-                          "camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; "
-                          "allowed are those nearer to 0",
-                          show(m.fall_momentum).text, show(camera->r).text);
+    return isfinite(scene->camera.r) ? kd_observer_check_numbers(&observer_names, &m, &at, error) : KD_OK;
 }
 
 /* Silence here, too, would leave the user turning a knob that does nothing. */

@@ -60,7 +60,8 @@ static enum kd_status escape(struct scan *s)
 static enum kd_status string(struct scan *s)
 {
     size_t start = s->at++;
-    while (s->at < s->length) {
+    for (uint64_t characters = 1; s->at < s->length; characters++) {
+        kd_pause_every(characters, 1 << 20);
         char c = s->text[s->at];
         enum kd_status status = KD_OK;
         if (c == '"') {

@@ -1,6 +1,7 @@
 #include "scene/tree.h"
 
 #include "base/pause.h"
+#include "scene/long_strings.h"
 #include "scene/number.h"
 #include "scene/scan.h"
 #include "scene/text.h"
@@ -33,55 +34,104 @@ cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
     return root;
 }
 
-/* text ends in a NUL that length does not count: cJSON peeks one byte past what it is told. */
-static enum kd_status parse(const char *text, size_t length, cJSON **out, struct kd_error *error)
+/* While this thread reads or frees a large tree, which takes cJSON up to a second, others go first. */
+static _Thread_local bool shares;
+static _Thread_local uint64_t allocations;
+
+static void pause_if_large(uint64_t n)
+{
+    const int kept = errno; /* tells whether memory was short */
+    if (shares && (n >= 65536 || ++allocations % 64 == 0))
+        kd_pause();
+    errno = kept;
+}
+
+static void *allocate(size_t n)
+{
+    pause_if_large(n);
+    return malloc(n);
+}
+
+static void give_back(void *memory)
+{
+    pause_if_large(0);
+    free(memory);
+}
+
+/* Before there are other threads: cJSON's hooks belong to the process. */
+__attribute__((constructor)) static void hook(void)
+{
+    cJSON_InitHooks(&(cJSON_Hooks) { .malloc_fn = allocate, .free_fn = give_back });
+}
+
+void kd_tree_free(cJSON *root)
+{
+    shares = true;
+    cJSON_Delete(root);
+    shares = false;
+}
+
+/* text: without its long strings. It ends in a NUL that length does not count: cJSON peeks one byte past what it is
+ * told. */
+static enum kd_status parse(const char *text, size_t length, const struct kd_long_strings *strings, cJSON **out,
+                            struct kd_error *error)
 {
     const char *end = text;
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
+    shares = true;
     cJSON *root = cJSON_ParseWithLengthOpts(text, length + 1, &end, 0);
+    shares = false;
     bool starved = !root && errno == ENOMEM; /* as above */
     kd_number_locale_leave(locale);
     if (starved)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
     size_t at = (size_t)(end - text);
-    struct kd_text_place place = kd_text_place_of(text, at < length ? at : length);
-    if (!root && at >= length)
+    if (root)
+        at += strspn(end, " \t\n\r");
+    if (root && at >= length) {
+        *out = root;
+        return KD_OK;
+    }
+    const bool short_of = !root && at >= length;
+    at = kd_long_strings_place(strings, at < length ? at : length);
+    const struct kd_text_place place = kd_text_place_of(strings->text, at);
+    if (short_of)
         return kd_error_set(error, KD_EINVAL,
-                            "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu", length,
+                            "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu", at,
                             place.line);
     if (!root)
         return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu", at,
                             place.line, place.column);
-    at += strspn(end, " \t\n\r");
-    if (at < length) {
-        cJSON_Delete(root);
-        place = kd_text_place_of(text, at);
-        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", at,
-                            place.line, place.column);
-    }
-    *out = root;
-    return KD_OK;
+    kd_tree_free(root);
+    return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", at, place.line,
+                        place.column);
 }
 
 enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
                              struct kd_error *error)
 {
+    struct kd_long_strings strings;
+    cJSON *root = NULL;
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);
     kd_scan_skip_mark(&text, &length);
     enum kd_status status = kd_scan_json(text, length, values, error);
     if (status)
         return status;
-    char *copy = malloc(length + 1);
+    kd_long_strings_find(&strings, text, length);
+    char *copy = malloc(strings.length + 1);
     if (!copy)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
-    if (length)
-        memcpy(copy, text, length);
-    copy[length] = 0;
-    kd_pause();
-    status = parse(copy, length, out, error);
-    kd_pause();
+    kd_long_strings_cut(&strings, length, copy);
+    copy[strings.length] = 0;
+    status = parse(copy, strings.length, &strings, &root, error);
     free(copy);
+    if (!status)
+        status = kd_long_strings_fill(&strings, root, error);
+    if (status)
+        kd_tree_free(root);
+    else
+        *out = root;
     return status;
 }

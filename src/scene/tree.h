@@ -10,9 +10,11 @@
 #include <stddef.h>
 
 /* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most`
- * bytes or `values` values. Free *out with cJSON_Delete. */
+ * bytes or `values` values. Lets others go first (base/pause.h). Free *out with kd_tree_free, which does so too, or
+ * with cJSON_Delete where it cannot be large. */
 enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
                              struct kd_error *error);
+void kd_tree_free(cJSON *root); /* accepts NULL */
 
 /* Parses text of a file of our own. NULL: it is no JSON, or with *starved memory was short. Free it with
  * cJSON_Delete. */

@@ -6,6 +6,17 @@ round it. The test contract_sentences sees that each is in the source. What a sc
 that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a
 mistake of the document."""
 
+# What an observer cannot be, by the names that a scene, rays or physics have for its fields.
+OBSERVER = (
+    '%s%s |is %s M, allowed for %s%s "infall" is more than %s M, the inner horizon, where the model ends',
+    '%s%s |is %s M, allowed for %s%s "%s" at this inclination is more than %s M, %s; %s%s %s can be inside',
+    "%svelocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less than 1, that of light",
+    '%sinfall_energy |is %s with %sinfall_from %s M, allowed is "rest"',
+    "%sinfall_from |is %s M, allowed is at least %s%s, %s M",
+    "%sinfall_energy |is %s, allowed at %s%s %s M with this angular momentum is at least %s",
+    "%sinfall_momentum |is %s M, with which the observer turns outside %s%s %s M; allowed are those nearer to 0",
+)
+
 # Fields of a scene beside each other. A document lies over a preset, and a patch over the scene that there is, so that
 # a member which is not in the request has a value all the same, which decides.
 SCENE = (
@@ -19,13 +30,7 @@ SCENE = (
     "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
     "camera.ring_decades_min is %s, allowed is less than camera.ring_decades_max, %s",
     "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s",
-    'camera.r is %s M, allowed for camera.observer "infall" is more than %s M, the inner horizon, where the model ends',
-    'camera.r is %s M, allowed for camera.observer "%s" at this inclination is more than %s M, %s; camera.observer %s can be inside',
-    "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less than 1, that of light",
-    'camera.infall_energy is %s with camera.infall_from %s M, allowed is "rest"',
-    "camera.infall_from is %s M, allowed is at least camera.r, %s M",
-    "camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at least %s",
-    "camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; allowed are those nearer to 0",
+    *OBSERVER,
     'camera.%s is %s, allowed is %s unless camera.observer is "%s" at a finite camera.r',
     "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
     "disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads into the ergosphere, where there is none",
@@ -249,6 +254,7 @@ TOGETHER = [
             # OpenAPI's parameters are those of all bodies of an operation
             "the query may hold parameters beside a body of application/x-npy| only; in JSON they belong to the document",
             'r is %.16g, allowed are "infinity" and radii above that of the horizon, %.9g at this spin, up to %g',
+            *OBSERVER,
             "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, reaches an observer at r = %.9g",
         ),
     ),
@@ -282,15 +288,7 @@ TOGETHER = [
     ),
     (
         "GET /v1/physics/(deflection|redshift|ring-image|shadow|sky|photon-rings|infall)$",
-        (
-            "velocity_r, velocity_theta and velocity_phi are %.9g together, allowed is less than 1, the speed of light",
-            "%s is %s, |allowed is rest with infall_from %.9g",
-            "%s is %s, |allowed is at least observer_r, %.9g",
-            "%s is %s, |allowed is more than %.9g at observer_r with this infall_momentum",
-            "%s is %s, |with which it turns outside observer_r; allowed are those nearer to 0",
-            "%s is %s, |not outside the horizon at %.9g M",
-            "%s is %s, |in %s, where %s; allowed is outside %.9g M, or observer %s",
-        ),
+        (*OBSERVER, "%s is %s, |not outside the horizon at %.9g M"),
     ),
     (
         "GET /v1/physics/infall$",

@@ -5,7 +5,9 @@
 
 #include "cgs.h"
 #include "kerr_schild.h"
+#include "integral/pictures.h"
 #include "physics/kerr.h"
+#include "render/device/internal.h"
 #include "render/output/flux.h"
 #include "torus_turns.h"
 
@@ -474,6 +476,42 @@ static void test_normalised(void **state)
     }
 }
 
+/* All pictures of an integral have one density, which is looked for once: sizes whose pixels round the shape of the
+ * scene differently, for visibilities and at two frequencies. */
+static void test_normalised_once(void **state)
+{
+    (void)state;
+    static const char *const asked[] = {
+        "{\"preset\":\"riaf\",\"scene\":{\"image\":{\"width\":1280,\"height\":720},\"volume\":{\"normalise_to_jy\":1.3}"
+        "},"
+        "\"u\":[1],\"v\":[2],\"pixels\":51}",
+        "{\"preset\":\"riaf\",\"scene\":{\"image\":{\"width\":1280,\"height\":720},\"volume\":{\"normalise_to_jy\":1.4}"
+        "},"
+        "\"frequencies_hz\":[1e11,2e11],\"pixels\":51}",
+    };
+    for (int i = 0; i < 2; i++) {
+        struct kd_integral_request request;
+        const uint32_t before = renderer->normalised.n;
+        double first = 0;
+        kd_integral_request_init(&request, i ? KD_INTEGRAL_SPECTRUM : KD_INTEGRAL_VISIBILITY);
+        OK(kd_integral_request_json(&request, asked[i], strlen(asked[i]), &error));
+        for (unsigned picture = 0; picture < kd_integral_pictures(&request); picture++) {
+            struct kd_scene scene = kd_integral_scene(&request, picture);
+            struct kd_capacity capacity;
+            struct kd_plan plan;
+            struct kd_frame frame;
+            kd_renderer_capacity(renderer, &capacity);
+            OK(kd_integral_plan(&request, &scene, &capacity, &plan, &error));
+            OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+            first = picture ? first : frame.density_scale;
+            assert_true(frame.density_scale == first);
+            kd_frame_finish(&frame);
+        }
+        kd_integral_request_finish(&request);
+        assert_int_equal(renderer->normalised.n - before, 1);
+    }
+}
+
 /* While a view is dragged the density is that of the same matter from where it was seen before, and at rest its own. */
 static void test_held(void **state)
 {
@@ -531,9 +569,10 @@ static void test_not_normalised(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rays),       cmocka_unit_test(test_adversarial), cmocka_unit_test(test_deep),
-        cmocka_unit_test(test_sphere),     cmocka_unit_test(test_published),   cmocka_unit_test(test_alone),
-        cmocka_unit_test(test_normalised), cmocka_unit_test(test_held),        cmocka_unit_test(test_not_normalised),
+        cmocka_unit_test(test_rays),           cmocka_unit_test(test_adversarial),     cmocka_unit_test(test_deep),
+        cmocka_unit_test(test_sphere),         cmocka_unit_test(test_published),       cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_normalised),     cmocka_unit_test(test_normalised_once), cmocka_unit_test(test_held),
+        cmocka_unit_test(test_not_normalised),
     };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -18,16 +18,18 @@
 #include "render/frame/frame.h"
 #include "render/frame/tell.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 struct kd_renderer {
     char lens_key[65];
-    bool measured, slow, held, compiles, bright;
+    bool measured, slow, held, gated, compiles, bright;
     struct kd_renderer_params params;
     _Atomic bool read; /* the picture of that sky */
     bool compiled;     /* the kernels of the other one */
@@ -49,6 +51,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         (*out)->slow = params->device && !strcmp(params->device, "slow");
     if (*out)
         (*out)->held = params->device && !strcmp(params->device, "held");
+    if (*out)
+        (*out)->gated = params->device && !strcmp(params->device, "gated");
     if (*out)
         (*out)->compiles = params->device && !strcmp(params->device, "compiles");
     return *out ? KD_OK : KD_ENOMEM;
@@ -77,11 +81,25 @@ void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { (vo
 
 void kd_renderer_sky_stop(struct kd_renderer *renderer) { (void)renderer; }
 
-/* Whoever plans asks for it: a device called "held" holds that thread. */
+/* Says in one FIFO that a thread plans, which a byte in the other lets go on. */
+static void wait_at_gate(void)
+{
+    char byte = 0;
+    const int asks = open(getenv("KERRD_GATE_ASKS"), O_WRONLY), may = open(getenv("KERRD_GATE_MAY"), O_RDONLY);
+    if (write(asks, &byte, 1) < 0 || read(may, &byte, 1) < 0)
+        abort();
+    close(asks);
+    close(may);
+}
+
+/* Whoever plans asks for it: a device called "held" holds that thread, one called "gated" until its test lets it go on,
+ * once it has drawn a picture. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {
     if (renderer->held)
         nanosleep(&(struct timespec) { .tv_sec = 5 }, NULL);
+    if (renderer->gated && atomic_load(&drawn))
+        wait_at_gate();
     *out = (struct kd_capacity) { .max_binding_bytes = 128u << 20,
                                   .memory_bytes = 1u << 30,
                                   .ns[KD_NS_RAY_RADIUS] = 1000,

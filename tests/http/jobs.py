@@ -4,7 +4,10 @@ scenes `time` is how many milliseconds a frame takes."""
 import http.client
 import io
 import json
+import os
 import select
+import shutil
+import tempfile
 import threading
 import time
 import zipfile
@@ -716,6 +719,62 @@ class Quota(Case):
     def test_of_bytes(self):
         failed = self.until(self.make({"scenes": [{"image": {"width": 64, "height": 64, "samples": 2}}] * 3}), "failed")
         self.assertIn("bytes", failed["error"])
+
+
+class Gate:
+    """Holds every thread of a server that plans."""
+
+    def __init__(self, test):
+        folder = tempfile.mkdtemp()
+        test.addCleanup(shutil.rmtree, folder)
+        self.env, self.ends = {}, {}
+        for name in ("ASKS", "MAY"):
+            path = self.env["KERRD_GATE_" + name] = os.path.join(folder, name)
+            os.mkfifo(path)
+            self.ends[name] = os.open(path, os.O_RDWR)
+            test.addCleanup(os.close, self.ends[name])
+
+    def asked(self):
+        """Returns when a thread plans."""
+        if not select.select([self.ends["ASKS"]], [], [], 60)[0]:
+            raise AssertionError("nobody plans")
+        os.read(self.ends["ASKS"], 1)
+
+    def open(self):
+        os.write(self.ends["MAY"], b"." * 100)
+
+
+class Planned(Case):
+    """A frame is planned by a worker: nobody else waits for that."""
+
+    def setUp(self):
+        super().setUp()
+        self.gate = Gate(self)
+        self.server = daemon.Daemon("--device", "gated", "--drain-ms", 10, env=os.environ | self.gate.env)
+        self.addCleanup(lambda: self.server.process.poll() is None and (self.server.process.kill(), self.server.wait()))
+        self.job = self.make({"scenes": [SCENE] * 2}, server=self.server)
+        self.gate.asked()  # the second frame
+
+    def test_others_are_answered(self):
+        answer = self.server.request("GET", self.at(self.job), timeout=20)
+        self.assertEqual(answer.json()["state"], "running")
+        self.gate.open()
+        self.until(self.job, "done", self.server)
+        self.assertEqual(self.server.stop(), 0)
+
+    def test_a_job_that_is_deleted(self):
+        self.assertEqual(
+            self.server.request("DELETE", self.at(self.job), headers=self.owner(self.job), timeout=20).status, 204
+        )
+        self.gate.open()
+        self.until(self.make({"scene": SCENE}, server=self.server), "done", self.server)
+        self.assertEqual(self.server.stop(), 0)
+
+    def test_a_server_that_ends(self):
+        self.server.terminate()
+        self.assertTrue(daemon.eventually(lambda: self.server.get("/readyz").status == 503))
+        self.gate.open()
+        self.assertEqual(self.server.wait(), 0)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import math
 import re
 import struct
 import time
+import urllib.parse
 
 import daemon
 
@@ -128,6 +129,37 @@ class Requests(daemon.Case):
             detail = self.assertProblem(self.post(wrong), 400)["detail"]
             self.assertIn(f"byte {place}, line {line}, column {column}", detail)
         self.assertIn(f"line {lines.count(chr(10))}", self.assertProblem(self.post(lines[:-3]), 400)["detail"])
+
+    def test_observers_are_refused_in_the_same_words(self):
+        """As a scene's observer, and physics': by other names."""
+        table = (
+            ({"r": 9, "velocity_phi": 0.8, "velocity_r": 0.7}, "velocity"),
+            ({"r": 1.5}, "static"),
+            ({"r": 9, "infall_from": 8}, "infall"),
+            ({"r": 9, "infall_energy": 0.1}, "infall"),
+            ({"r": 9, "infall_energy": 2, "infall_from": 20}, "infall"),
+            ({"r": 9, "infall_momentum": 900}, "infall"),
+        )
+        for numbers, kind in table:
+            with self.subTest(kind, numbers=numbers):
+                told = []
+                for path, body in (
+                    (
+                        "/v1/plan",
+                        {"spacetime": {"spin": 0.9}, "camera": {**numbers, "inclination_deg": 60, "observer": kind}},
+                    ),
+                    (
+                        "/v1/rays",
+                        {"spin": 0.9, "rays": [[1, 2]], "observer": {**numbers, "inclination_deg": 60, "motion": kind}},
+                    ),
+                ):
+                    told.append(self.daemon.post(path, body).json()["detail"])
+                at = {("observer_r" if name == "r" else name): value for name, value in numbers.items()}
+                query = urllib.parse.urlencode({"spin": 0.9, "observer": kind, "inclination_deg": 60, **at})
+                told.append(self.daemon.get("/v1/physics/sky?" + query).json()["detail"])
+                scene = told[0].replace("camera.", "")
+                self.assertEqual(told[1], scene.replace("observer ", "motion ").replace("the motion", "the observer"))
+                self.assertEqual(told[2], re.sub(r"\br\b(?= is| \d|, \d)", "observer_r", scene))
 
     def test_invalid(self):
         one = '"rays":[[1,2]]'

@@ -1,7 +1,9 @@
 /* The scene document: round trips, canonical form, hash. */
 #include "scene_support.h"
 
+#include "base/pause.h"
 #include "scene/number.h"
+#include "scene/tree.h"
 
 #include <locale.h>
 
@@ -458,6 +460,74 @@ static void locale_does_not_matter(void **state)
     free(text);
 }
 
+/* How often a large document lets others go first while it is read and freed; by that its pieces are short. */
+static unsigned pauses;
+static void count_pause(void) { pauses++; }
+
+static cJSON *read_large(const char *text, size_t length, struct kd_error *error)
+{
+    cJSON *root = NULL;
+    pauses = 0;
+    kd_pause_hook = count_pause;
+    kd_tree_parse(text, length, length, 1u << 20, &root, error);
+    kd_pause_hook = NULL;
+    return root;
+}
+
+static void many_values_are_read_in_pieces(void **state)
+{
+    (void)state;
+    enum { VALUES = 400000 };
+    char *text = malloc(2 * VALUES + 2);
+    for (size_t i = 0; i < VALUES; i++)
+        memcpy(text + 2 * i, i ? ",7" : "[7", 2);
+    memcpy(text + 2 * VALUES, "]", 2);
+    struct kd_error error = { 0 };
+    cJSON *root = read_large(text, 2 * VALUES + 1, &error);
+    assert_int_equal(cJSON_GetArraySize(root), VALUES);
+    assert_true(pauses > VALUES / 1000);
+    pauses = 0;
+    kd_pause_hook = count_pause;
+    kd_tree_free(root);
+    kd_pause_hook = NULL;
+    assert_true(pauses > VALUES / 1000);
+    free(text);
+}
+
+/* {"a":1,"long":"xx...","b":["xx..."],KEY:"xx...\"..."} */
+static void long_strings_are_read_in_pieces(void **state)
+{
+    (void)state;
+    const size_t n = (size_t)5 << 20, all = 4 * n + 100;
+    char *text = malloc(all), *x = malloc(n + 1);
+    memset(x, 'x', n);
+    x[n] = 0;
+    snprintf(text, all, "{\"a\":1,\"long\":\"%s\",\"b\":[\"%s\",2],\"%s\":\"\\\"%s\"}", x, x, x, x);
+    struct kd_error error = { 0 };
+    cJSON *root = read_large(text, strlen(text), &error);
+    assert_true(pauses >= 2 * 4 * n >> 20); /* as it is looked at, and as it is copied */
+    const cJSON *b = cJSON_GetObjectItemCaseSensitive(root, "b"), *last = b->next;
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(root, "long")->valuestring, x);
+    assert_string_equal(cJSON_GetArrayItem(b, 0)->valuestring, x);
+    assert_int_equal(cJSON_GetArrayItem(b, 1)->valueint, 2);
+    assert_string_equal(last->string, x);
+    assert_int_equal(*last->valuestring, '"');
+    assert_string_equal(last->valuestring + 1, x);
+    cJSON_Delete(root);
+    /* a mistake is told by its place in the whole document */
+    static const char wrong[] = "{\"long\":\"%s\",\"b\":{]}";
+    size_t of_short = 0, of_long = 0;
+    for (int i = 0; i < 2; i++) {
+        snprintf(text, all, wrong, i ? x : "x");
+        assert_null(read_large(text, strlen(text), &error));
+        assert_int_equal(
+            sscanf(error.message, "the document is not valid JSON near byte %zu", i ? &of_long : &of_short), 1);
+    }
+    assert_int_equal(of_long, of_short + n - 1);
+    free(text);
+    free(x);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -475,6 +545,8 @@ int main(void)
         cmocka_unit_test(hash_feels_each_field),
         cmocka_unit_test(hash_is_sha256),
         cmocka_unit_test(locale_does_not_matter),
+        cmocka_unit_test(many_values_are_read_in_pieces),
+        cmocka_unit_test(long_strings_are_read_in_pieces),
     };
     return cmocka_run_group_tests_name("scene documents", tests, NULL, NULL);
 }

@@ -21,7 +21,7 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
         return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, false, progress, user }, out, error);
     struct kd_scene scaled = *scene;
     double scale = 1;
-    enum kd_status status = kd_frame_normalise(renderer, &scaled, plan->held, progress, user, &scale, error);
+    enum kd_status status = kd_frame_normalise(renderer, &scaled, plan, progress, user, &scale, error);
     if (status)
         return status;
     struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
@@ -109,7 +109,7 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
         return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, true, progress, user }, out, error);
     struct kd_scene scaled = *scene;
     double scale = 1;
-    const enum kd_status found = kd_frame_normalise(renderer, &scaled, plan->held, progress, user, &scale, error);
+    const enum kd_status found = kd_frame_normalise(renderer, &scaled, plan, progress, user, &scale, error);
     if (found)
         return found;
     struct kd_aside *a = enter_aside(renderer, plan);

@@ -115,12 +115,13 @@ done:
 }
 
 /* All that the flux depends on, and nothing else. */
-static struct kd_scene bare(const struct kd_scene *scene)
+static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *plan)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
     kd_scene_defaults(&plain);
     bare.image = plain.image;
-    bare.image.width = scene->image.width, bare.image.height = scene->image.height;
+    bare.image.width = plan->shape.width ? (int32_t)plan->shape.width : scene->image.width;
+    bare.image.height = plan->shape.height ? (int32_t)plan->shape.height : scene->image.height;
     bare.image.samples = bare.image.critical_factor = 1;
     bare.style = plain.style;
     bare.style.bloom = bare.style.beam_uas = 0;
@@ -168,7 +169,7 @@ static double known(const struct kd_normalised *kept, const struct kd_normal *wa
     return of_matter;
 }
 
-enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, bool held,
+enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error)
 {
     struct kd_normalised *kept = &renderer->normalised;
@@ -177,7 +178,7 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     if (!(scene->volume.normalise_to_jy > 0))
         return KD_OK;
     struct search s = { .r = renderer,
-                        .scene = bare(scene),
+                        .scene = bare(scene, plan),
                         .target = scene->volume.normalise_to_jy,
                         .slope = THIN,
                         .progress = progress,
@@ -187,7 +188,7 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     if (!(*density_of(scene) > 0))
         return refuse(&s, "there is no matter, which has", 0);
     KD_TRY(keys_of(&s, &found));
-    found.scale = known(kept, &found, held);
+    found.scale = known(kept, &found, plan->held);
     if (!(found.scale > 0)) {
         s.most = log(DENSEST / *density_of(scene));
         KD_TRY(search(&s, &found.scale));

@@ -8,9 +8,9 @@
 /* Multiplies the density of a scene that asks for it, and says by what; 1 where it does not. The same scene has the
  * same to the bit, whatever its size in pixels, its colours and its time. Some ten pictures of 48 pixels, and two or
  * three of 128, in the renderer's own buffers; progress is asked between them. KD_EINVAL names the field: there is
- * no light, or none so bright. Held: a density that was found for the same matter before will do, from wherever it
- * was seen. */
-enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, bool held,
+ * no light, or none so bright. With
+ * plan->held a density that was found for the same matter before will do, from wherever it was seen. */
+enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error);
 
 #endif

@@ -55,6 +55,7 @@ static enum kd_status render_strip(const struct kd_parted *p, const struct kd_sc
     needs.radiance = p->plan->numbers;
     kd_renderer_capacity(p->renderer, &capacity);
     KD_TRY(kd_plan_make_for(strip, &needs, &capacity, &plan, error));
+    plan.shape = p->plan->shape;
     if (p->plan->told.on && p->plan->told.y >= first && p->plan->told.y - first < (uint32_t)strip->tile.height) {
         plan.told = p->plan->told;
         plan.told.y -= first;

@@ -95,6 +95,9 @@ struct kd_plan {
     bool light;               /* flux and centroid are measured */
     bool held; /* the density of matter of a given flux may be one that was found from another side (frame/normalise.h)
                 */
+    struct {
+        uint32_t width, height;
+    } shape;      /* and it is that of a picture of this shape; 0: of its own, which its pixels round */
     bool unseen;  /* no pixels are made of the radiance */
     bool numbers; /* the frame is for a file of numbers: what is done to a picture behind its light does not count there
                    */

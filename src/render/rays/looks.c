@@ -2,9 +2,9 @@
 
 #include "physics/angle.h"
 #include "render/view/camera.h"
+#include "scene/observer_fault.h"
 
 #include <math.h>
-#include <stdio.h>
 
 static struct kd_vantage vantage(const struct kd_rays_params *p)
 {
@@ -20,55 +20,17 @@ static struct kd_observer_motion motion_of(const struct kd_rays_params *p)
                                          .fall_momentum = p->fall_momentum };
 }
 
-static enum kd_status check_numbers(const struct kd_observer_motion *m, const struct kd_vantage *at,
-                                    struct kd_error *error)
-{
-    char pointer[40];
-    double bound;
-    switch (kd_observer_check(m, at, &bound)) {
-    case KD_OBSERVER_SOUND: return KD_OK;
-    case KD_OBSERVER_TOO_FAST:
-        snprintf(pointer, sizeof pointer, "/observer/%s", kd_observer_fastest(m->velocity, &bound));
-        return kd_error_field(error, pointer,
-                              "velocity_r, velocity_theta and velocity_phi make a speed of %.9g; it must be less than "
-                              "1, that of light",
-                              hypot(hypot(m->velocity[0], m->velocity[1]), m->velocity[2]));
-    case KD_OBSERVER_TWO_ENERGIES:
-        return kd_error_field(error, "/observer/infall_energy",
-                              "infall_energy is %.9g with infall_from %.9g M; it must be \"rest\" then", m->fall_energy,
-                              m->fall_from);
-    case KD_OBSERVER_FROM_INSIDE:
-        return kd_error_field(error, "/observer/infall_from", "infall_from is %.9g M; it must be at least r, %.9g M",
-                              m->fall_from, bound);
-    case KD_OBSERVER_TURNS: break;
-    }
-    if (isfinite(m->fall_energy))
-        return kd_error_field(error, "/observer/infall_energy",
-                              "infall_energy is %.9g; with this angular momentum at r %.9g M it must be at least %.9g",
-                              m->fall_energy, at->r, bound);
-    return kd_error_field(
-        error, "/observer/infall_momentum",
-        "infall_momentum is %.9g M, with which the observer turns outside r %.9g M; it must be nearer "
-        "to 0",
-        m->fall_momentum, at->r);
-}
-
 enum kd_status kd_rays_looks_check(const struct kd_rays_params *p, struct kd_error *error)
 {
+    static const struct kd_observer_names names = { "/observer", "", "r", "motion" };
     const struct kd_observer_motion motion = motion_of(p);
-    const struct kd_observer_row *row = &kd_observers[motion.observer];
     if (isinf(p->r))
         return kd_error_field(error, "/observer/motion",
                               "motion is \"%s\" and r is \"infinity\"; r must be finite for an observer that moves",
-                              row->word);
+                              kd_observers[motion.observer].word);
     const struct kd_vantage at = vantage(p);
-    char others[KD_OBSERVER_TEXT];
-    if (!kd_observer_exists(motion.observer, &at))
-        return kd_error_field(error, "/observer/r",
-                              "r is %.9g M; with motion \"%s\" at this inclination it must be more than %.9g M, %s; "
-                              "motion %s can be inside",
-                              p->r, row->word, row->outside(at.spin, at.u), row->edge, kd_observer_others(&at, others));
-    return check_numbers(&motion, &at, error);
+    enum kd_status status = kd_observer_check_place(&names, motion.observer, &at, error);
+    return status ? status : kd_observer_check_numbers(&names, &motion, &at, error);
 }
 
 void kd_rays_looks_label(const struct kd_rays_params *p, const double *directions, size_t n, double *alpha_beta,

@@ -50,8 +50,7 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
     for (unsigned i = 0; i < sizes && n; i++) {
         struct kd_scene scene = kd_integral_scene(&job->request, i);
         struct kd_plan plan;
-        enum kd_status status =
-            kd_format_plan(kd_integral_picture_format(job->request.what), &scene, &capacity, &plan, error);
+        enum kd_status status = kd_integral_plan(&job->request, &scene, &capacity, &plan, error);
         if (status)
             return status;
         ms += plan.estimate_ms * n / sizes +
@@ -115,7 +114,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
         .user = job,
     };
     memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
-    KD_TRY(kd_format_plan(job->picture.format, &job->picture.scene, &capacity, &job->picture.plan, error));
+    KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     kd_render_queue_push(renders, &job->picture);
 done:
     return status;

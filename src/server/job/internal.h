@@ -86,12 +86,12 @@ struct kd_jobs {
     pthread_mutex_t opening; /* held while that is done */
     pthread_mutex_t
         lock; /* for what follows; never held while a file is written or removed: the HTTP thread takes it */
-    struct kd_turns_job writer; /* of records (records.c) */
-    bool writes, begun;         /* it is under way; other threads have the jobs */
-    struct kd_job *first;       /* oldest first */
-    struct kd_job *gone;        /* whose files are to be removed */
-    struct kd_job_render *rendering;
-    struct kd_job *filming; /* whose bodies are moved; NULL: no film's */
+    struct kd_turns_job writer;      /* of records (records.c) */
+    bool writes, begun;              /* it is under way; other threads have the jobs */
+    struct kd_job *first;            /* oldest first */
+    struct kd_job *gone;             /* whose files are to be removed */
+    struct kd_job_render *rendering; /* or being planned */
+    struct kd_job *filming;          /* whose bodies are moved; NULL: no film's */
     unsigned behind;
     uint64_t bytes;
     uint64_t frames; /* finished here, of all */
@@ -133,11 +133,10 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
 /* Remove files of jobs that are gone, at most so many. Unlocked, on one thread. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
-/* run.c: hand the next frame to the render queue if it is time for one. */
+/* run.c: begin with the next frame if it is time for one. A worker plans it and hands it to the render queue. */
 void kd_jobs_pump(struct kd_jobs *all);
-/* Plans the next frame, without the lock: what planning keeps of a camera is found then, and to begin the frame takes
- * no time with it. By who writes records alone. */
-void kd_job_plan_ahead(struct kd_job *job);
+/* The frame that no worker will plan any more. When nobody else has the jobs. */
+void kd_jobs_drop_unplanned(struct kd_jobs *all);
 /* Finds the job of a frame by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_glance kd_job_glance;

@@ -179,6 +179,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     if (!all)
         return;
     kd_jobs_write_all(all);
+    kd_jobs_drop_unplanned(all);
     while (all->first) {
         struct kd_job *job = all->first;
         all->first = job->link;

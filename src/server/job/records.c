@@ -52,7 +52,6 @@ static enum kd_turn_end turn(struct kd_turns_job *writer)
     if (!job)
         return KD_TURN_LAST;
     enum kd_status status = kd_job_store_update(all->store, &record, &error);
-    kd_job_plan_ahead(job);
     pthread_mutex_lock(&all->lock);
     written(job, status, &error);
     kd_jobs_pump(all);

@@ -6,16 +6,18 @@
 #include "render/output/series.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define BEHIND_MAX 2 /* frames rendered and not yet in their files: one is rendered while one is encoded */
 struct kd_job_render {
-    struct kd_render_job render; /* first: the queue's pointer is ours */
-    struct kd_job *job;
-    unsigned number, place; /* in the order */
-    struct kd_crowd *crowd; /* of a film: that its scene shows, held */
+    struct kd_render_job render;  /* first: the queue's pointer is ours */
+    struct kd_turns_job planning; /* before it is pushed */
+    struct kd_job *job;           /* a reference */
+    unsigned number, place;       /* in the order */
+    struct kd_crowd *crowd;       /* of a film: that its scene shows, held */
     bool rendered;
     bool measures; /* the exposure of all: a small picture, of which no file is kept */
 };
@@ -59,58 +61,86 @@ static unsigned next_frame(struct kd_job *job)
     return still_measures(job) ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
 }
 
-static enum kd_status plan(const struct kd_jobs *all, const struct kd_job_spec *spec, bool measures, unsigned number,
-                           struct kd_crowd *crowd, struct kd_scene *scene, struct kd_plan *out, struct kd_error *error)
+/* A worker plans a frame, without the lock: the critical curve of a camera alone takes milliseconds. Nobody writes what
+ * it reads of the job: its exposure comes while it has no frame, its order before the first. */
+static enum kd_turn_end plan(struct kd_turns_job *planning)
 {
+    struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
+    const struct kd_jobs *all = frame->job->all;
+    const struct kd_job_spec *spec = &frame->job->spec;
+    struct kd_render_job *render = &frame->render;
     struct kd_capacity capacity;
     kd_render_queue_capacity(all->params.renders, &capacity);
-    return measures ? kd_job_exposure_plan(spec, number, &capacity, scene, out, error)
-                    : kd_job_frame_plan(spec, number, crowd, 0, all->params.longest_s, &capacity, scene, out, error);
+    render->status = frame->measures ? kd_job_exposure_plan(spec, frame->number, &capacity, &render->scene,
+                                                            &render->plan, &render->error)
+                                     : kd_job_frame_plan(spec, frame->number, frame->crowd, 0, all->params.longest_s,
+                                                         &capacity, &render->scene, &render->plan, &render->error);
+    return KD_TURN_LAST;
 }
 
-void kd_job_plan_ahead(struct kd_job *job)
+static void finish(struct kd_job_render *frame)
 {
-    struct kd_jobs *all = job->all;
-    struct kd_scene scene;
-    struct kd_plan ignored;
+    kd_buffer_finish(&frame->render.file);
+    kd_frame_finish(&frame->render.frame);
+    kd_crowd_release(frame->crowd);
+    free(frame);
+}
+
+/* It can be begun once more. Locked. */
+static void take_back(struct kd_job_render *frame)
+{
+    struct kd_job *job = frame->job;
+    job->next = frame->place < job->next ? frame->place : job->next;
+}
+
+/* Hands a planned frame over. Locked. */
+static void push(struct kd_job_render *frame)
+{
+    struct kd_job *job = frame->job;
+    struct kd_crowd *next;
     struct kd_error error;
-    pthread_mutex_lock(&all->lock);
-    const bool measures = still_measures(job);
-    const unsigned number = next_frame(job);
-    pthread_mutex_unlock(&all->lock);
-    if (number < job->frames && !(job->spec.every > 0)) /* a film's scene has to be made first */
-        plan(all, &job->spec, measures, number, NULL, &scene, &ignored, &error);
-}
-
-/* Hands over the next frame of a job. False: there was none. */
-static bool begin(struct kd_job *job)
-{
-    struct kd_jobs *all = job->all;
-    struct kd_error error = { 0 };
-    const bool measures = still_measures(job);
-    if (next_frame(job) == job->frames)
-        return false;
-    kd_job_strike(job);
-    if (job->keeping) /* the strike is on the disk before what it is for begins */
-        return true;
-    const unsigned number = next_frame(job);
-    struct kd_crowd *crowd = NULL;
-    enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
-    if (status)
-        kd_job_give_up(job, &error);
-    if (status || (job->spec.every > 0 && !crowd))
-        return false;
-    struct kd_job_render *frame = calloc(1, sizeof *frame);
-    status = frame ? plan(all, &job->spec, measures, number, crowd, &frame->render.scene, &frame->render.plan, &error)
-                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
-    if (status) {
-        kd_job_give_up(job, &error);
-        free(frame);
-        return false;
-    }
     *job->delayed = 0;
     if (!(job->began_ms > 0))
         job->began_ms = kd_clock_ms();
+    job->fraction = 0;
+    job->revision++;
+    const bool films = frame->crowd; /* the queue's from here on */
+    kd_render_queue_push(job->all->params.renders, &frame->render);
+    if (films && job->next < job->frames) /* meanwhile, and what fails is found out when it is wanted */
+        kd_job_film_at(job, at_place(job, job->next), &next, &error);
+}
+
+/* The job may have been deleted, or have failed, and the server may have begun to end, while the frame was planned. */
+static void planned(struct kd_turns_job *planning)
+{
+    struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
+    struct kd_job *job = frame->job;
+    struct kd_jobs *all = job->all;
+    pthread_mutex_lock(&all->lock);
+    const bool wanted = kd_job_is_active(job) && !all->closed;
+    if (wanted && !frame->render.status) {
+        push(frame);
+        pthread_mutex_unlock(&all->lock);
+        return;
+    }
+    all->rendering = NULL;
+    take_back(frame);
+    if (wanted)
+        kd_job_give_up(job, &frame->render.error);
+    kd_jobs_pump(all);
+    pthread_mutex_unlock(&all->lock);
+    kd_job_release(job);
+    finish(frame);
+}
+
+/* The next frame of a job, which is still to be planned. */
+static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_crowd *crowd)
+{
+    struct kd_job_render *frame = calloc(1, sizeof *frame);
+    if (!frame)
+        return NULL;
+    const bool measures = still_measures(job);
+    frame->planning = (struct kd_turns_job) { .turn = plan, .done = planned };
     frame->render.claim.class = KD_CLASS_JOB;
     memcpy(frame->render.claim.client, job->client, sizeof job->client);
     frame->render.format = job->series->frame;
@@ -121,23 +151,51 @@ static bool begin(struct kd_job *job)
     frame->render.glance = !measures && job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_glance : NULL;
     frame->render.rendered = rendered;
     frame->render.done = done;
-    frame->job = job;
-    frame->number = number;
-    frame->measures = measures;
     if (!measures)
         frame->render.blur = kd_job_frame_blur(&job->spec, number);
+    frame->job = job;
+    frame->number = number;
     frame->place = job->next;
-    job->next += !measures;
+    frame->measures = measures;
     frame->crowd = crowd;
-    kd_crowd_keep(frame->crowd);
+    kd_crowd_keep(crowd);
+    return frame;
+}
+
+/* Begins with the next frame of a job. False: there is none that can be begun now. Locked. */
+static bool begin(struct kd_job *job)
+{
+    struct kd_jobs *all = job->all;
+    struct kd_error error = { 0 };
+    struct kd_crowd *crowd = NULL;
+    const unsigned number = next_frame(job);
+    if (number == job->frames)
+        return false;
+    kd_job_strike(job);
+    if (job->keeping) /* the strike is on the disk before what it is for begins */
+        return true;
+    enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
+    if (!status && job->spec.every > 0 && !crowd)
+        return false;
+    struct kd_job_render *frame = status ? NULL : make_frame(job, number, crowd);
+    if (!status && !frame)
+        status = kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
+    if (status) {
+        kd_job_give_up(job, &error);
+        return false;
+    }
+    job->next += !frame->measures;
     job->references++;
-    job->fraction = 0;
-    job->revision++;
     all->rendering = frame;
-    kd_render_queue_push(all->params.renders, &frame->render);
-    if (crowd && job->next < job->frames) /* meanwhile, and what fails is found out when it is wanted */
-        kd_job_film_at(job, at_place(job, job->next), &crowd, &error);
+    kd_turns_push(all->params.turns, &frame->planning);
     return true;
+}
+
+void kd_jobs_drop_unplanned(struct kd_jobs *all)
+{
+    if (all->rendering)
+        finish(all->rendering);
+    all->rendering = NULL;
 }
 
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number)
@@ -274,16 +332,13 @@ static void done(struct kd_render_job *render)
     else if (status && status != KD_ECANCELLED &&
              !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) &&
              kd_job_is_active(job)) { /* those two go on after a restart */
-        job->next = frame->place < job->next ? frame->place : job->next;
+        take_back(frame);
         kd_job_give_up(job, &render->error);
     }
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
     kd_job_release(job);
-    kd_buffer_finish(&render->file);
-    kd_frame_finish(&render->frame);
-    kd_crowd_release(frame->crowd);
-    free(frame);
+    finish(frame);
 }
 
 void kd_job_draft_finish(struct kd_job_draft *draft)

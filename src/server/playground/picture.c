@@ -54,37 +54,49 @@ void kd_play_scene(struct kd_play *play, struct kd_scene *out)
     pthread_mutex_unlock(&play->all->lock);
 }
 
-enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status make_plan(struct kd_plays *all, const struct kd_scene *scene, struct kd_plan *out,
+                                struct kd_error *error)
 {
     struct kd_capacity capacity;
-    struct kd_plan plan;
     kd_render_queue_capacity(all->params.renders, &capacity);
-    enum kd_status status = kd_plan_make(scene, &capacity, &plan, error);
-    return status ? status : kd_sessions_takes(all->params.sessions, &plan, error);
+    return kd_plan_make(scene, &capacity, out, error);
+}
+
+/* Likewise, and a session shows it. */
+static enum kd_status make_shown(struct kd_plays *all, const struct kd_scene *scene, struct kd_plan *out,
+                                 struct kd_error *error)
+{
+    enum kd_status status = make_plan(all, scene, out, error);
+    return status ? status : kd_sessions_takes(all->params.sessions, out, error);
+}
+
+enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_plan plan;
+    return make_shown(all, scene, &plan, error);
 }
 
 enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *scene, struct kd_error *error)
 {
-    enum kd_status status;
-    KD_TRY(kd_plays_takes(play->all, scene, error));
+    struct kd_plan plan;
+    enum kd_status status = make_shown(play->all, scene, &plan, error);
+    if (status)
+        return status;
     pthread_mutex_lock(&play->all->lock);
-    status = play->picture && !kd_session_over(play->picture) ? kd_session_put(play->picture, scene, error) : KD_OK;
-    if (!status)
-        play->scene = *scene;
+    if (play->picture && !kd_session_over(play->picture))
+        kd_session_put(play->picture, scene, &plan);
+    play->scene = *scene;
     pthread_mutex_unlock(&play->all->lock);
-done:
-    return status;
+    return KD_OK;
 }
 
 static enum kd_status open_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error)
 {
-    struct kd_capacity capacity;
     struct kd_plan plan;
     struct kd_scene scene;
     enum kd_status status;
     kd_play_scene(play, &scene);
-    kd_render_queue_capacity(play->all->params.renders, &capacity);
-    KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
+    KD_TRY(make_plan(play->all, &scene, &plan, error));
     KD_TRY(
         kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, NULL, quota, out, error));
 done:

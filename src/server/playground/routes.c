@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "playground/show.h"
+#include "scene/tree.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -103,7 +104,7 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
 done:
     kd_playground_destroy(p);
     cJSON_Delete(look);
-    cJSON_Delete(tree);
+    kd_tree_free(tree);
     kd_task_drop_body(t->task.request);
     return status;
 }
@@ -136,8 +137,6 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_play_read_pace(tree, &pace, error));
     kd_play_scene(t->play, &scene);
     KD_TRY(kd_play_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
-    if (look)
-        KD_TRY(kd_plays_takes(server->plays, &scene, error));
     struct kd_scene old;
     kd_play_scene(t->play, &old);
     if (look) { /* first: it can fail, and can be put back */
@@ -168,7 +167,7 @@ static enum kd_status change(struct play_task *t, struct kd_playground **p, stru
     enum kd_status status = kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error);
     if (!status)
         status = change_taken(t, p, tree, error);
-    cJSON_Delete(tree);
+    kd_tree_free(tree);
     kd_task_drop_body(t->task.request);
     return status;
 }

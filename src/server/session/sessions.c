@@ -264,17 +264,12 @@ void kd_session_keep(struct kd_session *s, const struct kd_session_pace *pace)
     pthread_mutex_unlock(&s->all->lock);
 }
 
-enum kd_status kd_session_put(struct kd_session *s, const struct kd_scene *scene, struct kd_error *error)
+void kd_session_put(struct kd_session *s, const struct kd_scene *scene, const struct kd_plan *plan)
 {
-    struct kd_plan plan;
-    enum kd_status status = make_plan(s->all, scene, &plan, error);
-    if (status)
-        return status;
     pthread_mutex_lock(&s->all->lock);
     kd_timeline_finish(&s->path);
-    change(s, kd_clock_ms(), scene, &plan);
+    change(s, kd_clock_ms(), scene, plan);
     pthread_mutex_unlock(&s->all->lock);
-    return KD_OK;
 }
 
 void kd_session_show(struct kd_session *s, struct kd_crowd *crowd)

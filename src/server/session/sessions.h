@@ -51,8 +51,8 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
 void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
 /* Its frames keep to this from now on. */
 void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
-/* Puts a scene in the place of the present one, resolved and valid. */
-enum kd_status kd_session_put(struct kd_session *session, const struct kd_scene *scene, struct kd_error *error);
+/* Puts a scene in the place of the present one; its plan is one that kd_sessions_takes. */
+void kd_session_put(struct kd_session *session, const struct kd_scene *scene, const struct kd_plan *plan);
 bool kd_session_watched(struct kd_session *session);     /* somebody waits, or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* how many do */
 bool kd_session_hungry(struct kd_session *session);      /* a frame has taken the crowd that was shown last */

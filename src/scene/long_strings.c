@@ -1,0 +1,112 @@
+#include "scene/long_strings.h"
+
+#include "base/pause.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MARK '\1' /* in the place of a long string; a scanned document has none of these */
+#define PIECE ((size_t)1 << 20)
+
+/* The quote that ends the string whose first byte is at `at`; *escapes: it has some. */
+static size_t end_of(const char *text, size_t length, size_t at, bool *escapes)
+{
+    const char *quote = memchr(text + at, '"', length - at);
+    size_t end = quote ? (size_t)(quote - text) : length;
+    *escapes = memchr(text + at, '\\', end - at);
+    if (!*escapes)
+        return end;
+    for (end = at; end < length && text[end] != '"'; end++) {
+        kd_pause_every(end, PIECE);
+        end += text[end] == '\\';
+    }
+    return end < length ? end : length;
+}
+
+void kd_long_strings_find(struct kd_long_strings *strings, const char *text, size_t length)
+{
+    *strings = (struct kd_long_strings) { .text = text, .length = length };
+    if (length < KD_LONG_STRING)
+        return;
+    const size_t most = sizeof strings->at / sizeof *strings->at;
+    const char *quote;
+    for (size_t at = 0, i = 0; strings->n < most && at < length && (quote = memchr(text + at, '"', length - at)); i++) {
+        bool escapes;
+        kd_pause_every(i, 4096);
+        const size_t start = (size_t)(quote - text) + 1, end = end_of(text, length, start, &escapes);
+        if (!escapes && end - start >= KD_LONG_STRING) {
+            strings->at[strings->n].start = start;
+            strings->at[strings->n++].end = end;
+            strings->length -= end - start - 1;
+        }
+        at = end + 1;
+    }
+}
+
+static char *copy(char *to, const char *from, size_t n)
+{
+    for (size_t at = 0; at < n; at += PIECE) {
+        kd_pause();
+        memcpy(to + at, from + at, n - at < PIECE ? n - at : PIECE);
+    }
+    return to + n;
+}
+
+void kd_long_strings_cut(const struct kd_long_strings *strings, size_t length, char *out)
+{
+    size_t at = 0;
+    for (size_t i = 0; i < strings->n; i++) {
+        out = copy(out, strings->text + at, strings->at[i].start - at);
+        *out++ = MARK;
+        at = strings->at[i].end;
+    }
+    copy(out, strings->text + at, length - at);
+}
+
+size_t kd_long_strings_place(const struct kd_long_strings *strings, size_t at)
+{
+    for (size_t i = 0; i < strings->n && at > strings->at[i].start; i++)
+        at += strings->at[i].end - strings->at[i].start - 1;
+    return at;
+}
+
+/* What is still to be put in. */
+struct fill {
+    const struct kd_long_strings *strings;
+    size_t next;
+    uint64_t seen;
+};
+
+static bool put(struct fill *f, char **string)
+{
+    if (!*string || **string != MARK)
+        return true;
+    const size_t start = f->strings->at[f->next].start, n = f->strings->at[f->next].end - start;
+    char *whole = cJSON_malloc(n + 1);
+    if (!whole)
+        return false;
+    *copy(whole, f->strings->text + start, n) = 0;
+    cJSON_free(*string);
+    *string = whole;
+    f->next++;
+    return true;
+}
+
+/* In the order of the document. It is at most 32 levels deep. */
+static bool fill(struct fill *f, cJSON *item)
+{
+    for (; item && f->next < f->strings->n; item = item->next) {
+        kd_pause_every(f->seen++, 4096);
+        if (!put(f, &item->string) || !put(f, &item->valuestring) || !fill(f, item->child))
+            return false;
+    }
+    return true;
+}
+
+enum kd_status kd_long_strings_fill(const struct kd_long_strings *strings, cJSON *root, struct kd_error *error)
+{
+    struct fill f = { .strings = strings };
+    return fill(&f, root) ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a long string");
+}
