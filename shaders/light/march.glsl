@@ -35,8 +35,29 @@
 #define KD_MARCH_CLOSE \
     1e-8 /* Delta w^4 where a ray that turns is as close to the horizon as 32 bits tell: its time there has no digits, \
             and stays finite */
+/* The loops of one stretch take at most so many passes, those of a part that the roots of its ends take included. */
+#define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
+#define KD_MARCH_ENDS 100u
 #define KD_MARCH_DEEP 1e3            /* optical depth that is as good as any above */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
+
+/* A ray that a driver's limit on loops has ended is followed again in pieces, a dispatch each (KD_PIECES). left: passes
+ * of loops that this piece may still take; waits: none were left before the ray's end. It then has left so many steps
+ * behind, has come to `from` in the next, and its next stretch may be so long. */
+#ifdef KD_PIECES
+struct kd_march_piece {
+    uint left, steps;
+    float from, stretch;
+    bool waits;
+} kd_march_at;
+#define KD_MARCH_SPEND(n) kd_march_at.left -= min(n, kd_march_at.left);
+#define KD_MARCH_MAY (kd_march_at.left > 0u)
+#define KD_MARCH_WAITS kd_march_at.waits
+#else
+#define KD_MARCH_SPEND(n)
+#define KD_MARCH_MAY true
+#define KD_MARCH_WAITS false
+#endif
 
 /* A polynomial of the time within a step, from 0 to 1. */
 struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
@@ -320,7 +341,8 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
     float wish =
         stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
-    for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE; n++) {
+    for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
+        KD_MARCH_SPEND(KD_MARCH_STRETCH)
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,
               least = KD_MARCH_SHORTEST;
         float next = from + length_;
@@ -370,7 +392,12 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     if (KD_HAS(stokes))
         kd_stokes_seen = kd_stokes_sound(vec4(beam.light.x, kd_stokes_seen + seen)).yzw;
     stretch = wish * s.h;
-    lost = lost || (from < to && beam.through > KD_MARCH_OPAQUE);
+    bool undone = from < to && beam.through > KD_MARCH_OPAQUE;
+#ifdef KD_PIECES
+    kd_march_at.waits = undone && !KD_MARCH_MAY;
+    kd_march_at.from = kd_march_at.waits ? from : 0.0;
+#endif
+    lost = lost || (undone && !KD_MARCH_WAITS);
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
@@ -466,7 +493,12 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
     float turn_u = y.p.v.z * y.q.v.z < 0.0 ? kd_quintic_root(kd_quintic_derived(s.u), 0.0, 0.0, 1.0) : none;
     float plane = kd_march_crosses(y) ? kd_quintic_root(s.u, 0.0, 0.0, 1.0) : none;
     float t = 0.0, last = min(y.left / y.h, 1.0);
+#ifdef KD_PIECES
+    t = kd_march_at.from;
+    kd_march_at.from = 0.0;
+#endif
     while (t < last && beam.through > 0.0) {
+        KD_MARCH_SPEND(KD_MARCH_ENDS)
         float end = last;
         end = turn_w > t ? min(end, turn_w) : end;
         end = turn_u > t ? min(end, turn_u) : end;
@@ -497,6 +529,8 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         KD_TELL_BEFORE(beam)
         kd_march_part(beam, y.m, ray, s, spread, order, from, to, y.stretch, y.lost);
         KD_TELL_STRETCH(s, from, to, beam)
+        if (KD_MARCH_WAITS)
+            break;
         if (end == plane && KD_GLOWS && y.crossed < ORDERS && beam.through > 0.0) {
             float w = lens[at + y.crossed * slice.stride];
             if (w != 0.0)
@@ -525,6 +559,20 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
     return y;
 }
 
+#ifdef KD_PIECES
+/* Takes the steps that were gone through before. */
+void kd_march_again(inout kd_march_way y, kd_ray ray)
+{
+    y.stretch = kd_march_at.stretch;
+    while (y.goes && y.steps < kd_march_at.steps) {
+        kd_march_next(y, ray);
+        kd_march_leave(y);
+    }
+    y.lost = y.lost || y.steps < kd_march_at.steps;
+    y.goes = y.goes && !y.lost;
+}
+#endif
+
 /* Follows one ray up to a Mino time, before which it crosses the plane so often, but for what lies there or at its
  * end. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
@@ -533,18 +581,31 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
     kd_march_way y = kd_march_begin(ray, time);
     if (KD_MARCH_TURNS && ORDERS > 0)
         kd_march_nearest = kd_march_nearest_of(at);
+#ifdef KD_PIECES
+    kd_march_again(y, ray);
+#endif
     if (KD_HAS(stokes)) {
         kd_stokes_right = kd_polarization_right(place);
+#ifndef KD_PIECES
         kd_stokes_seen = vec3(0.0);
         kd_stokes_front = kd_jones_one();
+#endif
     }
     for (uint n = 0u; n < KD_MARCH_LOOPS && y.goes && beam.through > 0.0; n++) {
         kd_march_advance(y, ray);
         if (y.goes) {
             kd_march_through(beam, y, ray, place, at);
+            if (KD_MARCH_WAITS)
+                break;
             kd_march_leave(y);
         }
     }
+#ifdef KD_PIECES
+    kd_march_at.steps = y.steps - 1u;
+    kd_march_at.stretch = y.stretch;
+    if (KD_MARCH_WAITS)
+        return;
+#endif
     if (y.lost || (y.goes && beam.through > 0.0))
         KD_MARCH_GIVEN_UP(beam);
     KD_TELL_MARCHED(y.steps)

@@ -201,6 +201,8 @@ void kd_follow(inout kd_beam beam, uvec2 place, uint at)
     }
     if (KD_MARCHES)
         kd_march_follow(beam, place, at, met.time, met.crossed);
+    if (KD_MARCH_WAITS)
+        return;
     for (uint n = 0u; !KD_MARCHES && KD_GLOWS && n < min(ORDERS, met.crossed) && beam.through > 0.0; n++) {
         float w = lens[at + n * slice.stride];
         if (w == 0.0)

@@ -1,6 +1,7 @@
 /* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of
  * KD_TRANSFER_ROWS of them. KD_MARCH: for scenes with volumes, along the rays themselves, one ray of a pixel:
- * slice.ray. */
+ * slice.ray. KD_PIECES: of these rays, those that the same kernel without it could not follow to their end, a piece
+ * at a time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -15,8 +16,9 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #ifndef KD_TELL
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #ifdef KD_MARCH
-/* The same buffer; in its last word rays are counted that were given up on their way through volumes. */
-layout(set = 0, binding = 3) buffer Given_up { uint given_up[]; };
+/* The same buffer. Behind the light rays are listed that were not followed to their end (KD_LOST_...). */
+layout(set = 0, binding = 3) buffer Lost { uint lost_rays[]; };
+layout(set = 0, binding = 3) buffer Pieces { float pieces[]; };
 #endif
 #endif
 
@@ -91,17 +93,24 @@ bool lost = false; /* the ray at hand */
 #include "light/march.glsl"
 #include "light/meet.glsl"
 
-/* Follows one ray, light of its end included. */
-kd_beam follow(uvec2 place, uint at, uint pixel)
+/* Follows one ray on, light of its end included, or up to the end of its piece. */
+void follow_on(inout kd_beam beam, uvec2 place, uint at, uint pixel)
 {
-    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_follow(beam, place, at);
+    if (KD_MARCH_WAITS)
+        return;
     if (STOKES && KD_HAS(stokes))
         stokes += kd_stokes_seen;
     KD_TELL_SUM(KD_TELL_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);
     KD_TELL_SUM(KD_TELL_WHOLE, beam)
+}
+
+kd_beam follow(uvec2 place, uint at, uint pixel)
+{
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    follow_on(beam, place, at, pixel);
     return beam;
 }
 #else
@@ -243,13 +252,150 @@ void light_column(uint x, uint y, uint end)
     }
 }
 
-/* Follows the ray of this number on a pixel, whose number in the list is `listed`, to its light at `to`. */
-kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
+/* The ray of this number on a pixel, whose number in the list is `listed`: its place, and where its map is. */
+uvec2 place_of(uvec2 pixel, uint ray)
 {
-    uvec2 place = CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);
-    return follow(place, CRITICAL > 0 ? listed * CRITICAL + ray : (place.y - slice.band0) * cam.width + place.x, to);
+    return CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);
+}
+uint map_of(uvec2 place, uint listed, uint ray)
+{
+    return CRITICAL > 0 ? listed * CRITICAL + ray : (place.y - slice.band0) * cam.width + place.x;
 }
 
+/* Follows it to its light at `to`. */
+kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
+{
+    uvec2 place = place_of(pixel, ray);
+    return follow(place, map_of(place, listed, ray), to);
+}
+
+#ifdef KD_MARCH
+const uint RAYS = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
+
+/* Stores a ray's share of the light of its pixel, or adds it to that of the rays before it. */
+void store_ray(uint to, kd_beam beam, bool adds)
+{
+    const float share = 1.0 / float(RAYS);
+    vec3 sum = share * beam.light;
+    float apart = share * beam.apart;
+    vec3 all = share * stokes;
+    vec2 spots = share * stokes_apart;
+    if (adds) {
+        const uint pixels = emission.frame.band_pixels, from = STOKES_AT * pixels + to;
+        sum += vec3(radiance[3 * to], radiance[3 * to + 1], radiance[3 * to + 2]);
+        apart += KD_APART ? radiance[3 * pixels + to] : 0.0;
+        if (STOKES)
+            all += vec3(radiance[from], radiance[from + pixels], radiance[from + 2 * pixels]);
+        if (STOKES && KD_APART && KD_HAS(polarization))
+            spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
+    }
+    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever other rays of the pixel have */
+        all.z = KD_STOKES_UNTOLD;
+    store(to, sum, apart, all, spots);
+}
+
+/* Words of the list, counted from the end of the buffer. */
+uint lost_word(uint at) { return lost_rays.length() - at; }
+
+/* Lists a ray that was not followed to its end, which then has no light yet, or gives it up. */
+void lose(inout kd_beam beam, uint name)
+{
+    uint n = atomicAdd(lost_rays[lost_word(KD_LOST_LISTED)], 1u);
+    if (n >= slice.lost_most) {
+        atomicAdd(lost_rays[lost_word(KD_LOST_GIVEN_UP)], 1u);
+        return;
+    }
+    lost_rays[lost_word(KD_LOST_RAYS) - n] = name;
+    beam = kd_beam(vec3(0.0), 0.0, 0.0);
+    forget_stokes();
+}
+#endif
+
+#ifdef KD_PIECES
+/* What a ray has when a piece ends, and the next begins with. */
+uint state_at() { return lost_word(KD_LOST_STATES) - (gl_GlobalInvocationID.x + 1u) * KD_LOST_STATE; }
+
+kd_beam begin_piece()
+{
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    kd_march_at = kd_march_piece(KD_PIECE_PASSES, 0u, 0.0, 0.0, false);
+    kd_stokes_seen = vec3(0.0);
+    kd_stokes_front = kd_jones_one();
+    if (slice.lost_goes == 0u)
+        return beam;
+    uint k = state_at();
+    kd_march_at.steps = lost_rays[k];
+    kd_march_at.from = pieces[k + 1u];
+    kd_march_at.stretch = pieces[k + 2u];
+    untold = lost_rays[k + 3u] != 0u;
+    beam = kd_beam(vec3(pieces[k + 4u], pieces[k + 5u], pieces[k + 6u]), pieces[k + 7u], pieces[k + 8u]);
+    stokes = vec3(pieces[k + 9u], pieces[k + 10u], pieces[k + 11u]);
+    stokes_apart = vec2(pieces[k + 12u], pieces[k + 13u]);
+    kd_stokes_seen = vec3(pieces[k + 14u], pieces[k + 15u], pieces[k + 16u]);
+    kd_stokes_front =
+        kd_jones(vec2(pieces[k + 17u], pieces[k + 18u]), vec3(pieces[k + 19u], pieces[k + 20u], pieces[k + 21u]),
+                 vec3(pieces[k + 22u], pieces[k + 23u], pieces[k + 24u]));
+    return beam;
+}
+
+void end_piece(kd_beam beam)
+{
+    uint k = state_at();
+    lost_rays[k] = kd_march_at.steps;
+    pieces[k + 1u] = kd_march_at.from;
+    pieces[k + 2u] = kd_march_at.stretch;
+    lost_rays[k + 3u] = untold ? 1u : 0u;
+    for (int i = 0; i < 3; i++) {
+        pieces[k + 4u + i] = beam.light[i];
+        pieces[k + 9u + i] = stokes[i];
+        pieces[k + 14u + i] = kd_stokes_seen[i];
+        pieces[k + 19u + i] = kd_stokes_front.re[i];
+        pieces[k + 22u + i] = kd_stokes_front.im[i];
+    }
+    pieces[k + 7u] = beam.apart;
+    pieces[k + 8u] = beam.through;
+    for (int i = 0; i < 2; i++) {
+        pieces[k + 12u + i] = stokes_apart[i];
+        pieces[k + 17u + i] = kd_stokes_front.s[i];
+    }
+    atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
+}
+
+/* Follows the next piece of each listed ray that waits: of a pixel those with the number slice.ray. */
+void main()
+{
+    kd_camera_read();
+    KD_EMIT_BLOCKS(READ)
+    if (gl_GlobalInvocationID.x >= slice.lost_n)
+        return;
+    uint entry = lost_word(KD_LOST_RAYS) - (slice.lost_first + gl_GlobalInvocationID.x), name = lost_rays[entry];
+    if (name == KD_LOST_NONE || name % RAYS != slice.ray)
+        return;
+    bool sampled = SAMPLES && slice.columns > 0u;
+    uint of = name / RAYS, width = emission.frame.pixels_x;
+    uvec2 pixel = sampled ? uvec2(slice.first + of % slice.columns * slice.every_x,
+                                  slice.row0 / SIDE + of / slice.columns * slice.every_y)
+                          : uvec2(of % width, slice.band0 / SIDE + of / width);
+    if (CRITICAL > 0)
+        pixel = kd_listed_pixel(of);
+    uvec2 place = place_of(pixel, slice.ray);
+    uint to = light_at(pixel.x, pixel.y);
+    kd_beam beam = begin_piece();
+    follow_on(beam, place, map_of(place, of, slice.ray), to);
+    if (KD_MARCH_WAITS) {
+        end_piece(beam);
+        return;
+    }
+    lost_rays[entry] = KD_LOST_NONE;
+    if (sampled) {
+        store_light(slice.to + of, lost ? vec3(-1.0) : beam.light);
+        return;
+    }
+    if (lost)
+        atomicAdd(lost_rays[lost_word(KD_LOST_GIVEN_UP)], 1u);
+    store_ray(to, beam, true);
+}
+#else
 /* The march has one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535 passes
  * in total, which the rays of a pixel through turbulent gas come to one after the other. */
 void main()
@@ -259,6 +405,7 @@ void main()
     uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0,
          number = slice.to + gl_WorkGroupID.y * slice.columns + px;
     bool sampled = SAMPLES && slice.columns > 0;
+    uint cell = gl_WorkGroupID.y * slice.columns + px;
     if (px >= (CRITICAL > 0 ? slice.rows : sampled ? slice.columns : emission.frame.pixels_x))
         return;
     if (sampled) {
@@ -280,34 +427,18 @@ void main()
         px = pixel.x;
         py = pixel.y;
     }
-    const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
-    const float share = 1.0 / float(rays);
     uint to = light_at(px, py);
 #ifdef KD_MARCH
     kd_beam beam = follow_one(uvec2(px, py), listed, slice.ray, to);
-    if (sampled) {
-        store_light(number, lost ? vec3(-1.0) : beam.light);
-        return;
-    }
     if (lost)
-        atomicAdd(given_up[given_up.length() - 1], 1u);
-    vec3 sum = share * beam.light;
-    float apart = share * beam.apart;
-    vec3 all = share * stokes;
-    vec2 spots = share * stokes_apart;
-    if (rays > 1u && slice.ray > 0u) {
-        const uint pixels = emission.frame.band_pixels, from = STOKES_AT * pixels + to;
-        sum += vec3(radiance[3 * to], radiance[3 * to + 1], radiance[3 * to + 2]);
-        apart += KD_APART ? radiance[3 * pixels + to] : 0.0;
-        if (STOKES)
-            all += vec3(radiance[from], radiance[from + pixels], radiance[from + 2 * pixels]);
-        if (STOKES && KD_APART && KD_HAS(polarization))
-            spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
-    }
-    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever other rays of the pixel have */
-        all.z = KD_STOKES_UNTOLD;
-    store(to, sum, apart, all, spots);
+        lose(beam, (sampled ? cell : CRITICAL > 0 ? listed : to) * RAYS + slice.ray);
+    if (sampled)
+        store_light(number, lost ? vec3(-1.0) : beam.light);
+    else
+        store_ray(to, beam, RAYS > 1u && slice.ray > 0u);
 #else
+    const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
+    const float share = 1.0 / float(rays);
     vec3 sum = vec3(0.0), all = vec3(0.0);
     float apart = 0.0;
     vec2 spots = vec2(0.0);
@@ -321,4 +452,5 @@ void main()
     store(to, share * sum, share * apart, share * all, share * spots);
 #endif
 }
+#endif
 #endif

@@ -63,8 +63,27 @@
     /* the number, in the order of rows, from which on their light lies one behind the other */ \
     U(to) \
     /* of its pixel, which the march follows, and adds its light to that of the rays before it */ \
-    U(ray)
+    U(ray) \
+    U(lost_most)            /* rays that the list of lost ones has room for, and of these, where they go on, */ \
+    U(lost_first) U(lost_n) /* the first, and how many; */ \
+    U(lost_goes)            /* 0: with their first piece */
 /* clang-format on */
+
+/* Rays through volumes that were not followed to their end stand behind a band's light (frame/pieces.c), counted from
+ * the end of its buffer: words that count those that were given up, those that are listed and those that wait for
+ * their next piece; KD_LOST_STATE words for each of so many that go on at once; and the list. A name in it is the
+ * number of a pixel of the band, of the list of pixels or of a sample, times the rays of a pixel, and the ray. A piece
+ * takes up to so many passes of loops: lavapipe (Mesa 22.3) ends those of eight invocations after 65 535 in total, and
+ * what is gone through again takes some thousand of these. */
+#define KD_LOST_GIVEN_UP 1
+#define KD_LOST_LISTED 2
+#define KD_LOST_WAITING 3
+#define KD_LOST_STATES 3 /* their end */
+#define KD_LOST_STATE 25
+#define KD_LOST_AT_ONCE 2048
+#define KD_LOST_RAYS (KD_LOST_STATES + KD_LOST_STATE * KD_LOST_AT_ONCE + 1) /* the first, and the others before it */
+#define KD_LOST_NONE 0xffffffffu                                            /* it was followed to its end */
+#define KD_PIECE_PASSES 6000u
 
 /* footprint.comp takes these. Rows are those of rays that the buffer holds. */
 /* clang-format off */

@@ -56,6 +56,7 @@
 #include "star_tiles_texels.spv.h"
 #include "transfer.spv.h"
 #include "transfer_march.spv.h"
+#include "transfer_march_pieces.spv.h"
 #include "transfer_march_tell.spv.h"
 #include "transfer_tell.spv.h"
 #include "transfer_texels.spv.h"
@@ -207,6 +208,12 @@ static const struct kd_vk_pipeline_params sources[] = {
                           KD_OWN_BINDING + KD_OWN_COUNT,
                           sizeof(struct kd_slice),
                           { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_MARCH_PIECES] = { "march, pieces",
+                                 kd_spv_transfer_march_pieces,
+                                 sizeof kd_spv_transfer_march_pieces,
+                                 KD_OWN_BINDING + KD_OWN_COUNT,
+                                 sizeof(struct kd_slice),
+                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_LAYERS_MARCH] = { "layers, march",
                                  kd_spv_layers_march,
                                  sizeof kd_spv_layers_march,

@@ -34,7 +34,8 @@ enum kd_kernel {
     KD_KERNEL_TRANSFER_TELL,   /* of one ray, emitter by emitter; and in volumes */
     KD_KERNEL_MARCH_TELL,
     KD_KERNEL_LAYERS,
-    KD_KERNEL_MARCH, /* the same two where there are volumes */
+    KD_KERNEL_MARCH,        /* the same two where there are volumes */
+    KD_KERNEL_MARCH_PIECES, /* the first, of rays that go on */
     KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,

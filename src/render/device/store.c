@@ -243,7 +243,8 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
                    light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
     enum kd_status status;
     KD_TRY(make_small(store, error));
-    KD_TRY(bands_init(&store->radiance, vk, plan->bands, (light > read ? light : read) + 4, "radiance", error));
+    KD_TRY(bands_init(&store->radiance, vk, plan->bands,
+                      (light > read ? light : read) + kd_plan_lost_bytes(kd_plan_lost_most(plan)), "radiance", error));
     KD_TRY(kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error));
     KD_TRY(kd_store_at_least(vk, &store->readback, layers > words ? layers : words, KD_VK_READBACK,
                              "pixels on the host", error));

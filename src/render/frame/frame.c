@@ -165,14 +165,13 @@ done:
     return status;
 }
 
-/* None of this picture's rays was given up yet. */
-static enum kd_status forget_given_up(struct kd_frame_job *j)
+/* None of this picture's rays is lost yet. */
+static enum kd_status forget_lost(struct kd_frame_job *j)
 {
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
         struct kd_vk_buffer *light = j->store->radiance.buffers[band];
-        status = kd_vk_fill(j->r->vk, kd_passes[kd_plan_light_pass(j->plan)].name, light, kd_vk_buffer_size(light) - 4,
-                            4, 0, j->error);
+        status = kd_frame_forget_lost(j, light, kd_passes[kd_plan_light_pass(j->plan)].name);
     }
     return status;
 }
@@ -190,7 +189,7 @@ static enum kd_status run(struct kd_frame_job *j)
     j->refine_rows = j->plan->adaptive ? rows_of_refining(j, j->plan->height * (!reused + 1.0)) : 0;
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen) + j->refine_rows;
     KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
-    KD_TRY(forget_given_up(j));
+    KD_TRY(forget_lost(j));
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->adaptive)
         KD_TRY(refine(j));

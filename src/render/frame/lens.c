@@ -101,7 +101,8 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     const struct kd_plan *p = j->plan;
     const bool march = marches(p, makes);
     const enum kd_kernel kernel =
-        makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
+        makes == KD_MAKES_PIECES ? KD_KERNEL_MARCH_PIECES
+        : makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
         : makes < 0 ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0)
         : march     ? KD_KERNEL_LAYERS_MARCH
                     : KD_KERNEL_LAYERS;
@@ -117,7 +118,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     };
     if (march)
         spec.INGOING = p->ingoing;
-    if (makes == KD_MAKES_PICTURE)
+    if (makes == KD_MAKES_PICTURE || makes == KD_MAKES_PIECES)
         spec.STOKES = p->stokes_words > 0;
     if (makes >= 0)
         spec.LAYER = (uint32_t)p->layers[makes].kind;
@@ -157,21 +158,28 @@ static struct kd_vk_binding camera_binding(const struct kd_frame_job *j, int cam
     return (struct kd_vk_binding) { j->store->cameras, (uint64_t)camera * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
 }
 
-/* Record the kernel that makes something over a slice: of rays the grid is theirs, else that of the pixels. */
-static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, int makes)
+static struct kd_slice slice_of(const struct kd_frame_job *j, uint32_t band)
 {
-    const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
     const struct kd_plan *p = j->plan;
-    struct kd_slice push = {
-        .row0 = s->first * p->side,
-        .rows = s->count * p->side,
-        .band0 = kd_frame_band_first(j, s->band) * p->side,
+    return (struct kd_slice) {
+        .band0 = kd_frame_band_first(j, band) * p->side,
         .stride = p->width * p->side * p->band_rows * p->side,
         .steps = p->march.steps,
         .fine = p->march.fine,
         .opaque = (float)p->march.opaque,
         .unseen = (float)p->march.unseen,
+        .lost_most = kd_plan_lost_most(p),
     };
+}
+
+/* Record the kernel that makes something over a slice: of rays the grid is theirs, else that of the pixels. */
+static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, int makes)
+{
+    const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
+    const struct kd_plan *p = j->plan;
+    struct kd_slice push = slice_of(j, s->band);
+    push.row0 = s->first * p->side;
+    push.rows = s->count * p->side;
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
     d->groups[1] = rays ? push.rows : columns ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
@@ -365,6 +373,16 @@ done:
     return status;
 }
 
+/* Goes on with rays of a band that is lit, but for those that were lost. */
+static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
+{
+    const struct kd_vk_dispatch d =
+        kd_frame_transfer(j, NULL, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, KD_MAKES_PICTURE);
+    const struct kd_slice push = slice_of(j, band);
+    const uint32_t turns = kd_frame_turns(j->plan, j->plan->side * j->plan->side, KD_MAKES_PICTURE);
+    return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
+}
+
 /* Lights a band slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
 {
@@ -382,6 +400,7 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
         j->lit = whole.first + whole.count;
         KD_TRY(kd_frame_report(j, needed ? 2 * whole.count : whole.count));
     }
+    KD_TRY(follow_lost(j, band));
 done:
     return status;
 }

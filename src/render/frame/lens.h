@@ -5,8 +5,9 @@
 #include "render/frame/job.h"
 #include "render/view/camera.h"
 
-/* What a kernel makes: what is told of one ray, rays, the light of the picture, or the plan's layer of that number. */
-enum { KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
+/* What a kernel makes: light of rays that go on in pieces, what is told of one ray, rays, the light of the picture, or
+ * the plan's layer of that number. */
+enum { KD_MAKES_PIECES = -4, KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
 
 /* Rows of pixels that one submission takes, given nanoseconds a row. */
 uint32_t kd_frame_slice(double ns_per_row, uint32_t rows);
@@ -25,6 +26,13 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struc
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                         struct kd_vk_buffer *lens, uint32_t band, int camera, int makes);
+/* Rays through volumes that a driver has ended before their end. kd_frame_forget_lost empties the list behind a band's
+ * light, or a sample's, before any is lit. kd_frame_follow_lost goes on with those that are listed since: of pixels
+ * that `base` has lit, with `march` and by so many turns for each; submits what is recorded and waits for it. */
+enum kd_status kd_frame_forget_lost(struct kd_frame_job *job, struct kd_vk_buffer *light, const char *pass);
+enum kd_status kd_frame_follow_lost(struct kd_frame_job *job, const struct kd_vk_dispatch *base,
+                                    const struct kd_slice *march, const struct kd_critical_lattice *lattice,
+                                    uint32_t turns);
 /* Rays by a plan whose path is KD_LENS_LISTED. */
 struct kd_lens_rows;
 enum kd_status kd_frame_list_rays(struct kd_frame_job *job, const struct kd_lens_rows *rows);

@@ -27,6 +27,7 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct
     part.push.fine = j->plan->march.fine;
     part.push.opaque = (float)j->plan->march.opaque;
     part.push.unseen = (float)j->plan->march.unseen;
+    part.push.lost_most = kd_plan_lost_most(j->plan);
     return part;
 }
 
@@ -174,6 +175,9 @@ static enum kd_status transfer_part(struct kd_frame_job *j, struct kd_frame_part
         d.pass = makes < 0 ? pass_of(part, kd_plan_light_pass(j->plan)) : d.pass;
         part->push.band0 = kd_frame_band_first(j, band);
         status = run_part(j, part, from, to, &d, makes, ns);
+        if (!status && makes == KD_MAKES_PICTURE)
+            status = kd_frame_follow_lost(j, &d, &part->push, &part->list->lattice,
+                                          kd_frame_turns(j->plan, part->list->lattice.rays, makes));
     }
     return status;
 }

@@ -14,7 +14,7 @@ static uint32_t above(const struct kd_march_sample *s, uint32_t row)
     return n < s->rows ? n : s->rows;
 }
 
-/* Records the pixels of a band from number `to` of the buffer on. */
+/* Lights the pixels of a band from number `to` of the buffer on, and submits it. */
 static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct kd_march *march, uint32_t to)
 {
     static const struct kd_critical_lattice on_grid; /* none */
@@ -35,6 +35,7 @@ static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct
         .every_y = s->every[1],
         .columns = s->columns,
         .to = to + from * s->columns,
+        .lost_most = KD_MARCH_SAMPLED,
     };
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
@@ -49,6 +50,7 @@ static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct
     d.groups[0] = kd_frame_groups(s->columns);
     d.groups[1] = rows;
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+    KD_TRY(kd_frame_follow_lost(j, &d, &push, &on_grid, 1));
 done:
     return status;
 }
@@ -61,11 +63,11 @@ enum kd_status kd_frame_sample_march(struct kd_frame_job *j, uint32_t band)
     if (!march->steps || !n)
         return KD_OK;
     if (!j->marched)
-        KD_TRY(kd_vk_buffer_create(j->r->vk, 2 * n * sizeof(float[3]), KD_VK_READBACK,
-                                   "a sample of the light of volumes", &j->marched, j->error));
+        KD_TRY(kd_vk_buffer_create(j->r->vk, 2 * n * sizeof(float[3]) + kd_plan_lost_bytes(KD_MARCH_SAMPLED),
+                                   KD_VK_READBACK, "a sample of the light of volumes", &j->marched, j->error));
+    KD_TRY(kd_frame_forget_lost(j, j->marched, kd_passes[KD_PASS_MARCH_ERROR].name));
     KD_TRY(sample(j, band, march, 0));
     KD_TRY(sample(j, band, &finer, n));
-    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
 done:
     return status;
 }

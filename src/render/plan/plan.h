@@ -13,6 +13,7 @@
 #include "render/plan/march.h"
 #include "render/plan/pass.h"
 #include "scene/scene.h"
+#include "interface.h"
 #include "lens.h"
 
 #include <math.h>
@@ -261,6 +262,14 @@ static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan)
 {
     return 4ull * ((plan->apart ? 4 : 3) + plan->stokes_words);
 }
+
+/* Behind the light of a band there is room for a list of so many rays that the march could not follow to their end, and
+ * for what those that go on have: so many bytes (interface.h, KD_LOST_...). */
+static inline uint32_t kd_plan_lost_most(const struct kd_plan *plan)
+{
+    return plan->march.steps ? plan->width * plan->band_rows : 0;
+}
+static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD_LOST_RAYS - 1 + most) : 4; }
 
 /* Says whether Q and U are kept of the light that is kept apart. */
 static inline bool kd_plan_stokes_apart(const struct kd_plan *plan) { return plan->stokes_words > KD_PLAN_STOKES; }

@@ -88,7 +88,7 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
                              struct kd_error *error)
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width,
+    uint64_t row_light = (kd_plan_pixel_bytes(plan) + (plan->march.steps ? 4 : 0)) * plan->width,
              row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out; /* pixels are chosen by 16 bits */
     uint64_t row_layers = 4ull * plan->n_layers * plan->width;
@@ -96,7 +96,8 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     widest = row_layers > widest ? row_layers : widest;
     uint64_t row_points = plan->points ? 24ull * plan->width : 0;
     widest = row_points > widest ? row_points : widest;
-    uint64_t rows = (buffer_bytes(c) - 64 - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
+    const uint64_t going_on = plan->march.steps ? kd_plan_lost_bytes(1) : 0;
+    uint64_t rows = (buffer_bytes(c) - 64 - going_on - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
         return kd_error_set(error, KD_ETOOBIG,
                             "one row of the picture needs %llu bytes, this device binds %llu at once",
@@ -116,9 +117,9 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
                         (plan->radiance ? 12ull * plan->width : 0)) *
                        plan->height;
     uint64_t fixed = plan->listed_bytes + kd_sample_bytes(plan) + 8 * (1 + kd_plan_open_most(plan)) +
-                     kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) +
-                     (1 << 20) + plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
-                     row_points * plan->height +
+                     kd_emit_device_bytes(scene) + row_light * plan->height + going_on * plan->bands +
+                     2 * (row_shown * plan->band_rows + 64) + (1 << 20) + plan->bloom.bytes + beam_bytes(plan) +
+                     (plan->light ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->height +
                      (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
