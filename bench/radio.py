@@ -66,6 +66,23 @@ def render(kerrd, arguments, size, core):
     )
 
 
+def measured(kerrd, sizes, rounds, core):
+    """Of each scene at each size the least seconds of processor time; and what its last picture says of itself."""
+    least, told = {}, {}
+    for n in range(rounds + 1):  # the first fills the driver's cache of kernels
+        for name, (arguments, _) in SCENES.items():
+            for size in sizes:
+                seconds, told[name] = render(kerrd, arguments, size, core)
+                if n:
+                    least[name, size] = min(seconds, least.get((name, size), seconds))
+    return least, told
+
+
+def beside(rate, polarised):
+    """A rate as a multiple of the peer's."""
+    return f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight"
+
+
 def main():
     p = measure.parser(__doc__)
     p.add_argument("--rounds", type=int, default=3, help="runs of each scene at each size, in turn (3)")
@@ -73,13 +90,8 @@ def main():
         "--sizes", type=int, nargs=2, default=[64, 160], help="pixels along a side of the two pictures (64 160)"
     )
     o = p.parse_args()
-    kerrd, load, least, told = measure.binary(o.build, "src/kerrd"), os.getloadavg()[0], {}, {}
-    for n in range(o.rounds + 1):  # the first fills the driver's cache of kernels
-        for name, (arguments, _) in SCENES.items():
-            for size in o.sizes:
-                seconds, told[name] = render(kerrd, arguments, size, o.core)
-                if n:
-                    least[name, size] = min(seconds, least.get((name, size), seconds))
+    kerrd, load = measure.binary(o.build, "src/kerrd"), os.getloadavg()[0]
+    least, told = measured(kerrd, o.sizes, o.rounds, o.core)
     first = next(iter(told.values()))
     doctor = subprocess.run([kerrd, "doctor"], capture_output=True, text=True).stdout
     driver = first.get("device") or re.search(r"llvmpipe[^\n]*", doctor)[0]
@@ -102,7 +114,7 @@ def main():
             [
                 name,
                 f"{rate / 1e3:.1f}",
-                f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight",
+                beside(rate, polarised),
                 " and ".join(f"{x:.2f}" for x in figures[name]["seconds"]),
                 measure.error(error),
             ]
