@@ -71,10 +71,10 @@ def time_kerrz(program, mapper, flags, side, core):
             ],
             core,
         )
-    found = re.search(r"Time elapsed: ([\d.]+)(ms|s)\b", text)
+    found = re.search(r"Time elapsed: (?:(\d+)m)?([\d.]+)(ms|s)\b", text)
     if not found:
         raise SystemExit(f"kerrz printed no time:\n{text}")
-    return side * side / (float(found[1]) * (1e-3 if found[2] == "ms" else 1))
+    return side * side / (60 * int(found[1] or 0) + float(found[2]) * (1e-3 if found[3] == "ms" else 1))
 
 
 def time_kerrd(bench, side, sample, core):

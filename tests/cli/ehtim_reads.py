@@ -148,6 +148,39 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         self.assertGreater(found["fraction"], 0)
         self.assertEqual(found["rate"], 1)
 
+    def test_the_python_client(self):
+        """kerrd.to_ehtim has what ehtim reads of the file of the same picture."""
+        code = """
+import json, pathlib, sys
+import ehtim, numpy
+sys.path.insert(0, sys.argv[3])
+from kerrd import Frame, to_ehtim
+read, arrays = ehtim.image.load_fits(sys.argv[1]), dict(numpy.load(sys.argv[2]))
+made = to_ehtim(Frame(b"", "", {}, arrays, shows=json.loads(pathlib.Path(sys.argv[4]).read_text())), source="SGRA")
+pairs = [(getattr(made, name), getattr(read, name)) for name in ("imvec", "qvec", "uvec", "vvec")]
+print(json.dumps({"off": [float(abs(a - b).max() / abs(b).max()) for a, b in pairs], "pixel": made.psize / read.psize,
+                  "rate": made.rf / read.rf, "size": [made.xdim, made.ydim], "place": [made.ra, made.dec]}))
+"""
+        layers = "image.layers=jy_per_pixel,stokes_q,stokes_u,stokes_v,intensity"
+        scene = ["-p", "riaf", "--set", "image.width=48", "--set", "image.height=32", "--set", layers]
+        scene += ["--set", "polarization.model=transfer"]
+        for end in ("fits", "npz"):
+            self.good("render", *scene, "-o", self.path("a." + end))
+        pathlib.Path(self.path("a.json")).write_bytes(self.good("scene", *scene))
+        client = pathlib.Path(__file__).resolve().parents[2] / "clients/python/src"
+        done = subprocess.run(
+            [PYTHON, "-I", "-c", code, self.path("a.fits"), self.path("a.npz"), client, self.path("a.json")],
+            capture_output=True,
+            text=True,
+            timeout=200,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout.splitlines()[-1])
+        self.assertLess(max(found["off"]), 1e-5)
+        self.assertAlmostEqual(found["pixel"], 1, delta=1e-6)
+        self.assertEqual((found["rate"], found["size"]), (1, [48, 32]))
+        self.assertAlmostEqual(found["place"][1], -29.0078, delta=1e-4)
+
     def test_light_along_rays(self):
         self.read_by_ehtim(
             "-p",

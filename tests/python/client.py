@@ -2,11 +2,13 @@
 
 import asyncio
 import contextlib
+import dataclasses
 import http.client
 import http.server
 import importlib.util
 import io
 import json
+import math
 import os
 import pathlib
 import pickle
@@ -18,7 +20,9 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 import zipfile
 
 KERRD, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
@@ -402,10 +406,69 @@ class Saved(Case):
         self.assertEqual(notes["scene"]["image"]["width"], 48)
         self.assertEqual(notes, sweep.notes)
 
+    def test_an_image_for_ehtim(self):
+        """In place of ehtim, which is not installed here, what it would be given; tests/cli/ehtim_reads.py has ehtim
+        itself. The scale is that which the FITS file of the same picture tells."""
+        given = {}
+
+        class Image:
+            def __init__(self, array, psize, ra, dec, **more):
+                given.update(more, array=array, psize=psize, place=(ra, dec))
+
+            def add_qu(self, q, u):
+                given.update(q=q, u=u)
+
+            def add_v(self, v):
+                given.update(v=v)
+
+        names = ["jy_per_pixel", "intensity", "stokes_q", "stokes_u", "stokes_v"]
+        scene = {"preset": "riaf", "size": (32, 24), "polarization": {"model": "transfer"}, "layers": names}
+        frame = self.hole.render(**scene)
+        with unittest.mock.patch.dict(
+            sys.modules, {"ehtim": types.ModuleType("ehtim"), "ehtim.image": types.SimpleNamespace(Image=Image)}
+        ):
+            kerrd.to_ehtim(frame, source="SGRA", mjd=57850.25)
+            self.assertRaisesRegex(
+                ValueError, 'source must be "M87" or "SGRA", or', kerrd.to_ehtim, frame, source="here"
+            )
+            self.assertRaisesRegex(ValueError, "ra and dec must both be given", kerrd.to_ehtim, frame, ra=3.0)
+            for missing, message in (
+                ("jy_per_pixel", "no layer"),
+                ("intensity", "ask for it"),
+                ("stokes_u", "together"),
+            ):
+                less = dataclasses.replace(frame, layers={k: v for k, v in frame.layers.items() if k != missing})
+                self.assertRaisesRegex(ValueError, message, kerrd.to_ehtim, less)
+        _, fits = self.raw(
+            "POST",
+            "/v1/render?preset=riaf",
+            {"image": {"width": 32, "height": 24, "layers": names}, "polarization": {"model": "transfer"}},
+            accept="application/fits",
+        )
+        cards = {
+            line[:8].decode().strip(): line[10:].split(b"/")[0].strip().decode()
+            for line in (fits[at : at + 80] for at in range(0, 2880 * 20, 80))
+            if line[8:10] == b"= "
+        }
+        self.assertAlmostEqual(math.degrees(given["psize"]) / float(cards["CDELT2"]), 1, delta=1e-9)
+        self.assertEqual(given["rf"], float(cards["FREQ"]))
+        self.assertEqual((given["source"], given["mjd"], given["time"]), ("SGRA", 57850, 6))
+        self.assertAlmostEqual(given["place"][0], 17.76112, delta=1e-5)
+        self.assertAlmostEqual(given["array"].sum() / float(cards["FLUX_JY"]), 1, delta=1e-5)
+        ratio = given["array"].sum() / frame.layers["intensity"].sum(dtype=float)
+        for name in "quv":
+            self.assertTrue(np.allclose(given[name], ratio * frame.layers["stokes_" + name], rtol=1e-6))
+
     def test_packages_that_are_missing(self):
+        scene = {
+            "camera": {"projection": "auto", "r": "infinity", "field_m": 40},
+            "spacetime": {"mass_msun": 4e6, "distance_pc": 8e3},
+        }
+        EHT = f"""import numpy; kerrd.to_ehtim(kerrd.Frame(b"", "", {{}}, {{"jy_per_pixel": numpy.ones((2, 2))}}, shows={scene}))"""
         for missing, code in (
             ("xarray", "kerrd.Sweep({}, {}, None).to_xarray()"),
             ("distributed", "import kerrd.dask"),
+            ("ehtim", EHT),
             ("distributed", "kerrd.sweep([])"),
         ):
             command = f"import sys; sys.path.insert(0, {str(FOLDER / 'src')!r}); sys.modules[{missing!r}] = None; import kerrd; {code}"

@@ -5,6 +5,7 @@ from typing import Any
 from . import scene
 from .aio import AsyncClient, AsyncJob, AsyncSession
 from .client import Client, Job, Session
+from .eht import to_ehtim
 from .errors import JobFailed, KerrdError, NoBinary, NoKerrd, Problem, Unreachable
 from .frame import Frame
 from .local import local
@@ -28,6 +29,7 @@ __all__ = [
     "Unreachable",
     "local",
     "sweep",
+    "to_ehtim",
     "widget",
 ]
 __all__ += scene.__all__
