@@ -1,5 +1,7 @@
 """The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
 
+import re
+
 from browser import READY, SMOOTH, Browser, main, value
 
 import daemon
@@ -207,6 +209,11 @@ class Orbits(Browser):
                 (page.inner_text("#orbit-fault"), page.get_attribute("#orbits", "data-kept")), ("", "false"), at
             )
 
+    def worded(self, page, pattern):
+        """Waits for the words beside the orbit in the picture, which say "computing" whenever it is found anew."""
+        read = lambda: page.text_content("#over-orbit-words")
+        self.assertTrue(daemon.eventually(lambda: re.search(pattern, read())), f"{pattern!r} in {read()!r}")
+
     def test_it_is_shown_in_the_picture(self):
         """A circle in the plane of the disk is where the overlay of the disk's own circles has it; it follows the
         camera, and can be switched off."""
@@ -217,7 +224,7 @@ class Orbits(Browser):
         page.wait_for_selector("#lensing:not([hidden]) #overlay .over-orbit path", state="attached")
         page.wait_for_selector("#overlay .over-orbit .tag", state="attached")
         self.linked(page, "over=orbit")
-        self.assertRegex(page.text_content("#over-orbit-words"), r"p = 9 M.*within .* M of its ray")
+        self.worded(page, r"p = 9 M.*within .* M of its ray")
         page.evaluate('() => document.getElementById("over-orders").click()')
         page.wait_for_selector("#overlay .over-orders path", state="attached")
         self.assertLess(self.apart(page), 0.5)
@@ -251,10 +258,7 @@ class Orbits(Browser):
         )
         self.there(page, "computing", "#over-orbit-words", text=True)
         page.wait_for_selector("#overlay .over-orbit path[d^=M]", state="attached")
-        words = page.text_content("#over-orbit-words")
-        self.assertRegex(
-            words, r"within .* M of its ray, and at most 5° .* of 12 periods, as many as were found within 5 s"
-        )
+        self.worded(page, r"within .* M of its ray, and at most 5° .* of 12 periods, as many as were found within 5 s")
         turns, nearest, widest = page.evaluate("""() => {
             const { clientWidth: width, clientHeight: height } = document.getElementById('stage'), all = [];
             for (const line of document.querySelector('#overlay .over-orbit path').getAttribute('d').split('M').slice(1))
