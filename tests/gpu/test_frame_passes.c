@@ -140,7 +140,8 @@ static void test_classes_are_learned(void **state)
     (void)state;
     static const char *const volume =
                                  "{\"image\": {\"width\": 64, \"height\": 64}, \"volume\": {\"model\": \"torus\"}}",
-                             *const other_volume = "{\"image\": {\"width\": 64, \"height\": 64}, \"volume\": {\"model\": \"uniform\"}}",
+                             *const other_volume =
+                                 "{\"image\": {\"width\": 64, \"height\": 64}, \"volume\": {\"model\": \"uniform\"}}",
                              *const larger = "{\"image\": {\"width\": 128, \"height\": 128}, \"volume\": {\"model\": "
                                              "\"torus\"}, \"camera\": {\"azimuth_deg\": 50}}";
     struct kd_plan plan;
