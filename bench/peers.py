@@ -161,16 +161,16 @@ def judge_kerrz(np, library, n):
 
 def through_volumes(kerrd, o):
     """Rays/s and core of the scenes of radio.py, as that measures them."""
-    small, large = o.sizes
-    least, told = radio.measured(kerrd, o.sizes, o.volume_rounds, o.core)
-    found = []
-    for name, (_, polarised) in radio.SCENES.items():
-        rate = (large**2 - small**2) / (least[name, large] - least[name, small])
-        error = told[name]["accuracy"].get("volume_error")
-        found.append(
-            {"scene": name, "rays_per_s_core": rate, "beside": radio.beside(rate, polarised), "volume_error": error}
-        )
-    return found
+    figures = radio.figures_of(*radio.measured(kerrd, o.sizes, o.volume_rounds, o.core), o.sizes)
+    return [
+        {
+            "scene": name,
+            "rays_per_s_core": of["rays_per_s_core"],
+            "beside": radio.beside(of["rays_per_s_core"], radio.SCENES[name][1]),
+            "volume_error": of["volume_error"],
+        }
+        for name, of in figures.items()
+    ]
 
 
 def thousands(x):

@@ -83,6 +83,20 @@ def beside(rate, polarised):
     return f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight"
 
 
+def figures_of(least, told, sizes):
+    """Of each scene: rays/s and core, the seconds of both pictures, the error and the flux that the larger one tells."""
+    small, large = sizes
+    return {
+        name: {
+            "rays_per_s_core": (large**2 - small**2) / (least[name, large] - least[name, small]),
+            "seconds": [least[name, size] for size in sizes],
+            "volume_error": told[name]["accuracy"].get("volume_error"),
+            "flux_jy": told[name].get("flux_jy"),
+        }
+        for name in SCENES
+    }
+
+
 def main():
     p = measure.parser(__doc__)
     p.add_argument("--rounds", type=int, default=3, help="runs of each scene at each size, in turn (3)")
@@ -95,21 +109,10 @@ def main():
     first = next(iter(told.values()))
     doctor = subprocess.run([kerrd, "doctor"], capture_output=True, text=True).stdout
     driver = first.get("device") or re.search(r"llvmpipe[^\n]*", doctor)[0]
-    h, rows, figures, rays = (
-        measure.head(driver if isinstance(driver, str) else driver["name"], load),
-        [],
-        {},
-        o.sizes[1] ** 2 - o.sizes[0] ** 2,
-    )
+    h = measure.head(driver if isinstance(driver, str) else driver["name"], load)
+    rows, figures = [], figures_of(least, told, o.sizes)
     for name, (_, polarised) in SCENES.items():
-        rate = rays / (least[name, o.sizes[1]] - least[name, o.sizes[0]])
-        error = told[name]["accuracy"].get("volume_error")
-        figures[name] = {
-            "rays_per_s_core": rate,
-            "seconds": [least[name, s] for s in o.sizes],
-            "volume_error": error,
-            "flux_jy": told[name].get("flux_jy"),
-        }
+        rate, error = figures[name]["rays_per_s_core"], figures[name]["volume_error"]
         rows.append(
             [
                 name,

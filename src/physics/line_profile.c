@@ -181,7 +181,7 @@ struct work {
 /* How closely an integral looks: rings and angles `coarse` times fewer, and every `skip`th node of the table. */
 struct looks { int coarse, skip; };
 
-/* The rings from p->inner to p->outer, between which light bends nowhere. */
+/* Adds the rings from p->inner to p->outer, between which the emissivity has no break. */
 static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
                       struct looks looks, struct work *work, struct sum *s)
 {
@@ -301,9 +301,9 @@ enum { LEVELS = 5 }; /* looks: 16, 8, 4, 2 and 1 times fewer rings and angles */
 /* Sums ever closer until the error is as small as it may be: at least three, of which the last one is the answer, in
  * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
  * difference three quarters are counted. Near edge on, where they do not yet, all of it is, and of four sums at least.
- * Two sums may come nearer by chance, wherever they are looked at: so no less is
- * counted than a quarter of what the halving before shows. The table errs with the sixth power of its step, so that
- * twice the step shows 63 times what is left: an eighth is counted, and near edge on a quarter. */
+ * Two sums may come nearer by chance, wherever they are looked at: so no less is counted than a quarter of what the
+ * halving before shows. The table errs with the sixth power of its step, so that twice the step shows 63 times what is
+ * left: an eighth is counted, and near edge on a quarter. */
 static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
                        const struct kd_lamppost *lamp, const struct edges *edges, struct work *work,
                        struct sum sums[LEVELS + 1], int *n)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARK '\1' /* in the place of a long string; a scanned document has none of these */
+#define MARK '\xff' /* in the place of a long string: no byte of UTF-8, so that neither text nor an escape has it */
 #define PIECE ((size_t)1 << 20)
 
 /* The quote that ends the string whose first byte is at `at`; *escapes: it has some. */

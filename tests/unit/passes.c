@@ -176,6 +176,8 @@ static void estimates_are_of_a_class(void **state)
         "{\"image\": {\"width\": 640, \"height\": 320}, \"disk\": {\"gas\": {\"amplitude\": 1}}}",
         "{\"time\": 70, \"camera\": {\"azimuth_deg\": 30, \"inclination_deg\": 20}, "
         "\"disk\": {\"gas\": {\"amplitude\": 1}}}",
+        "{\"image\": {\"width\": 640, \"height\": 320, \"tile\": {\"left\": 64, \"width\": 200, \"height\": 100}}, "
+        "\"style\": {\"exposure\": 0}, \"disk\": {\"gas\": {\"amplitude\": 1}}}",
         "{\"camera\": {\"field_m\": 50}, \"style\": {\"exposure\": 2}, \"disk\": {\"gas\": {\"amplitude\": 1}}}",
     };
     static const char *const others[] = {

@@ -514,6 +514,16 @@ static void long_strings_are_read_in_pieces(void **state)
     assert_int_equal(*last->valuestring, '"');
     assert_string_equal(last->valuestring + 1, x);
     cJSON_Delete(root);
+    /* no string of the document is taken for what stands in the place of a long one, whatever its escapes are */
+    snprintf(text, all, "{\"\\u0001\":\"\\u0001\",\"\\u00ff\":\"\\u00ff\",\"long\":\"%s\"}", x);
+    root = read_large(text, strlen(text), &error);
+    assert_string_equal(root->child->string, "\x01");
+    assert_string_equal(root->child->valuestring, "\x01");
+    assert_string_equal(root->child->next->string, "\xc3\xbf");
+    assert_string_equal(root->child->next->valuestring, "\xc3\xbf");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(root, "long")->valuestring, x);
+    cJSON_Delete(root);
+    assert_null(read_large("{\"a\":\"\xff\"}", 9, &error));
     /* a mistake is told by its place in the whole document */
     static const char wrong[] = "{\"long\":\"%s\",\"b\":{]}";
     size_t of_short = 0, of_long = 0;

@@ -4,45 +4,46 @@
 #include "scene/table.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-/* Fields, and whole sections, that do not count, and those of which only the power of two does. ".time" is a member of
+/* Fields that do not count, of a name NULL all of the section's, and those of which only the power of two does. "" is
  * the document itself. */
-static const char *const left_out[] = { "image.",
-                                        "tile.",
-                                        "motion.",
-                                        "bodies.",
-                                        ".time",
-                                        "camera.azimuth_deg",
-                                        "camera.inclination_deg",
-                                        "camera.yaw_deg",
-                                        "camera.pitch_deg",
-                                        "camera.roll_deg",
-                                        "style.exposure" };
-static const char *const roughly[] = { "camera.r", "camera.fov_deg", "camera.field_m" };
+struct named { const char *section, *name; };
+static const struct named left_out[] = {
+    { "image", NULL },
+    { "image.tile", NULL },
+    { "motion", NULL },
+    { "bodies", NULL },
+    { "", "time" },
+    { "camera", "azimuth_deg" },
+    { "camera", "inclination_deg" },
+    { "camera", "yaw_deg" },
+    { "camera", "pitch_deg" },
+    { "camera", "roll_deg" },
+    { "style", "exposure" },
+};
+static const struct named roughly[] = { { "camera", "r" }, { "camera", "fov_deg" }, { "camera", "field_m" } };
 
-static bool is_among(const char *const *names, size_t n, const char *path, size_t section)
+static bool is_among(const struct named *names, size_t n, const char *section, const char *name)
 {
     for (size_t i = 0; i < n; i++)
-        if (!strcmp(names[i], path) || (strlen(names[i]) == section && !strncmp(names[i], path, section)))
+        if (!strcmp(names[i].section, section) && (!names[i].name || (name && !strcmp(names[i].name, name))))
             return true;
     return false;
 }
-#define AMONG(names, path, section) is_among(names, sizeof(names) / sizeof *(names), path, section)
+#define AMONG(names, section, name) is_among(names, sizeof(names) / sizeof *(names), section, name)
 
 static uint64_t add_field(uint64_t hash, const struct kd_scene *scene, const struct kd_field *field, size_t index)
 {
-    char path[2 * KD_PATH_SIZE];
-    const size_t section = strlen(field->section) + 1;
-    snprintf(path, sizeof path, "%s.%s", field->section, field->name);
-    if (AMONG(left_out, path, section))
+    if (AMONG(left_out, field->section, field->name))
         return hash;
+    if (field->kind == KD_FIELD_ASSET) {
+        const char *asset = kd_field_asset(scene, field, index);
+        return kd_hash(hash, asset, strlen(asset));
+    }
     double value = kd_field_get(scene, field, index);
-    if (AMONG(roughly, path, section))
+    if (AMONG(roughly, field->section, field->name))
         value = round(log2(value));
-    if (field->kind == KD_FIELD_ASSET)
-        return kd_hash(hash, kd_field_asset(scene, field, index), strlen(kd_field_asset(scene, field, index)));
     return kd_hash(hash, &value, sizeof value);
 }
 
@@ -54,7 +55,7 @@ uint64_t kd_cost_class(const struct kd_plan *plan, const struct kd_scene *scene)
     for (size_t s = 0; s < KD_SECTION_COUNT; s++) {
         const size_t elements = kd_section_size(scene, &kd_sections[s]);
         hash = kd_hash(hash, &elements, sizeof elements);
-        for (size_t k = 0; k < elements; k++)
+        for (size_t k = 0; k < elements && !AMONG(left_out, kd_sections[s].name, NULL); k++)
             for (size_t i = 0; i < kd_sections[s].count; i++)
                 hash = add_field(hash, scene, &kd_fields[kd_sections[s].first + i], k);
     }

@@ -13,8 +13,12 @@ from .frame import Frame
 
 # G m_sun / c^2 (nominal solar mass parameter, IAU 2015 resolution B3) and the parsec (resolution B2), m.
 SUN_M, PARSEC_M = 1.3271244e20 / 299792458.0**2, 3.0856775814913673e16
-# Right ascension in hours and declination in degrees (J2000), as ehtim has them.
-PLACES = {"M87": (12.513728717168174, 12.39112323919932), "SGRA": (17.761121055553343, -29.00784305556)}
+# Right ascension in hours and declination in degrees (J2000), as ehtim has them: M87* by S. B. Lambert & A.-M. Gontier
+# 2009 (A&A 493, 317), Sagittarius A* by M. J. Reid & A. Brunthaler 2004 (ApJ 616, 872).
+PLACES = {
+    "M87": (12 + 30 / 60 + 49.42338 / 3600, 12 + 23 / 60 + 28.0439 / 3600),
+    "SGRA": (17 + 45 / 60 + 40.0409 / 3600, -(29 + 0 / 60 + 28.118 / 3600)),
+}
 STOKES = ("stokes_q", "stokes_u", "stokes_v")
 
 
