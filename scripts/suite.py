@@ -8,7 +8,7 @@
                                           of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
     suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was
                                           skipped and why; with --no-skip a skip is exit 1. BUILD/meson-logs/counts.txt
-                                          has how many ended how, failed.txt which of them failed
+                                          has how many ended how, failed.txt which of them failed and their last lines
 
 Meson itself runs no test at all for a name that it does not know, and calls that a success.
 """
@@ -86,6 +86,19 @@ def by_suite(tests):
     return sorted(((suite, *figures) for suite, figures in sums.items()), key=lambda row: -row[2])
 
 
+LAST = 20  # lines of a failed test's output
+
+
+def failure(test, flaky):
+    """How a test ended, and the last lines of its output; of one that passed once repeated, the output alone."""
+    name = test["name"].split(" / ")[-1]
+    lines = (test.get("stdout", "") + "\n" + test.get("stderr", "")).strip().splitlines()[-LAST:]
+    head = f"FAILED: {name} ({test['result']}, {test['returncode']}, after {test['duration']:.0f} s)"
+    if f" {name} " in flaky:
+        head = f"the first time of {name}:"
+    return "\n".join([head, *("    " + line[:200] for line in lines)]) + "\n"
+
+
 def report(build, *options):
     log = max(
         pathlib.Path(build, "meson-logs").glob("testlog*.json"), key=lambda path: path.stat().st_mtime
@@ -109,10 +122,8 @@ def report(build, *options):
         for test in tests
     )
     passed_again = len(told.splitlines())
-    failed = [test["name"].split(" / ")[-1] for test in tests if test["result"] not in ("OK", "EXPECTEDFAIL", "SKIP")]
-    pathlib.Path(build, "meson-logs/failed.txt").write_text(
-        "".join(f"FAILED: {name}\n" for name in failed if f" {name} " not in told)
-    )
+    failed = [test for test in tests if test["result"] not in ("OK", "EXPECTEDFAIL", "SKIP")]
+    pathlib.Path(build, "meson-logs/failed.txt").write_text("".join(failure(test, told) for test in failed))
     ended.update(Ok=passed_again, Fail=-passed_again)
     pathlib.Path(build, "meson-logs/counts.txt").write_text(
         "".join(f"{word} {ended[word]}\n" for word in ("Ok", "Fail", "Skipped"))

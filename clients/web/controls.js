@@ -28,7 +28,13 @@ function numberRow(field, scene, id, hint) {
     step: whole ? 1 : 'any',
     'aria-describedby': hint,
   });
-  const give = value => scene.change({ [field.path]: value });
+  let typed = false; // a number that is not given yet: what else happens leaves it there
+  const give = value => {
+    typed = false;
+    scene.change({ [field.path]: value });
+  };
+  box.addEventListener('input', () => (typed = true));
+  for (const event of ['change', 'blur']) box.addEventListener(event, () => (typed = false));
   slider.addEventListener('input', () => {
     const value = short ? slider.valueAsNumber : s.from(slider.valueAsNumber);
     give(whole ? Math.round(value) : value);
@@ -48,13 +54,14 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    box.value = !given
-      ? ''
-      : field.path === 'time'
-        ? Math.round(value * 100) / 100
-        : value >= 1e6
-          ? value.toExponential().replace('+', '')
-          : Number(value.toPrecision(8));
+    if (!given) box.value = '';
+    else if (!typed)
+      box.value =
+        field.path === 'time'
+          ? Math.round(value * 100) / 100
+          : value >= 1e6
+            ? value.toExponential().replace('+', '')
+            : Number(value.toPrecision(8));
     if (!given) return;
     slider.value = short ? value : s.to(value);
     slider.setAttribute('aria-valuetext', `${number(value)} ${unit(field.unit)}`);

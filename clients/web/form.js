@@ -90,9 +90,10 @@ export function buildForm(root, prefix, specs, changed) {
         link.set(key, input.value === String(spec.value) ? null : input.value);
       }
     },
-    // What an auto field comes to, as long as nobody has chosen.
+    // What an auto field comes to, as long as nobody has chosen or is choosing.
     suggest(name, value) {
-      if (!input(name).chosen) (input(name).value = value), inputs.get(name).follow();
+      if (!input(name).chosen && document.activeElement !== input(name))
+        (input(name).value = value), inputs.get(name).follow();
     },
   };
 }

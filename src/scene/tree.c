@@ -115,6 +115,8 @@ enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_
     cJSON *root = NULL;
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);
+    if (!text)
+        text = ""; /* no bytes: C has no sum of a null pointer and 0 */
     kd_scan_skip_mark(&text, &length);
     enum kd_status status = kd_scan_json(text, length, values, error);
     if (status)

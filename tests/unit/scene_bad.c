@@ -13,8 +13,9 @@ static void expect_refused(const char *text, size_t length, const char *pointer,
     kd_scene_defaults(&scene);
     scene.camera.r = 12;
     before = scene;
-    char *exact = malloc(length ? length : 1); /* so that a read past the end is seen */
-    memcpy(exact, text, length);
+    char *exact = length ? malloc(length) : NULL; /* so that a read past the end is seen, and of no bytes a sum */
+    if (length)
+        memcpy(exact, text, length);
     enum kd_status status = kd_scene_from_json(&scene, exact, length, &error);
     free(exact);
     if (status != KD_EINVAL || error.status != KD_EINVAL)

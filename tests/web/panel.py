@@ -2,7 +2,7 @@
 
 import re
 
-from browser import AT_REST, Browser, main, rows
+from browser import AT_REST, SMOOTH, Browser, main, rows
 
 import daemon
 
@@ -38,6 +38,19 @@ class Panel(Browser):
                 for _ in range(10):
                     node.press(key)
                 self.assertEqual(box.input_value(), goal, key)
+
+    def test_what_is_being_typed_stays(self):
+        """A window that becomes another one changes the field of view, and not the number that somebody types."""
+        page = self.open(SMOOTH, "#stage[data-final]", viewport={"width": 500, "height": 400})
+        self.open_groups(page)
+        box = '[data-path="camera.inclination_deg"] input[type=number]'
+        field = self.field(page, "camera.field_m")
+        page.fill(box, "33")
+        page.set_viewport_size({"width": 1400, "height": 300})
+        self.assertTrue(daemon.eventually(lambda: self.field(page, "camera.field_m") != field))
+        self.assertEqual(page.input_value(box), "33")
+        page.keyboard.press("Enter")
+        self.assertTrue(daemon.eventually(lambda: "camera.inclination_deg=33" in page.evaluate("location.hash")))
 
     def test_each_field_stands_in_its_group(self):
         """In front where the field table says so, else behind a summary; what starts and stops time has its fields
