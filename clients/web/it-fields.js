@@ -8,6 +8,7 @@ export const fields = {
   image: ['L’immagine'],
   style: ['Colori'],
   accuracy: ['Accuratezza'],
+  source: ['La sorgente'],
   motion: ['Moto'],
   'spacetime.spin': ['Spin', 'Parametro di rotazione a; se a < 0 il disco gira in verso opposto al buco'],
   'spacetime.mass_msun': ['Massa', 'Massa del buco; fissa la temperatura quando i colori vengono dall’accrescimento'],
@@ -361,6 +362,10 @@ export const fields = {
     'Un buco percosso, come illustrazione: la luce degli ordini da 1 in su è moltiplicata per 1 + questo · e^(−t/τ) cos(ω t), il modo quasi-normale l = m = 2, n = 0 del buco; 0: nessuna',
   ],
   'style.ringdown_time': ['Istante del colpo', 'Il tempo in cui fu percosso; prima nulla oscilla'],
+  'source.name': ['Sorgente', 'La sorgente in cielo di cui il buco fa le veci'],
+  'source.ra_deg': ['Ascensione retta', 'Ascensione retta del buco (ICRS)'],
+  'source.dec_deg': ['Declinazione', 'Declinazione del buco (ICRS)'],
+  'source.mjd': ['Data', 'Data dell’immagine, come data giuliana modificata'],
   'motion.azimuth_rate_deg': ['Giro', 'L’osservatore gira attorno all’asse'],
   'motion.time_rate': ['Scorrere del tempo', 'Il tempo coordinato avanza'],
   'motion.proper_time_rate': [

@@ -425,6 +425,12 @@
     REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", \
          "time at which it was struck; before that nothing rings")
 
+#define KD_SOURCE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(source, name, MODEL, REST, KD_SOURCE_NONE, "the source on the sky that the hole stands for", "none|m87|sgra") \
+    REAL(source, ra_deg, MODEL, REST, 0.0, 0.0, 360.0, "degrees", "right ascension of the hole (ICRS)") \
+    REAL(source, dec_deg, MODEL, REST, 0.0, -90.0, 90.0, "degrees", "declination of the hole (ICRS)") \
+    WORD(source, mjd, MODEL, REST, INFINITY, 0.0, 1e6, "days", "date of the picture, as a modified Julian date", "none")
+
 #define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", \
          "the observer goes round the axis") \
@@ -474,6 +480,8 @@
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture") \
     SECTION(tile, KD_TILE_FIELDS, MORE, "a part of the picture, made by itself, the same to the byte as there") \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file") \
+    SECTION(source, KD_SOURCE_FIELDS, MORE, \
+            "the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it") \
     SECTION(motion, KD_MOTION_FIELDS, CAMERA, \
             "what goes on by itself in a live session; a still picture knows none of it") \
     SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed") \
@@ -637,6 +645,7 @@ enum kd_projection {
     KD_PROJECTION_FULLDOME
 };
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
+enum kd_source_name { KD_SOURCE_NONE, KD_SOURCE_M87, KD_SOURCE_SGRA };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_volume_model {
     KD_VOLUME_NONE,

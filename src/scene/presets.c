@@ -21,6 +21,17 @@
     "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"}," \
     "\"image\":{\"width\":512,\"height\":512}}"
 
+/* Where they are: M87* by S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317), Sagittarius A* by M. J. Reid & A.
+ * Brunthaler 2004 (ApJ 616, 872); and the days of the pictures that the Event Horizon Telescope published, 11 and 7
+ * April 2017 (ApJL 875, L1; ApJL 930, L12). */
+#define M87_AT_(rest) "\"source\":{\"name\":\"m87\",\"ra_deg\":187.7059308,\"dec_deg\":12.3911233" rest "},"
+#define SGRA_AT_(rest) "\"source\":{\"name\":\"sgra\",\"ra_deg\":266.4168371,\"dec_deg\":-29.0078106" rest "},"
+#define AT_(mjd) ",\"mjd\":" mjd
+#define M87 M87_AT_("")
+#define M87_AT(mjd) M87_AT_(AT_(mjd))
+#define SGRA SGRA_AT_("")
+#define SGRA_AT(mjd) SGRA_AT_(AT_(mjd))
+
 const struct kd_preset kd_presets[] = {
     { "smooth", "Smooth disk",
       "A disk without turbulence, of the exact Page-Thorne flux, as it is: no lens, nothing seen through", false,
@@ -43,22 +54,23 @@ const struct kd_preset kd_presets[] = {
       "Horizon Telescope "
       "showed it; a thin disk stands in for the hot flow",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
-      "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108}," /* the approaching jet at a position angle
-                                                                                 of 288 degrees */
-      "\"disk\":{\"outer\":15},"
-      "\"style\":{\"name\":\"eht\"},"
-      "\"image\":{\"samples\":2}}" },
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_AT(
+          "57854") "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108}," /* the approaching jet at a
+                                                                                              position angle of 288
+                                                                                              degrees */
+                   "\"disk\":{\"outer\":15},"
+                   "\"style\":{\"name\":\"eht\"},"
+                   "\"image\":{\"samples\":2}}" },
     { "sgra", "Sagittarius A*",
       "The hole in the middle of our Galaxy through a beam of 20 microarcseconds, brightness in false colour: as the "
       "Event "
       "Horizon Telescope showed it; a thin disk stands in for the hot flow",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277},"
-      "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
-      "\"disk\":{\"outer\":15},"
-      "\"style\":{\"name\":\"eht\"},"
-      "\"image\":{\"samples\":2}}" },
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277}," SGRA_AT(
+          "57850") "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
+                   "\"disk\":{\"outer\":15},"
+                   "\"style\":{\"name\":\"eht\"},"
+                   "\"image\":{\"samples\":2}}" },
     { "luminet1979", "The first picture, 1979",
       "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness", true,
       "{\"spacetime\":{\"spin\":0},"
@@ -93,7 +105,7 @@ const struct kd_preset kd_presets[] = {
       "seen "
       "25 degrees from its axis, over a faint disk; in a session its events give the light curve and the track",
       true,
-      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6,\"distance_pc\":8277},"
+      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6,\"distance_pc\":8277}," SGRA
       "\"camera\":{\"inclination_deg\":155,\"field_m\":50},"
       "\"disk\":{\"outer\":16,\"opacity\":0.3,\"peak_temperature_k\":4500},"
       "\"spots\":[{\"brightness\":4,\"r\":9,\"size\":1.2}],"
@@ -180,7 +192,7 @@ const struct kd_preset kd_presets[] = {
       "A ring about 6 M, seen like M87* at 17 degrees, whose synchrotron light a field along the axis polarises in a "
       "spiral; ticks show it over the picture",
       false,
-      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
+      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87
       "\"camera\":{\"inclination_deg\":163,\"field_m\":36,\"roll_deg\":108},"
       "\"disk\":{\"inner\":5,\"outer\":8,\"taper\":0.3,\"opacity\":0.3,\"emission_opacity\":0,\"gas\":{\"amplitude\":0}"
       "},"
@@ -212,7 +224,7 @@ const struct kd_preset kd_presets[] = {
       "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as the "
       "program ipole has it",
       true,
-      "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300},"
+      "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300}," SGRA
       "\"camera\":{\"inclination_deg\":60,\"field_m\":39.11063},"
       "\"disk\":{\"model\":\"none\"},"
       "\"volume\":{\"model\":\"riaf\",\"inner\":1.4479853,\"outer\":100,\"frequency_ghz\":223.005},"
@@ -223,7 +235,7 @@ const struct kd_preset kd_presets[] = {
       "The torus of Fishbone and Moncrief 1976, in equilibrium, with the mass and the distance of Sagittarius A*: its "
       "synchrotron light at 230 GHz",
       true,
-      "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300},"
+      "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300}," SGRA
       "\"camera\":{\"inclination_deg\":60,\"field_m\":44},"
       "\"disk\":{\"model\":\"none\"},"
       "\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_cm3\":1.776e7,\"temperature_ratio\":1},"

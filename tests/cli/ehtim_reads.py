@@ -156,14 +156,15 @@ import ehtim, numpy
 sys.path.insert(0, sys.argv[3])
 from kerrd import Frame, to_ehtim
 read, arrays = ehtim.image.load_fits(sys.argv[1]), dict(numpy.load(sys.argv[2]))
-made = to_ehtim(Frame(b"", "", {}, arrays, shows=json.loads(pathlib.Path(sys.argv[4]).read_text())), source="SGRA")
+made = to_ehtim(Frame(b"", "", {}, arrays, shows=json.loads(pathlib.Path(sys.argv[4]).read_text())))
 pairs = [(getattr(made, name), getattr(read, name)) for name in ("imvec", "qvec", "uvec", "vvec")]
 print(json.dumps({"off": [float(abs(a - b).max() / abs(b).max()) for a, b in pairs], "pixel": made.psize / read.psize,
-                  "rate": made.rf / read.rf, "size": [made.xdim, made.ydim], "place": [made.ra, made.dec]}))
+                  "rate": made.rf / read.rf, "size": [made.xdim, made.ydim], "apart": [made.ra - read.ra, made.dec - read.dec, made.mjd - read.mjd],
+                  "named": [made.source, read.source], "dec": read.dec, "mjd": read.mjd}))
 """
         layers = "image.layers=jy_per_pixel,stokes_q,stokes_u,stokes_v,intensity"
         scene = ["-p", "riaf", "--set", "image.width=48", "--set", "image.height=32", "--set", layers]
-        scene += ["--set", "polarization.model=transfer"]
+        scene += ["--set", "polarization.model=transfer", "--set", "source.mjd=57850"]
         for end in ("fits", "npz"):
             self.good("render", *scene, "-o", self.path("a." + end))
         pathlib.Path(self.path("a.json")).write_bytes(self.good("scene", *scene))
@@ -179,7 +180,10 @@ print(json.dumps({"off": [float(abs(a - b).max() / abs(b).max()) for a, b in pai
         self.assertLess(max(found["off"]), 1e-5)
         self.assertAlmostEqual(found["pixel"], 1, delta=1e-6)
         self.assertEqual((found["rate"], found["size"]), (1, [48, 32]))
-        self.assertAlmostEqual(found["place"][1], -29.0078, delta=1e-4)
+        self.assertLess(max(map(abs, found["apart"])), 1e-9)
+        self.assertEqual(found["named"], ["SGRA", "SGRA"])
+        self.assertAlmostEqual(found["dec"], -29.0078106, delta=1e-9)
+        self.assertEqual(found["mjd"], 57850)
 
     def test_light_along_rays(self):
         self.read_by_ehtim(

@@ -131,7 +131,8 @@ class Files(support.Case):
             self.assertTrue(numpy.allclose(numbers, before.channels()[name].pixels, rtol=1e-4, equal_nan=True), name)
         scene, written = (json.loads(file.header()["kerrd:scene"]) for file in (now, before))
         self.assertEqual(scene.pop("version"), written.pop("version"))
-        self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")  # a field since then, at its default
+        self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")  # fields since then, at their defaults
+        self.assertEqual(scene.pop("source"), {"name": "none", "ra_deg": 0, "dec_deg": 0, "mjd": "none"})
         self.assertEqual(scene, written)
 
     def test_what_a_file_tells(self):
@@ -208,7 +209,11 @@ class Files(support.Case):
         for i in (1, 2, 3):
             self.assertGreater(abs(units[i].data).max(), 0)
             numpy.testing.assert_allclose(units[i].data[::-1] / factor, arrays[layers[i]], rtol=1e-4, atol=1e-12)
-        self.assertEqual(units[0].header["TELESCOP"], "kerrd")
+        self.assertEqual([header[key] for key in ("TELESCOP", "OBJECT")], ["kerrd", "SGRA"])
+        place = [266.4168371, -29.0078106]  # which a preset of Sagittarius A* has
+        self.assertEqual([header[key] for key in ("OBSRA", "OBSDEC")], place)
+        self.assertEqual([unit.header[key] for unit in units for key in ("CRVAL1", "CRVAL2")], place * len(units))
+        self.assertNotIn("MJD", header)
         self.bad(
             2,
             "specific_intensity is known to every camera",
@@ -219,6 +224,19 @@ class Files(support.Case):
             "--set",
             "image.layers=jy_per_pixel",
         )
+
+    def test_the_day(self):
+        """Of a source that a scene names by hand, with the fraction of a day; astropy reads the same day of both."""
+        day = ["source.ra_deg=10.5", "source.dec_deg=-3.25", "source.mjd=57854.25"]
+        header = self.opened(self.shot("e.fits", *(word for pair in day for word in ("--set", pair)), layers=["r"]))[
+            0
+        ].header
+        self.assertEqual(header["OBJECT"], "Kerr black hole")
+        self.assertEqual(
+            [header[key] for key in ("CRVAL1", "CRVAL2", "MJD-OBS", "MJD")], [10.5, -3.25, 57854.25, 57854.25]
+        )
+        self.assertEqual(header["DATE-OBS"], "2017-04-11T06:00:00")
+        self.bad(2, "source.dec_deg is 91", "plan", "--set", "source.dec_deg=91")
 
     def test_the_standard(self):
         """By the standard's own tool; and the sum of the pixels by astropy is that by numpy."""

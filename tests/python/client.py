@@ -427,18 +427,18 @@ class Saved(Case):
         with unittest.mock.patch.dict(
             sys.modules, {"ehtim": types.ModuleType("ehtim"), "ehtim.image": types.SimpleNamespace(Image=Image)}
         ):
-            kerrd.to_ehtim(frame, source="SGRA", mjd=57850.25)
-            self.assertRaisesRegex(
-                ValueError, 'source must be "M87" or "SGRA", or', kerrd.to_ehtim, frame, source="here"
-            )
-            self.assertRaisesRegex(ValueError, "ra and dec must both be given", kerrd.to_ehtim, frame, ra=3.0)
+            kerrd.to_ehtim(frame, mjd=57850.25)
+            self.assertRaisesRegex(ValueError, "ra and dec here, both", kerrd.to_ehtim, frame, ra=3.0)
+            self.assertRaisesRegex(ValueError, "source.mjd of the scene, or by mjd", kerrd.to_ehtim, frame)
+            nowhere = dataclasses.replace(frame, shows={**frame.scene, "source": {"name": "none"}})
+            self.assertRaisesRegex(ValueError, "the place of the source must be told", kerrd.to_ehtim, nowhere, mjd=1.0)
             for missing, message in (
                 ("jy_per_pixel", "no layer"),
                 ("intensity", "ask for it"),
                 ("stokes_u", "together"),
             ):
                 less = dataclasses.replace(frame, layers={k: v for k, v in frame.layers.items() if k != missing})
-                self.assertRaisesRegex(ValueError, message, kerrd.to_ehtim, less)
+                self.assertRaisesRegex(ValueError, message, kerrd.to_ehtim, less, mjd=57850.0)
         _, fits = self.raw(
             "POST",
             "/v1/render?preset=riaf",
@@ -463,6 +463,7 @@ class Saved(Case):
         scene = {
             "camera": {"projection": "auto", "r": "infinity", "field_m": 40},
             "spacetime": {"mass_msun": 4e6, "distance_pc": 8e3},
+            "source": {"name": "sgra", "ra_deg": 266.4, "dec_deg": -29, "mjd": 57850},
         }
         EHT = f"""import numpy; kerrd.to_ehtim(kerrd.Frame(b"", "", {{}}, {{"jy_per_pixel": numpy.ones((2, 2))}}, shows={scene}))"""
         for missing, code in (

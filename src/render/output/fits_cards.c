@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs,
                                       const struct kd_wcs_axis axes[2], const char *alternate)
@@ -104,6 +105,23 @@ static bool varies(const struct kd_sweep *sweep, const char *path)
     return false;
 }
 
+/* FITS 4.0, section 9.5: DATE-OBS is MJD-OBS in words; MJD is what ehtim reads. mjd: at least 0, at most 1e6, which is
+ * the year 4596. 40587: 1 January 1970. */
+static enum kd_status put_date(struct kd_buffer *cards, double mjd)
+{
+    const time_t seconds = (time_t)llround((mjd - 40587) * 86400);
+    struct tm day;
+    char text[32];
+    enum kd_status status;
+    gmtime_r(&seconds, &day);
+    strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &day);
+    KD_TRY(kd_fits_text(cards, "DATE-OBS", text, "UTC; of the picture"));
+    KD_TRY(kd_fits_real(cards, "MJD-OBS", mjd, "days"));
+    KD_TRY(kd_fits_real(cards, "MJD", mjd, "days"));
+done:
+    return status;
+}
+
 enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene *s, const struct kd_sweep *sweep)
 {
     const struct {
@@ -124,10 +142,15 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
         { "TIME_M", s->top.time, "M; coordinate time of the scene", { "time" } },
     };
     enum kd_status status;
-    KD_TRY(kd_fits_text(cards, "OBJECT", "Kerr black hole", NULL));
+    static const char *const objects[] = { [KD_SOURCE_NONE] = "Kerr black hole",
+                                           [KD_SOURCE_M87] = "M87",
+                                           [KD_SOURCE_SGRA] = "SGRA" }; /* as ehtim calls them */
+    KD_TRY(kd_fits_text(cards, "OBJECT", objects[s->source.name], NULL));
     KD_TRY(kd_fits_text(cards, "TELESCOP", "kerrd", "a model, and no observation"));
-    KD_TRY(kd_fits_real(cards, "OBSRA", 0, "deg; the hole is taken to be there"));
-    KD_TRY(kd_fits_real(cards, "OBSDEC", 0, "deg"));
+    KD_TRY(kd_fits_real(cards, "OBSRA", s->source.ra_deg, "deg; of the hole"));
+    KD_TRY(kd_fits_real(cards, "OBSDEC", s->source.dec_deg, "deg"));
+    if (isfinite(s->source.mjd))
+        KD_TRY(put_date(cards, s->source.mjd));
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!varies(sweep, numbers[i].of[0]) && !(numbers[i].of[1] && varies(sweep, numbers[i].of[1])))
             KD_TRY(put_number(cards, numbers[i].key, numbers[i].value, numbers[i].comment));

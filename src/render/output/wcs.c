@@ -24,7 +24,8 @@ static struct kd_wcs plane(const struct kd_scene *scene)
     return (struct kd_wcs) {
         .known = true,
         .far = true,
-        .at = { { "RA---SIN", "deg", x, 0, -angle }, { "DEC--SIN", "deg", y, 0, angle } },
+        .at = { { "RA---SIN", "deg", x, scene->source.ra_deg, -angle },
+                { "DEC--SIN", "deg", y, scene->source.dec_deg, angle } },
         .impact = { { "ALPHA", "", x, 0, step }, { "BETA", "", y, 0, step } },
         .turn = { { cr, sr }, { -sr, cr } },
     };

@@ -13,12 +13,8 @@ from .frame import Frame
 
 # G m_sun / c^2 (nominal solar mass parameter, IAU 2015 resolution B3) and the parsec (resolution B2), m.
 SUN_M, PARSEC_M = 1.3271244e20 / 299792458.0**2, 3.0856775814913673e16
-# Right ascension in hours and declination in degrees (J2000), as ehtim has them: M87* by S. B. Lambert & A.-M. Gontier
-# 2009 (A&A 493, 317), Sagittarius A* by M. J. Reid & A. Brunthaler 2004 (ApJ 616, 872).
-PLACES = {
-    "M87": (12 + 30 / 60 + 49.42338 / 3600, 12 + 23 / 60 + 28.0439 / 3600),
-    "SGRA": (17 + 45 / 60 + 40.0409 / 3600, -(29 + 0 / 60 + 28.118 / 3600)),
-}
+# As ehtim calls the sources that source.name of a scene knows.
+NAMES = {"m87": "M87", "sgra": "SGRA"}
 STOKES = ("stokes_q", "stokes_u", "stokes_v")
 
 
@@ -52,7 +48,12 @@ def _polarised(frame: Frame, flux: NDArray[np.float32]) -> list[NDArray[np.float
 
 
 def to_ehtim(
-    frame: Frame, *, source: str = "M87", ra: float | None = None, dec: float | None = None, mjd: float = 57854.0
+    frame: Frame,
+    *,
+    source: str | None = None,
+    ra: float | None = None,
+    dec: float | None = None,
+    mjd: float | None = None,
 ) -> Any:
     """An ehtim.image.Image of a frame that was rendered with the layer "jy_per_pixel".
 
@@ -60,14 +61,25 @@ def to_ehtim(
     in Jy, its orientation is that of the picture (north is up, east is left), its size is that of the scene's mass and
     distance, its frequency volume.frequency_ghz.
 
-    source: the name in the image; "M87" and "SGRA" have a place on the sky, others need ra (hours) and dec (degrees).
-    mjd: the date, in days. ValueError for a frame or a source that lacks something; ImportError without ehtim.
+    The name of the source, its right ascension (hours), its declination (degrees) and the date (a modified Julian date,
+    in days) are those of the scene's section "source", unless they are given here. ValueError for a frame that lacks
+    something, or where neither tells a place or a date; ImportError without ehtim.
     """
     if "jy_per_pixel" not in frame.layers:
         raise ValueError('the frame has no layer "jy_per_pixel": render it with layers=["jy_per_pixel"]')
-    if (ra is None) != (dec is None) or (ra is None and source not in PLACES):
-        raise ValueError(f'source must be "M87" or "SGRA", or ra and dec must both be given; source is "{source}"')
     scene = frame.scene
+    told = scene.get("source", {})
+    known = told.get("name", "none") != "none" or any(told.get(key, 0) != 0 for key in ("ra_deg", "dec_deg"))
+    if (ra is None) != (dec is None) or (ra is None and not known):
+        raise ValueError(
+            "the place of the source must be told: by source.name, source.ra_deg and source.dec_deg of the scene, or by"
+            f" ra and dec here, both; ra is {ra}, dec is {dec}"
+        )
+    if mjd is None:
+        mjd = told.get("mjd", "none")
+    if mjd == "none":
+        raise ValueError("the date must be told: by source.mjd of the scene, or by mjd here")
+    day = float(mjd)
     flux = frame.layers["jy_per_pixel"]
     polarised = _polarised(frame, flux)
     hole = scene["spacetime"]
@@ -80,16 +92,15 @@ def to_ehtim(
         raise ImportError(
             "kerrd.to_ehtim needs the package ehtim, which is not installed: pip install ehtim"
         ) from missing
-    place = PLACES.get(source, (0.0, 0.0))
     out = image.Image(
         flux.astype(np.float64),
         wide / flux.shape[1],
-        place[0] if ra is None else ra,
-        place[1] if dec is None else dec,
+        told["ra_deg"] / 15 if ra is None else ra,
+        told["dec_deg"] if dec is None else dec,
         rf=1e9 * scene["volume"]["frequency_ghz"],
-        source=source,
-        mjd=int(mjd),
-        time=24 * (mjd - int(mjd)),
+        source=source or NAMES.get(told.get("name", "none"), "hole"),
+        mjd=int(day),
+        time=24 * (day - int(day)),
     )
     if polarised:
         out.add_qu(*polarised[:2])

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["Accuracy", "Body", "Camera", "Disk", "Gas", "Image", "Jets", "Motion", "Polarization", "Scene", "Sky", "Spacetime", "Spot", "Style", "Tile", "Volume"]
+__all__ = ["Accuracy", "Body", "Camera", "Disk", "Gas", "Image", "Jets", "Motion", "Polarization", "Scene", "Sky", "Source", "Spacetime", "Spot", "Style", "Tile", "Volume"]
 
 
 @dataclass
@@ -510,6 +510,22 @@ class Style:
 
 
 @dataclass
+class Source:
+    """The source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it.
+
+    name: the source on the sky that the hole stands for; default "none".
+    ra_deg: right ascension of the hole (ICRS); in degrees; 0 to 360; default 0.
+    dec_deg: declination of the hole (ICRS); in degrees; -90 to 90; default 0.
+    mjd: date of the picture, as a modified Julian date; in days; 0 to 1000000; default "none".
+    """
+
+    name: Literal['none', 'm87', 'sgra'] | None = None
+    ra_deg: float | None = None
+    dec_deg: float | None = None
+    mjd: Literal['none'] | float | None = None
+
+
+@dataclass
 class Motion:
     """What goes on by itself in a live session; a still picture knows none of it.
 
@@ -560,6 +576,7 @@ class Scene:
     sky: what lies at infinity.
     image: the size of the picture.
     style: from brightness to the colours of the file.
+    source: the source on the sky that the hole stands for: FITS files tell it, and no pixel depends on it.
     motion: what goes on by itself in a live session; a still picture knows none of it.
     accuracy: how closely the rays are followed.
     time: coordinate time of the picture; in M; -1e+12 to 1e+12; default 0.
@@ -576,6 +593,7 @@ class Scene:
     sky: Sky | None = None
     image: Image | None = None
     style: Style | None = None
+    source: Source | None = None
     motion: Motion | None = None
     accuracy: Accuracy | None = None
     time: float | None = None
