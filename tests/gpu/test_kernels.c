@@ -4,8 +4,17 @@
 
 #include "render/device/internal.h"
 #include "render/frame/compilation.h"
+#include "render/rays/rays.h"
 #include "scene/crowd.h"
 #include "vk/device.h"
+
+/* As test_pieces of test_march_rays.c. */
+static const char TALL[] =
+    "{\"accuracy\":{\"profile\":\"reference\"},\"style\":{\"exposure\":0,\"bloom\":0},\"disk\":{\"height\":0.3,"
+    "\"emission_opacity\":10,\"gas\":{\"amplitude\":0.8}},\"image\":{\"width\":96,\"height\":72,\"samples\":1,"
+    "\"critical_factor\":1,\"tile\":{\"left\":36,\"top\":32,\"width\":8,\"height\":2}}}";
+static const char RIAF[] = "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"riaf\",\"normalise_to_jy\":2.4},"
+                           "\"image\":{\"width\":40,\"height\":24}}";
 
 static uint32_t made(void) { return renderer->vk->n_pipelines; }
 
@@ -116,6 +125,17 @@ static void a_kept_lens_map_is_not_traced(void **state)
     }
 }
 
+struct wanted {
+    struct kd_rays_params params;
+    size_t n;
+};
+
+static enum kd_status ask_rays(struct kd_renderer *r, const void *user)
+{
+    const struct wanted *w = user;
+    return kd_rays_ask_kernels(r, &w->params, w->n);
+}
+
 static bool goes_on(void *user, double fraction)
 {
     (void)user, (void)fraction;
@@ -158,6 +178,147 @@ static void compiled_beside_the_device(void **state)
     }
 }
 
+static struct kd_plan planned(const struct kd_scene *scene)
+{
+    struct kd_plan plan;
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_plan_make(scene, &capacity, &plan, &error));
+    return plan;
+}
+
+static void begin_without_kernels(void)
+{
+    kd_kernels_finish(&renderer->kernels, renderer->vk);
+    kd_store_empty(&renderer->store);
+}
+
+static void compiled(struct kd_compilation *c)
+{
+    assert_non_null(c);
+    OK(kd_compilation_run(c, goes_on, NULL, &error));
+    kd_compilation_end(c);
+}
+
+/* The pictures by which a density is found are rehearsed too, on a device that sees no light. */
+static void a_density_is_rehearsed(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    struct kd_renderer *own;
+    struct kd_frame frame;
+    const struct kd_renderer_params params = {
+        .device = renderer->opening.device, .cache_dir = "", .passing = true, .compiles_only = true
+    };
+    kd_scene_smooth(&scene);
+    OK(kd_scene_from_json(&scene, RIAF, strlen(RIAF), &error));
+    const struct kd_plan plan = planned(&scene);
+    OK(kd_renderer_create(&params, &own, &error));
+    OK(kd_render(own, &scene, &plan, NULL, NULL, &frame, &error));
+    kd_frame_finish(&frame);
+    kd_renderer_destroy(own);
+}
+
+static bool has_kernel(const char *name)
+{
+    for (size_t i = 0; i < KD_KERNELS_KEPT; i++)
+        if (renderer->kernels.entries[i].pipeline && !strcmp(renderer->kernels.entries[i].source->name, name))
+            return true;
+    return false;
+}
+
+/* The steps that are told of a pixel take two kernels of lists of rays. */
+static void steps_of_a_pixel(void **state)
+{
+    (void)state;
+    static const char json[] = "{\"accuracy\":{\"engine\":\"mino-rkn6\"},\"image\":{\"width\":40,\"height\":24}}";
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+    struct kd_plan plan = planned(&scene);
+    plan.told.on = plan.told.steps = true;
+    begin_without_kernels();
+    compiled(kd_compilation_begin(renderer, &scene, &plan));
+    assert_true(has_kernel("rays") && has_kernel("rays, told"));
+}
+
+static struct lack {
+    int times, asides;
+    bool gives_up;
+} lack;
+
+static bool lacks(void *user, struct kd_compilation *c, bool aside)
+{
+    assert_ptr_equal(user, &lack);
+    lack.times++;
+    lack.asides += aside;
+    const uint32_t before = made();
+    compiled(c);
+    assert_int_equal(made(), before + 1);
+    return !lack.gives_up;
+}
+
+/* Rays that the driver ends before their end take one more kernel, which is compiled by whoever wants to, once. */
+static void a_kernel_that_nobody_foresaw(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    OK(kd_scene_from_json(&scene, TALL, strlen(TALL), &error));
+    const struct kd_plan plan = planned(&scene);
+    struct kd_frame frames[3];
+    renderer->lacks = lacks;
+    renderer->lacks_user = &lack;
+    for (int i = 0; i < 3; i++) {
+        begin_without_kernels();
+        lack = (struct lack) { .gives_up = i == 2 };
+        compiled(kd_compilation_begin(renderer, &scene, &plan));
+        struct kd_error why = { 0 };
+        const enum kd_status status =
+            i == 1 ? kd_render_aside(renderer, &scene, &plan, goes_on, NULL, NULL, &frames[i], &why)
+                   : kd_render(renderer, &scene, &plan, NULL, NULL, &frames[i], &why);
+        assert_int_equal(status, i == 2 ? KD_ECANCELLED : KD_OK);
+        if (!lack.times) {
+            print_message("this driver ends no loop\n");
+            skip();
+        }
+        assert_int_equal(lack.times, 1);
+        assert_int_equal(lack.asides, i == 1);
+    }
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error)); /* once more, as it is there now */
+    assert_int_equal(lack.times, 1);
+    for (int i = 0; i < 3; i++) {
+        assert_memory_equal(kd_frame_pixels(&frames[0]), kd_frame_pixels(&frames[i]), 3 * 8 * 2);
+        assert_int_equal(frames[i].accuracy.lost, 0);
+    }
+    for (int i = 0; i < 3; i++)
+        kd_frame_finish(&frames[i]);
+    renderer->lacks = NULL;
+}
+
+/* Lists of rays have their kernels compiled so too, those of a tolerance among them. */
+static void kernels_of_lists_of_rays(void **state)
+{
+    (void)state;
+    const struct kd_rays_params params = {
+        .spin = 0.7, .r = INFINITY, .inclination_deg = 60, .orders = 2, .engine = KD_ENGINE_MINO_RKN6, .tolerance = 1e-9
+    };
+    const struct wanted wanted[] = { { params, 1 }, { params, 100000 } };
+    begin_without_kernels();
+    compiled(kd_compilation_of(renderer, ask_rays, &wanted[0]));
+    assert_int_equal(made(), 1);
+    compiled(kd_compilation_of(renderer, ask_rays, &wanted[1]));
+    assert_int_equal(made(), 2);
+    assert_null(kd_compilation_of(renderer, ask_rays, &wanted[1]));
+    static double rays[2 * 20000];
+    static struct kd_ray_crossing crossings[2 * 20000];
+    static struct kd_ray_end ends[20000];
+    for (int i = 0; i < 20000; i++)
+        rays[2 * i] = 5.2 + 1e-4 * i;
+    OK(kd_rays_trace(renderer, &params, rays, 20000, crossings, ends, NULL, NULL, &error));
+    assert_int_equal(made(), 2);
+}
+
 /* The bodies that a picture shows besides its scene may lose their last other holder before it is rehearsed. */
 static void bodies_are_held_while_kernels_are_compiled(void **state)
 {
@@ -193,9 +354,11 @@ int main(void)
     if (skip)
         return skip;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noted_kernels_are_made_once), cmocka_unit_test(what_cannot_be_made_is_told_later),
-        cmocka_unit_test(a_frame_notes_what_it_needs), cmocka_unit_test(a_kept_lens_map_is_not_traced),
-        cmocka_unit_test(compiled_beside_the_device),  cmocka_unit_test(bodies_are_held_while_kernels_are_compiled),
+        cmocka_unit_test(noted_kernels_are_made_once),  cmocka_unit_test(what_cannot_be_made_is_told_later),
+        cmocka_unit_test(a_frame_notes_what_it_needs),  cmocka_unit_test(a_kept_lens_map_is_not_traced),
+        cmocka_unit_test(a_density_is_rehearsed),       cmocka_unit_test(steps_of_a_pixel),
+        cmocka_unit_test(a_kernel_that_nobody_foresaw), cmocka_unit_test(kernels_of_lists_of_rays),
+        cmocka_unit_test(compiled_beside_the_device),   cmocka_unit_test(bodies_are_held_while_kernels_are_compiled),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -289,14 +289,43 @@ static void test_choice(void **state)
     kd_choice_finish(&choice);
 }
 
+/* Plans count as many rays as are followed and taken from between others, to a factor of two, whether pixels need them
+ * at the curve alone or everywhere: by one share for all, a smooth disk counted four times its rays. */
+static void test_planned(void **state)
+{
+    (void)state;
+    static const char *const presets[] = { "gargantua", NULL };
+    for (size_t i = 0; i < 2; i++) {
+        struct kd_scene scene;
+        struct kd_plan plan;
+        kd_scene_defaults(&scene);
+        if (presets[i])
+            OK(kd_scene_preset(&scene, presets[i], &error));
+        scene.image.width = WIDTH;
+        scene.image.height = HEIGHT;
+        scene.image.samples = 0;
+        struct kd_frame frame = render_in(&scene, 0, &plan);
+        const struct kd_plan_pass *pass = plan.passes;
+        while (strcmp(pass->name, "refine"))
+            pass++;
+        const double had = (double)(frame.accuracy.followed + 16 * frame.accuracy.between),
+                     planned = (double)pass->invocations;
+        printf("%s: %.0f rays planned, %.0f had: %.2f\n", presets[i] ? presets[i] : "default", planned, had,
+               planned / had);
+        assert_true(planned < 2 * had && had < 2 * planned);
+        kd_frame_finish(&frame);
+    }
+}
+
 int main(void)
 {
     int status = open_renderer();
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_choice), cmocka_unit_test(test_faint), cmocka_unit_test(test_as_good),
-        cmocka_unit_test(test_target), cmocka_unit_test(test_same),  cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_planned), cmocka_unit_test(test_choice), cmocka_unit_test(test_faint),
+        cmocka_unit_test(test_as_good), cmocka_unit_test(test_target), cmocka_unit_test(test_same),
+        cmocka_unit_test(test_shown),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -6,8 +6,8 @@
  * time, -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device
  * cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each
  * takes a millisecond. The picture of a sky of seed 4711 is under way until another picture is rendered, and
- * kernels of one of seed 4712 are compiled until then, if that is within a minute; each compilation is told as a
- * kilobyte more of kernels. A device
+ * kernels of one of seed 4712, and of rays with steps 20, are compiled until then, if that is within a minute; one of
+ * seed 4713 is found to lack them once it has begun. Each compilation is told as a kilobyte more of kernels. A device
  * called "compiles" is busy with a small picture of a preset, as with a kernel, until five other pictures have been
  * rendered meanwhile; it fails after a minute without them. */
 #include "base/clock.h"
@@ -32,9 +32,9 @@ struct kd_renderer {
     bool measured, slow, held, gated, compiles, bright;
     struct kd_renderer_params params;
     _Atomic bool read; /* the picture of that sky */
-    bool compiled;     /* the kernels of the other one */
+    bool compiled;     /* the kernels of the other ones */
 };
-enum { UNREAD = 4711, UNCOMPILED = 4712, MEANWHILE = 5, PATIENCE_MS = 60000 };
+enum { UNREAD = 4711, UNCOMPILED = 4712, LACKING = 4713, STEPS_UNCOMPILED = 20, MEANWHILE = 5, PATIENCE_MS = 60000 };
 static _Atomic unsigned drawn; /* pictures, by whatever renderer */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -211,14 +211,31 @@ bool kd_compilation_helps(const struct kd_renderer *renderer)
     return true;
 }
 
+static struct kd_compilation *lacked(struct kd_renderer *renderer)
+{
+    struct kd_compilation *c = renderer->compiled ? NULL : calloc(1, sizeof *c);
+    if (c)
+        c->renderer = renderer;
+    return c;
+}
+
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan)
 {
     (void)plan;
-    struct kd_compilation *c = scene->sky.seed == UNCOMPILED && !renderer->compiled ? calloc(1, sizeof *c) : NULL;
-    if (c)
-        c->renderer = renderer;
-    return c;
+    return scene->sky.seed == UNCOMPILED ? lacked(renderer) : NULL;
+}
+
+struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user)
+{
+    return ask(renderer, user) ? NULL : lacked(renderer);
+}
+
+/* KD_OK: there is one to be compiled. */
+enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told)
+{
+    (void)renderer, (void)told;
+    return params->steps == STEPS_UNCOMPILED ? KD_OK : KD_EABSENT;
 }
 
 enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
@@ -314,8 +331,19 @@ static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_
     return status;
 }
 
-enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                         kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+/* A picture lacks kernels that nobody could foresee. */
+static enum kd_status lack(struct kd_renderer *renderer, const struct kd_scene *scene, bool aside,
+                           struct kd_error *error)
+{
+    struct kd_compilation *c = scene->sky.seed == LACKING && renderer->params.lacks ? lacked(renderer) : NULL;
+    if (!c || renderer->params.lacks(renderer->params.lacks_user, c, aside))
+        return KD_OK;
+    return kd_error_set(error, KD_ECANCELLED, "the picture waits for a kernel");
+}
+
+static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                           bool aside, kd_progress_fn progress, void *user, struct kd_frame *out,
+                           struct kd_error *error)
 {
     const double begun = kd_clock_ms();
     enum kd_status status = mishap(scene->top.time, error);
@@ -323,6 +351,8 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         return kd_error_set(error, KD_EIO, "a picture has the device while its sky is read");
     if (!atomic_exchange(&renderer->read, true) && renderer->params.sky_made)
         renderer->params.sky_made(renderer->params.sky_user);
+    if (!status)
+        status = lack(renderer, scene, aside, error);
     if (!status)
         status = pass_time(scene->top.time * (plan->side > 1 ? 30 : 1), progress, user, error);
     if (!status && renderer->compiles && plan->width == 192 && plan->height == 120)
@@ -373,6 +403,12 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     return KD_OK;
 }
 
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                         kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+{
+    return draw(renderer, scene, plan, false, progress, user, out, error);
+}
+
 struct aside {
     kd_progress_fn progress;
     const struct kd_glance *glance;
@@ -403,7 +439,7 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
                                struct kd_frame *out, struct kd_error *error)
 {
     struct aside aside = { progress, glance, user, plan };
-    return kd_render(renderer, scene, plan, go_on, &aside, out, error);
+    return draw(renderer, scene, plan, true, go_on, &aside, out, error);
 }
 
 /* Nothing is made of the light of the others: it is black, as the picture's own. */

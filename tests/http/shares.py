@@ -144,6 +144,36 @@ class Kernels(Case):
         compiled = self.daemon.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024
         self.assertLessEqual(compiled, 2)  # for the one that has gone, and the first of the others
 
+    def holds_nobody(self, ask):
+        """Until its kernels are there, which is once another client's picture has been rendered."""
+        own = daemon.Daemon()
+        self.addCleanup(own.stop)
+        s = own.connect()
+        self.addCleanup(s.close)
+        s.sendall(ask)
+        own.reaches("renders_unfinished", 1)
+        self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_kept_bytes{kind="kernels"}'] >= 1024))
+        s.setblocking(False)
+        self.assertRaises(BlockingIOError, s.recv, 1)
+        s.setblocking(True)
+        self.assertEqual(own.get(RENDER).status, 200)
+        answer = daemon.read_answer(s)
+        self.assertEqual(answer.status, 200)
+        self.assertEqual(own.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024, 1)
+        return answer
+
+    def test_rays_that_wait_for_their_kernel_hold_nobody(self):
+        body = b'{"accuracy": {"engine": "mino-rkn6", "steps": 20}, "rays": [[5, 0]]}'
+        ask = b"POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+        self.holds_nobody(ask + b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
+
+    def test_a_picture_that_comes_to_lack_a_kernel_holds_nobody(self):
+        """One that is short begins once more, one in a lane goes on. Both say what they waited."""
+        for target in (RENDER, LONG % 0):
+            with self.subTest(target):
+                ask = f"GET {target}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
+                self.assertGreater(self.kernels(self.holds_nobody(ask)), 0)
+
     def test_a_plan_counts_the_kernels_that_have_to_be_compiled(self):
         own = daemon.Daemon()
         self.addCleanup(own.stop)

@@ -47,7 +47,9 @@ struct kd_renderer {
         enum kd_precision precision;
         uint32_t steps, orders, size;
     } rays_pace;
-    bool passing;               /* as kd_renderer_params */
+    bool passing; /* as kd_renderer_params, like the next */
+    bool (*lacks)(void *user, struct kd_compilation *compilation, bool aside);
+    void *lacks_user;
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     struct kd_panoramas panoramas;
     struct kd_grids grids;

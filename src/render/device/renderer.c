@@ -120,6 +120,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     }
     r->emit = emit;
     r->passing = params->passing;
+    r->lacks = params->lacks;
+    r->lacks_user = params->lacks_user;
     pthread_mutex_init(&r->lock, NULL);
     kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
     r->panoramas.blank = params->compiles_only;

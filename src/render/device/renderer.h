@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 struct kd_renderer;
+struct kd_compilation;
 
 #define KD_CREDIT 512 /* room for the names of those whose work is in a picture */
 
@@ -24,6 +25,11 @@ struct kd_renderer_params {
     const struct kd_assets *assets; /* what scenes name (scene/asset.h); NULL: none */
     void (*sky_made)(void *user);   /* by another thread: kd_renderer_sky_begin may say otherwise now; may be NULL */
     void *sky_user;
+    /* A picture has come to need kernels that nobody could foresee. Takes the compilation. aside: as kd_render_aside,
+     * so that others may use the renderer before this returns. False: the picture is given up, KD_ECANCELLED. NULL:
+     * they are made by who has the device. */
+    bool (*lacks)(void *user, struct kd_compilation *compilation, bool aside);
+    void *lacks_user;
     bool passing; /* beside another one of the same device, with less of it: what it learns of the device's speed is not
                      kept */
     bool compiles_only;    /* as kd_vk_params: pictures are black, and a Milky Way is not made */

@@ -119,15 +119,27 @@ static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
     out[KD_OWN_density] = ((const struct own *)own)->density;
 }
 
+static enum kd_status list_kernel(const struct kd_own_work *w, const struct kd_scene *scene,
+                                  const struct kd_vk_pipeline **out, struct kd_error *error)
+{
+    const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0,
+                                            .LIST = true,
+                                            .PLUNGE = kd_particle_grid(scene).plunging > 0 };
+    return kd_own_kernel(w, &particles, &spec.SWING, sizeof spec / 4, out, error);
+}
+
+enum kd_status kd_particles_ask(const struct kd_own_work *work, const struct kd_scene *scene)
+{
+    const struct kd_vk_pipeline *later;
+    return list_kernel(work, scene, &later, NULL);
+}
+
 enum kd_status kd_particles_places(const struct kd_own_work *w, const struct kd_scene *scene, uint32_t first,
                                    uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error)
 {
     struct own *p = w->own;
     const struct kd_particle_grid grid = kd_particle_grid(scene);
     const struct kd_vk_pipeline *kernel = NULL;
-    const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0,
-                                            .LIST = true,
-                                            .PLUNGE = grid.plunging > 0 };
     struct kd_particles_push push = kd_particle_push(scene, &grid, scene->top.time);
     push.first = first;
     push.stride = stride;
@@ -136,7 +148,7 @@ enum kd_status kd_particles_places(const struct kd_own_work *w, const struct kd_
     KD_TRY(guides(w, scene, &grid, scene->top.time, error));
     KD_TRY(kd_own_at_least(w, &p->list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles",
                            error));
-    KD_TRY(kd_own_kernel(w, &particles, &spec.SWING, sizeof spec / 4, &kernel, error));
+    KD_TRY(list_kernel(w, scene, &kernel, error));
     const struct kd_vk_dispatch d = {
         PASS, kernel, { { p->guides, 0, 0, false }, { p->list, 0, 0, true } }, &push, { groups(push.count) },
     };

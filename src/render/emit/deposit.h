@@ -14,5 +14,7 @@ extern const struct kd_own kd_own_particles;
  * computes them: Boyer-Lindquist r in M and phi in turns of 2^32, latitude in radians. */
 enum kd_status kd_particles_places(const struct kd_own_work *work, const struct kd_scene *scene, uint32_t first,
                                    uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error);
+/* Asks for the kernel that it takes, for kd_kernels_note. */
+enum kd_status kd_particles_ask(const struct kd_own_work *work, const struct kd_scene *scene);
 
 #endif

@@ -3,12 +3,14 @@
 #include "base/log.h"
 #include "render/device/compiled.h"
 #include "render/frame/job.h"
+#include "render/frame/normalise.h"
 #include "scene/crowd.h"
 
 #include <stdlib.h>
 
 struct kd_compilation {
     struct kd_renderer *renderer;
+    bool picture; /* of a scene, by a plan: rehearsed as a whole */
     struct kd_scene scene;
     struct kd_crowd *crowd; /* of the scene, held: whoever wanted the picture may be gone before it is rehearsed */
     struct kd_plan plan;
@@ -19,24 +21,45 @@ struct kd_compilation {
     struct kd_error error;
 };
 
-struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct kd_scene *scene,
-                                            const struct kd_plan *plan)
+struct kd_compilation *kd_compilation_of(struct kd_renderer *r, kd_kernels_ask_fn ask, const void *user)
 {
-    struct kd_error error = { 0 }; /* who renders is told */
     struct kd_compilation *c = calloc(1, sizeof *c);
-    struct kd_frame_job job = { .r = r, .store = &r->store, .scene = scene, .plan = plan, .error = &error };
     if (!c || !r->vk) {
         free(c);
         return NULL;
     }
     kd_kernels_note(&r->kernels);
-    const enum kd_status status = kd_frame_ask_kernels(&job);
+    const enum kd_status status = ask(r, user);
     kd_kernels_noted(&r->kernels, &c->wishes);
     if (status || !c->wishes.n) {
         free(c);
         return NULL;
     }
     c->renderer = r;
+    return c;
+}
+
+struct picture {
+    const struct kd_scene *scene;
+    const struct kd_plan *plan;
+};
+
+static enum kd_status ask_picture(struct kd_renderer *r, const void *user)
+{
+    const struct picture *p = user;
+    struct kd_error error = { 0 }; /* who renders is told */
+    struct kd_frame_job job = { .r = r, .store = &r->store, .scene = p->scene, .plan = p->plan, .error = &error };
+    const enum kd_status status = kd_frame_normalise_ask(r, p->scene, p->plan, &error);
+    return status ? status : kd_frame_ask_kernels(&job);
+}
+
+struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct kd_scene *scene,
+                                            const struct kd_plan *plan)
+{
+    struct kd_compilation *c = kd_compilation_of(r, ask_picture, &(struct picture) { scene, plan });
+    if (!c)
+        return NULL;
+    c->picture = true;
     c->scene = *scene;
     c->crowd = (struct kd_crowd *)scene->crowd.at;
     kd_crowd_keep(c->crowd);
@@ -45,8 +68,32 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     return c;
 }
 
-/* The picture on a device that computes nothing. That is closed afterwards, for the driver writes its files in a thread
- * of its own, which then has ended. */
+/* Dispatches each kernel once, without workgroups. What is bound is of no content, but of the kernel's kinds. */
+static enum kd_status dispatch_each(struct kd_compilation *c, struct kd_renderer *own, struct kd_error *error)
+{
+    static const uint32_t push[128 / 4]; /* Vulkan promises no device more */
+    const uint64_t bytes = 16384;        /* what each device takes as uniform, at least */
+    struct kd_vk_buffer *any = NULL;
+    enum kd_status status;
+    KD_TRY(kd_vk_buffer_create(own->vk, bytes, KD_VK_DEVICE, "of nothing", &any, error));
+    for (const struct kd_kernel_wish *w = c->wishes.at; w < c->wishes.at + c->wishes.n; w++) {
+        struct kd_vk_dispatch d = { .pass = "compile", .push = push };
+        KD_TRY(kd_kernels_get_of(&own->kernels, own->vk, w->source, w->constants, w->n, &d.pipeline, error));
+        for (uint32_t i = 0; i < w->source->n_buffers; i++)
+            d.bindings[i] = (struct kd_vk_binding) { .buffer = any };
+        KD_TRY(kd_vk_dispatch(own->vk, &d, error));
+        KD_TRY(kd_vk_submit(own->vk, NULL, error));
+        KD_TRY(kd_vk_wait(own->vk, 0, error));
+        if (!c->progress(c->user, 0))
+            KD_TRY(kd_error_set(error, KD_ECANCELLED, "the kernels are wanted no more"));
+    }
+done:
+    kd_vk_buffer_destroy(own->vk, any);
+    return status;
+}
+
+/* The picture, or its kernels alone, on a device that computes nothing. That is closed afterwards, for the driver
+ * writes its files in a thread of its own, which then has ended. */
 static void *rehearse(void *user)
 {
     struct kd_compilation *c = user;
@@ -61,7 +108,8 @@ static void *rehearse(void *user)
     struct kd_frame frame = { 0 };
     c->status = kd_renderer_create(&params, &own, &c->error);
     if (!c->status)
-        c->status = kd_render(own, &c->scene, &c->plan, c->progress, c->user, &frame, &c->error);
+        c->status = c->picture ? kd_render(own, &c->scene, &c->plan, c->progress, c->user, &frame, &c->error)
+                               : dispatch_each(c, own, &c->error);
     kd_frame_finish(&frame);
     if (own && kd_renderer_hangs(own))
         return NULL; /* it can never be closed */

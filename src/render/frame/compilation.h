@@ -1,9 +1,10 @@
-/* Compiles the kernels of a picture while others have the device.
+/* Compiles kernels while others have the device.
  *
  * A driver compiles a kernel as its pipeline is made, or at its first dispatch, on the device's queue (lavapipe, half a
  * second to some seconds). So pipelines are made beside the device. For a driver of the second kind the picture is also
- * rendered on a device of its own that computes nothing (kd_vk_params.compiles_only): what is compiled there goes to
- * the driver's files, and the picture's device reads it from there. */
+ * rendered, or what needs the kernels but is no picture dispatched, on a device of its own that computes nothing
+ * (kd_vk_params.compiles_only): what is compiled there goes to the driver's files, and the first device reads it from
+ * there. */
 #ifndef KD_RENDER_FRAME_COMPILATION_H
 #define KD_RENDER_FRAME_COMPILATION_H
 
@@ -11,8 +12,12 @@
 
 struct kd_compilation;
 
-/* Of the kernels that the device lacks for a picture. NULL: it has all that are looked for, those that take long. By
- * who has the device. */
+/* Asks for kernels, as whoever needs them will (kd_kernels_note). */
+typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
+
+/* Of the kernels that the device lacks among those that are asked for. NULL: it has all. By who has the device. */
+struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
+/* Of those that it lacks for a picture, and that take long. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan);
 /* Any thread; the renderer must not be closed or reopened meanwhile. What goes wrong is left to who renders. progress
@@ -21,6 +26,11 @@ enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progres
                                   struct kd_error *error);
 /* Hands the kernels to the renderer, and frees it. By who has the device. */
 void kd_compilation_end(struct kd_compilation *compilation);
+
+/* In the midst of a picture, where nothing is recorded: has kernels that it lacks compiled, by whoever the renderer
+ * tells (kd_renderer_params.lacks). KD_ECANCELLED: it is to begin once more. */
+struct kd_frame_job;
+enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_fn ask, const void *user);
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees one that was not run. Any thread */
 

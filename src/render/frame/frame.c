@@ -82,6 +82,8 @@ enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
         KD_TRY(kd_frame_sample_kernels(j));
     if (j->plan->told.on && (j->plan->planes || j->plan->march.steps))
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], KD_MAKES_TOLD, &later));
+    if (j->plan->told.on)
+        KD_TRY(kd_frame_tell_ask(j));
     if (j->plan->points)
         KD_TRY(kd_frame_star_kernels(j));
     if (!j->plan->unseen)

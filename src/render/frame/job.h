@@ -144,6 +144,8 @@ enum kd_status kd_frame_gather(struct kd_frame_job *job);
  * is, what became of it. */
 enum kd_status kd_frame_tell(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_tell_pixel(struct kd_frame_job *job);
+/* Asks for the kernels of its steps, where they are told. */
+enum kd_status kd_frame_tell_ask(struct kd_frame_job *job);
 
 /* Follows rays through volumes once more on a sample of this band's pixels, as the picture has them and more
  * closely, and, when all have been, says in the frame's accuracy how far apart these are. Nothing where there are no

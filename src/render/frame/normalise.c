@@ -2,6 +2,7 @@
 
 #include "render/device/internal.h"
 #include "render/emit/radio.h"
+#include "render/frame/job.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,21 +33,29 @@ static double *density_of(struct kd_scene *scene)
                                         : &v->density_cm3;
 }
 
+/* The picture by which the flux is measured. */
+static enum kd_status plan_of(const struct search *s, int side, double log_scale, struct kd_scene *scene,
+                              struct kd_plan *plan)
+{
+    const double w = s->scene.image.width, h = s->scene.image.height;
+    struct kd_capacity c;
+    *scene = s->scene;
+    *density_of(scene) *= exp(log_scale);
+    scene->image.width = (int32_t)fmax(rint(side * w / fmax(w, h)), 1);
+    scene->image.height = (int32_t)fmax(rint(side * h / fmax(w, h)), 1);
+    kd_renderer_capacity(s->r, &c);
+    return kd_plan_make(scene, &c, plan, s->error);
+}
+
 static enum kd_status flux_at(struct search *s, int side, double log_scale, double *jy)
 {
-    struct kd_scene scene = s->scene;
-    const double w = scene.image.width, h = scene.image.height;
-    struct kd_capacity c;
+    struct kd_scene scene;
     struct kd_plan plan;
     struct kd_frame frame = { 0 };
     enum kd_status status;
-    *density_of(&scene) *= exp(log_scale);
-    scene.image.width = (int32_t)fmax(rint(side * w / fmax(w, h)), 1);
-    scene.image.height = (int32_t)fmax(rint(side * h / fmax(w, h)), 1);
     if (s->progress && !s->progress(s->user, 0))
         return kd_error_set(s->error, KD_ECANCELLED, "cancelled");
-    kd_renderer_capacity(s->r, &c);
-    KD_TRY(kd_plan_make(&scene, &c, &plan, s->error));
+    KD_TRY(plan_of(s, side, log_scale, &scene, &plan));
     KD_TRY(kd_render(s->r, &scene, &plan, NULL, NULL, &frame, s->error));
     *jy = kd_radio_jansky(&scene, frame.light.all.flux);
 done:
@@ -103,10 +112,24 @@ done:
     return status;
 }
 
+/* A device that computes nothing sees no light: of each size it renders one picture. */
+static enum kd_status rehearse(struct search *s, double *scale)
+{
+    double none;
+    enum kd_status status;
+    KD_TRY(flux_at(s, FIRST, 0, &none));
+    KD_TRY(flux_at(s, CLOSE, 0, &none));
+    *scale = 1;
+done:
+    return status;
+}
+
 static enum kd_status search(struct search *s, double *scale)
 {
     double x = 0;
     enum kd_status status;
+    if (s->r->opening.compiles_only)
+        return rehearse(s, scale);
     KD_TRY(find(s, FIRST, NEAR, &x));
     KD_TRY(find(s, CLOSE, HELD, &x));
     *scale = exp(x);
@@ -169,6 +192,37 @@ static double known(const struct kd_normalised *kept, const struct kd_normal *wa
     return of_matter;
 }
 
+static struct search search_of(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               struct kd_error *error)
+{
+    return (struct search) { .r = renderer,
+                             .scene = bare(scene, plan),
+                             .target = scene->volume.normalise_to_jy,
+                             .slope = THIN,
+                             .error = error };
+}
+
+enum kd_status kd_frame_normalise_ask(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                      const struct kd_plan *plan, struct kd_error *error)
+{
+    static const int sides[] = { FIRST, CLOSE };
+    if (!(scene->volume.normalise_to_jy > 0))
+        return KD_OK;
+    const struct search s = search_of(renderer, scene, plan, error);
+    struct kd_normal wanted;
+    enum kd_status status;
+    KD_TRY(keys_of(&s, &wanted));
+    for (size_t i = 0; i < 2 && !(known(&renderer->normalised, &wanted, plan->held) > 0); i++) {
+        struct kd_scene own;
+        struct kd_plan by;
+        KD_TRY(plan_of(&s, sides[i], 0, &own, &by));
+        KD_TRY(kd_frame_ask_kernels(&(struct kd_frame_job) {
+            .r = renderer, .store = &renderer->store, .scene = &own, .plan = &by, .error = error }));
+    }
+done:
+    return status;
+}
+
 enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error)
 {
@@ -177,14 +231,10 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     *scale = 1;
     if (!(scene->volume.normalise_to_jy > 0))
         return KD_OK;
-    struct search s = { .r = renderer,
-                        .scene = bare(scene, plan),
-                        .target = scene->volume.normalise_to_jy,
-                        .slope = THIN,
-                        .progress = progress,
-                        .user = user,
-                        .error = error };
+    struct search s = search_of(renderer, scene, plan, error);
     enum kd_status status;
+    s.progress = progress;
+    s.user = user;
     if (!(*density_of(scene) > 0))
         return refuse(&s, "there is no matter, which has", 0);
     KD_TRY(keys_of(&s, &found));

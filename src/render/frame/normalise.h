@@ -12,5 +12,8 @@
  * plan->held a density that was found for the same matter before will do, from wherever it was seen. */
 enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error);
+/* Asks for the kernels that those pictures take, as far as they will be rendered: for kd_kernels_note. */
+enum kd_status kd_frame_normalise_ask(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                      const struct kd_plan *plan, struct kd_error *error);
 
 #endif

@@ -1,5 +1,6 @@
 /* This follows rays through volumes to their end that a driver's limit on loops has ended before: the march lists
  * them, and they go on in pieces, a dispatch each. */
+#include "render/frame/compilation.h"
 #include "render/frame/lens.h"
 
 /* The words behind the light that count rays, by where they stand from the end. */
@@ -46,6 +47,19 @@ done:
     return status;
 }
 
+struct wanted {
+    struct kd_frame_job *job;
+    const struct kd_critical_lattice *lattice;
+};
+
+static enum kd_status ask(struct kd_renderer *r, const void *user)
+{
+    const struct wanted *w = user;
+    const struct kd_vk_pipeline *later;
+    (void)r;
+    return kd_frame_light_kernel(w->job, w->lattice, KD_MAKES_PIECES, &later);
+}
+
 enum kd_status kd_frame_follow_lost(struct kd_frame_job *j, const struct kd_vk_dispatch *base,
                                     const struct kd_slice *march, const struct kd_critical_lattice *l, uint32_t turns)
 {
@@ -59,6 +73,8 @@ enum kd_status kd_frame_follow_lost(struct kd_frame_job *j, const struct kd_vk_d
     uint32_t listed = counts[KD_LOST_LISTED - 1];
     listed = listed < push.lost_most ? listed : push.lost_most;
     d.push = &push;
+    if (listed)
+        KD_TRY(kd_frame_await_kernels(j, ask, &(struct wanted) { j, l }));
     for (; push.lost_first < listed; push.lost_first += push.lost_n) {
         const uint32_t left = listed - push.lost_first;
         push.lost_n = left < KD_LOST_AT_ONCE ? left : KD_LOST_AT_ONCE;

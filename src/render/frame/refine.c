@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 6 };
-
 /* The picture as it is shown, and as it was a round ago. */
 struct work { uint16_t *now, *before; };
 
@@ -127,7 +125,7 @@ static enum kd_status rounds(struct kd_frame_job *j, struct work *w)
         take(j, &j->lens->pixels, KD_REFINED_NOT_AT_CURVE);
     KD_TRY(kd_frame_bare(j, w->now));
     KD_TRY(kd_choose_bent(&now, off, &choice, j->error));
-    for (int round = 0; choice.list.n && round < ROUNDS; round++) {
+    for (int round = 0; choice.list.n && round < KD_PLAN_ROUNDS; round++) {
         struct kd_critical_pixels lists[WAYS];
         KD_TRY(one_round(j, &choice, &by, &left));
         for (int way = 0; way < WAYS; way++)

@@ -1,4 +1,5 @@
 /* This is told of a picture on its way: how far it is, how it looks so far, and how long its passes took. */
+#include "render/frame/compilation.h"
 #include "render/frame/job.h"
 
 #include "base/clock.h"
@@ -38,21 +39,56 @@ static void keep_times(struct kd_frame_job *j)
     }
 }
 
-enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
+/* Has others told, who may have the device meanwhile where the picture is rendered aside. */
+static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
+                           bool *go_on)
 {
-    j->done += j->looking ? 0 : rows; /* none of the picture's own */
-    if (j->aside) {                   /* who comes next need not wait, or measure, what is under way here */
+    if (j->aside) { /* who comes next need not wait, or measure, what is under way here */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
         keep_times(j);
     }
     double left = kd_clock_ms();
-    bool go_on = !j->progress || j->progress(j->user, fmin(j->done / j->weight, 1));
+    *go_on = tell(j, what);
     if (j->aside) {
         j->away_ms += kd_clock_ms() - left;
         kd_vk_times_reset(j->r->vk);
     }
+    return KD_OK;
+}
+
+static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j->r->lacks_user, what, j->aside); }
+
+enum kd_status kd_frame_await_kernels(struct kd_frame_job *j, kd_kernels_ask_fn ask, const void *user)
+{
+    enum { TRIES = 4 }; /* others' kernels may take the place of these meanwhile; at last they are made here */
+    struct kd_compilation *c;
+    enum kd_status status;
+    bool go_on = true;
+    for (int i = 0; i < TRIES && j->r->lacks && (c = kd_compilation_of(j->r, ask, user)); i++) {
+        status = away(j, tell_lack, c, &go_on);
+        if (status)
+            return status;
+        if (!go_on)
+            return kd_error_set(j->error, KD_ECANCELLED, "the picture waits for a kernel");
+    }
+    return KD_OK;
+}
+
+static bool tell_progress(struct kd_frame_job *j, void *what)
+{
+    (void)what;
+    return !j->progress || j->progress(j->user, fmin(j->done / j->weight, 1));
+}
+
+enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
+{
+    bool go_on;
+    j->done += j->looking ? 0 : rows; /* none of the picture's own */
+    const enum kd_status status = away(j, tell_progress, NULL, &go_on);
+    if (status)
+        return status;
     if (!go_on)
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
     bool part = j->glance && !j->plan->unseen && !j->looking && j->lit && j->lit < j->plan->height;

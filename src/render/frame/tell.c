@@ -287,6 +287,25 @@ static enum kd_status say_no_steps(struct kd_told *told, const char *why)
     return KD_OK;
 }
 
+static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const struct kd_plan *plan)
+{
+    return (struct kd_rays_params) {
+        .spin = scene->spacetime.spin,
+        .r = scene->camera.r,
+        .inclination_deg = scene->camera.inclination_deg,
+        .orders = (uint32_t)scene->accuracy.orders,
+        .engine = plan->setting.engine,
+        .precision = plan->setting.precision,
+        .steps = plan->setting.steps,
+    };
+}
+
+enum kd_status kd_frame_tell_ask(struct kd_frame_job *j)
+{
+    const struct kd_rays_params params = params_of_steps(j->scene, j->plan);
+    return j->plan->told.steps ? kd_rays_steps_ask(j->r, &params) : KD_OK;
+}
+
 /* The engine's own steps along the middle ray, whose labels lists of rays have. */
 static enum kd_status tell_steps(struct kd_frame_job *j)
 {
@@ -295,15 +314,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->side
                                                            ? *scene
                                                            : kd_critical_camera(scene, told->middle.steps_a_pixel);
-    const struct kd_rays_params params = {
-        .spin = scene->spacetime.spin,
-        .r = scene->camera.r,
-        .inclination_deg = scene->camera.inclination_deg,
-        .orders = (uint32_t)scene->accuracy.orders,
-        .engine = by->engine,
-        .precision = by->precision,
-        .steps = by->steps,
-    };
+    const struct kd_rays_params params = params_of_steps(scene, j->plan);
     struct kd_camera_label label;
     struct kd_error error = { 0 };
     if (by->engine == KD_ENGINE_CLOSED)

@@ -205,6 +205,13 @@ static void fill_row(double *row, const struct kd_particle_list *list, uint32_t 
     fill_rates(row, list, particle, &guide->orbit);
 }
 
+enum kd_status kd_particle_list_ask(struct kd_renderer *renderer, const struct kd_particle_list *list)
+{
+    struct kd_own_work work;
+    const enum kd_status status = kd_prepare_asked(renderer, KD_EMITTER_particles, &work, NULL);
+    return status ? status : kd_particles_ask(&work, &list->scene);
+}
+
 enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from,
                                      size_t n, float *rows, struct kd_error *error)
 {

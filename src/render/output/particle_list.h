@@ -68,5 +68,7 @@ void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PAR
 /* Render thread only: n <= KD_PARTICLE_LIST_SLICE rows from row `from` on. */
 enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from,
                                      size_t n, float *rows, struct kd_error *error);
+/* Asks for the kernel that it takes, for kd_kernels_note. */
+enum kd_status kd_particle_list_ask(struct kd_renderer *renderer, const struct kd_particle_list *list);
 
 #endif

@@ -115,14 +115,32 @@ INVOCATIONS(lit, plan->march.steps ? 0 : kd_plan_rays(plan))
 INVOCATIONS(marched, plan->march.steps ? kd_plan_rays(plan) : 0)
 INVOCATIONS(sampled, plan->march.steps ? plan->march.sample.columns * plan->march.sample.rows : 0)
 INVOCATIONS(starred, plan->points ? plan->rays / (plan->bright ? KD_PLAN_BRIGHT : 1) : 0)
-INVOCATIONS(refined, plan->adaptive ? plan->rays * plan->adaptive / KD_PLAN_CHOSEN +
-                                          plan->rays * KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE / KD_PLAN_BETWEEN +
-                                          KD_PLAN_SAMPLED
-                                    : 0)
+
+/* A disk of turbulent gas or of particles has streaks. */
+static bool is_streaked(const struct kd_scene *scene)
+{
+    return scene->disk.model == KD_DISK_PARTICLES || (scene->disk.model != KD_DISK_NONE && scene->gas.amplitude > 0);
+}
+
+/* Of the pixels at the critical curve three in four have their denser rays; elsewhere one in 300 is at an edge. How
+ * many lie where the map is smooth and light is not straight depends on what shines: of streaks that is one in three,
+ * else one in thirty. At 1280 x 720 presets gargantua and default have 0.59 and 1.09 million rays that are followed,
+ * beside 0.79 and 0.91 here, and 34 000 and 308 000 pixels between, beside 31 000 and 307 000. */
+static uint64_t refined(const struct kd_plan *plan, const struct kd_scene *scene)
+{
+    const uint64_t curve = 3 * plan->critical_pixels * plan->critical_dense / 4, elsewhere = plan->rays / 300,
+                   between = plan->rays / (is_streaked(scene) ? 3 : 30);
+    return plan->adaptive ? curve + elsewhere * plan->adaptive +
+                                between * KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE + KD_PLAN_SAMPLED
+                          : 0;
+}
+
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(layered, plan->n_layers *pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
 INVOCATIONS(shown, plan->unseen ? 0 : pixels(plan, scene))
+/* Refining looks at the whole picture before its first round, and after each. */
+INVOCATIONS(posted, shown(plan, scene) * (plan->adaptive ? 1 + KD_PLAN_REFINING_LOOKS : 1))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
 INVOCATIONS(beamed, plan->beam.cell ? shown(plan, scene) : 0)
 INVOCATIONS(exposed, isinf(scene->style.exposure) ? shown(plan, scene) : 0)

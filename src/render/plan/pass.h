@@ -65,8 +65,8 @@ extern const struct kd_figure {
     P(BEAM, "beam", beamed, BY(beam), PIXELS, FRAME) \
     P(EXPOSE, "expose", exposed, PART("expose.comp", PIXEL_POST, 0.25), PIXELS, FRAME) \
     P(BLOOM, "bloom", spread, BY(bloom), PIXELS, FRAME) \
-    P(POST, "post", shown, BY(post), PIXELS, FRAME) \
-    P(READBACK, "readback", shown, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
+    P(POST, "post", posted, BY(post), PIXELS, FRAME) \
+    P(READBACK, "readback", posted, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
 
 #define KD_PASS_ID_(id, ...) KD_PASS_##id,
 #define KD_P(emitter, id, word, guess) KD_PASS_OWN_##emitter,

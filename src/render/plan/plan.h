@@ -169,15 +169,14 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
  * so that their list takes no more than a band of the lens map does. */
 uint64_t kd_plan_open_most(const struct kd_plan *plan);
 
-/* Where image.samples is "auto" a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. Plans count on one pixel in
- * KD_PLAN_CHOSEN whose rays are followed, and one in KD_PLAN_BETWEEN whose rays lie between others. */
+/* Where image.samples is "auto" a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. */
 #define KD_PLAN_ADAPTIVE_SIDE 4
 #define KD_PLAN_TRUTH_SIDE 8       /* of the rays that tell what is left, */
 #define KD_PLAN_SAMPLED_OF_EACH 48 /* on so many pixels of four kinds */
 #define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
-#define KD_PLAN_CHOSEN 10
-#define KD_PLAN_BETWEEN 4
-#define KD_PLAN_LISTED_BYTES (15u << 20) /* rays of all of which are fewer than 65535 workgroups */
+#define KD_PLAN_ROUNDS 6                            /* most, of choosing pixels */
+#define KD_PLAN_REFINING_LOOKS (1 + KD_PLAN_ROUNDS) /* at the picture as it is shown */
+#define KD_PLAN_LISTED_BYTES (15u << 20)            /* rays of all of which are fewer than 65535 workgroups */
 
 /* Pixels of so many rays whose lens map the buffer of listed pixels holds. */
 static inline uint64_t kd_plan_listed_most(const struct kd_plan *plan, uint32_t rays)

@@ -37,6 +37,11 @@ struct work {
     struct kd_error *error;
 };
 
+static uint32_t steps_of(const struct kd_rays_params *p)
+{
+    return p->steps ? p->steps : kd_engine_steps(p->engine, p->precision);
+}
+
 static void put(const struct work *w, void *at, size_t i, double value)
 {
     if (w->wide)
@@ -218,16 +223,29 @@ done:
     return status;
 }
 
+static enum kd_status kernel_of(struct kd_renderer *r, const struct kd_rays_params *p, bool told,
+                                const struct kd_vk_pipeline **out, struct kd_error *error)
+{
+    const bool wide = p->precision == KD_PRECISION_F64, kerr_schild = p->engine >= KD_ENGINE_KS_EULER;
+    const uint32_t method = kerr_schild ? p->engine - KD_ENGINE_KS_EULER : p->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
+    const struct kd_spec_rays spec = { .ORDERS = p->orders, .STEPS = steps_of(p), .METHOD = method };
+    enum kd_kernel kernel = kerr_schild ? (told ? KD_KERNEL_RAYS_KS_TRACE_F32 : KD_KERNEL_RAYS_KS_F32)
+                                        : (told ? KD_KERNEL_RAYS_TRACE_F32 : KD_KERNEL_RAYS_F32);
+    return kd_kernels_get(&r->kernels, r->vk, kernel + wide, &spec.ORDERS, sizeof spec / 4, out, error);
+}
+
+enum kd_status kd_rays_device_ask(struct kd_renderer *r, const struct kd_rays_params *params, bool told)
+{
+    const struct kd_vk_pipeline *later;
+    const bool none =
+        params->engine == KD_ENGINE_CLOSED || (params->precision == KD_PRECISION_F64 && !kd_vk_info(r->vk)->float64);
+    return none ? KD_OK : kernel_of(r, params, told, &later, NULL);
+}
+
 /* Prepares what a slice needs of the renderer, which may have been used for other rays since the last one. */
 static enum kd_status prepare(struct work *w, size_t n)
 {
-    const struct kd_rays_params *p = w->params;
-    const uint32_t method = w->kerr_schild ? p->engine - KD_ENGINE_KS_EULER : p->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const struct kd_spec_rays spec = { .ORDERS = p->orders, .STEPS = w->steps, .METHOD = method };
-    enum kd_kernel kernel = w->kerr_schild ? (w->told ? KD_KERNEL_RAYS_KS_TRACE_F32 : KD_KERNEL_RAYS_KS_F32)
-                                           : (w->told ? KD_KERNEL_RAYS_TRACE_F32 : KD_KERNEL_RAYS_F32);
-    enum kd_status status = kd_kernels_get(&w->r->kernels, w->r->vk, kernel + w->wide, &spec.ORDERS, sizeof spec / 4,
-                                           &w->pipeline, w->error);
+    enum kd_status status = kernel_of(w->r, w->params, w->told != NULL, &w->pipeline, w->error);
     for (int k = 0; k < (n > CHUNK ? 2 : 1) && !status; k++)
         status = hold_set(w, k, n < CHUNK ? n : CHUNK);
     return status;
@@ -319,7 +337,7 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
         .least = nextafter(kd_kerr_horizon(params->spin), INFINITY),
         .told = told,
         .error = error,
-        .steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision),
+        .steps = steps_of(params),
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine",

@@ -10,6 +10,9 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
+/* Asks for the kernel that either of these takes, for kd_kernels_note. */
+enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told);
+
 /* One ray, and the records that trace.glsl describes, as doubles: room for `numbers` of them. */
 enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params,
                                    const struct kd_ray_labels *ray, struct kd_ray_crossing *crossings,

@@ -1,6 +1,7 @@
 #include "render/rays/hold.h"
 
 #include "render/device/internal.h"
+#include "render/rays/device.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -114,6 +115,14 @@ static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_
     out->steps = mino ? MORE_STEPS * steps : kd_engine_steps(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64);
     out->steps = out->steps > FINEST ? FINEST : out->steps;
     return true;
+}
+
+enum kd_status kd_rays_hold_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, size_t n)
+{
+    struct kd_rays_params finer = *params;
+    return n >= WORTH_A_KERNEL && finer_on_device(renderer, params, &finer)
+               ? kd_rays_device_ask(renderer, &finer, false)
+               : KD_OK;
 }
 
 enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params,

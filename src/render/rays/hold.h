@@ -11,6 +11,9 @@ enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_p
                             const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
+/* Asks for the kernel that it may take for so many rays. */
+enum kd_status kd_rays_hold_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, size_t n);
+
 /* Whether a ray is decided and within the tolerance by its own error. A ray without an error has nothing that could
  * be wrong. */
 static inline bool kd_rays_held(const struct kd_ray_end *end, double tolerance)

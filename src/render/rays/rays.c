@@ -140,6 +140,12 @@ done:
     return status;
 }
 
+enum kd_status kd_rays_ask_kernels(struct kd_renderer *renderer, const struct kd_rays_params *params, size_t n)
+{
+    const enum kd_status status = kd_rays_device_ask(renderer, params, false);
+    return status || !(params->tolerance > 0) ? status : kd_rays_hold_ask(renderer, params, n);
+}
+
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error)

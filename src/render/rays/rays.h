@@ -76,7 +76,10 @@ enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error);
 
-/* The same of labels that are known to be sound. */
+/* Asks for the kernels that these take, for so many rays: for kd_kernels_note. By who has the renderer. */
+enum kd_status kd_rays_ask_kernels(struct kd_renderer *renderer, const struct kd_rays_params *params, size_t n);
+
+/* The same as kd_rays_trace of labels that are known to be sound. */
 enum kd_status kd_rays_follow(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);

@@ -120,6 +120,12 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
     return status;
 }
 
+enum kd_status kd_rays_steps_ask(struct kd_renderer *renderer, const struct kd_rays_params *params)
+{
+    const enum kd_status status = kd_rays_device_ask(renderer, params, true);
+    return status ? status : kd_rays_device_ask(renderer, params, false); /* of compare() */
+}
+
 /* Room for twice the records of the longest ray, whatever the method. */
 static size_t room(const struct kd_rays_params *p)
 {

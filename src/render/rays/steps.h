@@ -46,6 +46,8 @@ struct kd_rays_steps {
 /* The steps of one ray; params as for kd_rays_trace, an engine that takes steps. Finish *out in any case. */
 enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params,
                              const struct kd_ray_labels *ray, struct kd_rays_steps *out, struct kd_error *error);
+/* Asks for the kernels that this takes, for kd_kernels_note. */
+enum kd_status kd_rays_steps_ask(struct kd_renderer *renderer, const struct kd_rays_params *params);
 static inline void kd_rays_steps_finish(struct kd_rays_steps *steps)
 {
     free(steps->steps);

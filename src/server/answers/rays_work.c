@@ -56,6 +56,12 @@ static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_re
     return status == KD_EDEVICE && *device->error.pointer ? KD_EINVAL : status;
 }
 
+static enum kd_status ask(struct kd_renderer *renderer, const void *user)
+{
+    const struct kd_rays_job *job = ((const struct kd_render_job *)user)->user;
+    return kd_rays_ask_kernels(renderer, &job->answer.params, job->answer.n);
+}
+
 static void device_done(struct kd_render_job *device)
 {
     struct kd_rays_job *job = device->user;
@@ -74,6 +80,7 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
     job->device = (struct kd_render_job) {
         .claim.class = KD_CLASS_RAYS,
         .run = trace_on_device,
+        .ask = ask,
         .socket = kd_connection_socket(job->task.request->connection),
         .done = device_done,
         .user = job,

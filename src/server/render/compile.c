@@ -1,4 +1,4 @@
-/* Kernels are compiled here while others have the device. A picture's are looked for as soon as it waits, by whoever
+/* Kernels are compiled here while others have the device. A job's are looked for as soon as it waits, by whoever
  * chooses who is next; a thread compiles those that are missing; and whoever chooses next hands them to the renderer.
  * So the renderer's kernels are touched only under the lock while nobody has the device, or by who has it. */
 #include "base/clock.h"
@@ -11,17 +11,28 @@
 #define COMPILE_MS 2000.0 /* until one has been: some kernels on lavapipe */
 #define NICE 3 /* half the weight of what is live: a picture that is new has its part of the processor, and no more */
 
-static void ask(struct kd_render_queue *queue, struct kd_render_job *job)
+#define BEGINS_ANEW 8 /* times a job does for kernels that it lacks; then they are made in its turn */
+
+/* The job waits until the compilation has been run. NULL: it has what it needs. */
+static void put_off(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_compilation *compilation)
 {
-    job->compilation = job->run ? NULL : kd_compilation_begin(queue->renderer, &job->scene, &job->plan);
-    job->kernels = job->compilation ? KD_KERNELS_MISSING : KD_KERNELS_THERE;
+    job->compilation = compilation;
+    job->kernels = compilation ? KD_KERNELS_MISSING : KD_KERNELS_THERE;
     job->missing_ms = kd_clock_ms();
-    if (!job->compilation)
+    if (!compilation)
         return;
     job->missing = (struct kd_claim) { .class = job->claim.class };
     memcpy(job->missing.client, job->claim.client, sizeof job->missing.client);
     kd_shares_add(&queue->missing, &job->missing);
     pthread_cond_broadcast(&queue->changed);
+}
+
+static void ask(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    put_off(queue, job,
+            !job->run  ? kd_compilation_begin(queue->renderer, &job->scene, &job->plan)
+            : job->ask ? kd_compilation_of(queue->renderer, job->ask, job)
+                       : NULL);
 }
 
 void kd_render_take_kernels(struct kd_render_queue *queue)
@@ -39,13 +50,13 @@ void kd_render_ask_kernels(struct kd_render_queue *queue)
         return;
     kd_render_take_kernels(queue);
     for (struct kd_render_job *job = queue->jobs.first; job; job = job->next)
-        if (job->kernels == KD_KERNELS_UNKNOWN && !kd_render_has_begun(job))
+        if (job->kernels == KD_KERNELS_UNKNOWN)
             ask(queue, job);
 }
 
 bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
-    return !queue->compiles || kd_render_has_begun(job) || job->kernels == KD_KERNELS_THERE;
+    return !queue->compiles || job->kernels == KD_KERNELS_THERE;
 }
 
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job)
@@ -58,6 +69,46 @@ void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_jo
     else
         kd_compilation_drop(job->compilation);
     job->compilation = NULL;
+}
+
+bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool aside)
+{
+    struct kd_render_queue *queue = user;
+    pthread_mutex_lock(&queue->lock);
+    struct kd_render_job *job = queue->holder;
+    const bool here = !queue->compiles || queue->lost || (!aside && job->lacks == BEGINS_ANEW);
+    bool go_on = here || aside;
+    if (here) {
+        kd_compilation_drop(compilation);
+    } else if (aside) {
+        put_off(queue, job, compilation);
+        kd_render_give_way(queue, job);
+        kd_render_forget_kernels(queue, job); /* it was woken for another reason */
+        go_on = !queue->failed;
+    } else {
+        job->lacks++;
+        job->lacked = compilation;
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return go_on && !kd_render_unwanted(queue, job);
+}
+
+bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    struct kd_compilation *lacked = job->lacked;
+    job->lacked = NULL;
+    if (!lacked)
+        return false;
+    if (job->status != KD_ECANCELLED || queue->failed || kd_render_unwanted(queue, job)) {
+        kd_compilation_drop(lacked);
+        return false;
+    }
+    job->status = KD_OK;
+    job->error = (struct kd_error) { 0 };
+    kd_render_stand_in_line(job);
+    job->away_ms = job->turn_ms;
+    put_off(queue, job, lacked);
+    return true;
 }
 
 void kd_render_tell_kernels(struct kd_render_job *job)

@@ -105,6 +105,10 @@ void kd_render_ask_kernels(struct kd_render_queue *queue);
 void kd_render_take_kernels(struct kd_render_queue *queue);
 bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job);
 void kd_render_tell_kernels(struct kd_render_job *job);
+/* Unlocked, by who has the device: struct kd_renderer_params.lacks, of the queue. */
+bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool aside);
+/* After its turn: whether the job begins once more because of that. If so its outcome is taken back. */
+bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job); /* it goes */
 /* A thread, with the queue as argument, that ends when that is closing. */
 void *kd_render_compile_main(void *queue);
@@ -124,6 +128,8 @@ void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* turns.c: if nobody has the device, whoever is next is given it. Locked. */
 void kd_render_next(struct kd_render_queue *queue);
+/* Who has the device lets others have it until its turn comes again. Locked. */
+void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Unlocked, by who has the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
 /* Threads: of short works, with the queue as argument; of long ones, with a lane. They end when the queue is closing

@@ -108,7 +108,8 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     queue->params = *params;
     queue->params.sky_made = sky_made;
-    queue->params.sky_user = queue;
+    queue->params.sky_user = queue->params.lacks_user = queue;
+    queue->params.lacks = kd_render_lacks;
     queue->limit = limit;
     queue->client_limit = client_limit;
     queue->allowance.seconds = client_s;
@@ -280,7 +281,8 @@ static void prepare(struct kd_render_queue *queue, struct kd_render_job *job)
     job->queue = queue;
     job->submitted_ms = job->away_ms = kd_clock_ms();
     job->kernels_ms = 0;
-    job->compilation = NULL;
+    job->compilation = job->lacked = NULL;
+    job->lacks = 0;
     kd_render_stand_in_line(job);
 }
 

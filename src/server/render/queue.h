@@ -17,8 +17,9 @@
  * if it had not, and only what had the device when it failed for the second time is told so. Where that cannot be
  * done, or has been done too often, the device is lost, and all that waits is told.
  *
- * A picture whose kernels are not there waits while a thread compiles them, one picture's after the other's by the same
- * shares; others have the device meanwhile (compile.c).
+ * What lacks kernels waits while a thread compiles them, one job's after the other's by the same shares; others have
+ * the device meanwhile (compile.c). A picture that comes to need one on its way waits where it is, in a lane, or begins
+ * once more.
  *
  * A picture before a sky whose picture has to be read first waits for that, which takes up to a second and no
  * device.
@@ -70,6 +71,7 @@ struct kd_render_job {
      * called again at the next turn, and so on. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
+    kd_kernels_ask_fn ask; /* for the kernels of `run`, with the job as user; NULL: none that takes long */
     bool more;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; with the device */
     const struct kd_glance *glance; /* of a picture in slices; may be NULL; user: the job. With the device */
@@ -89,12 +91,14 @@ struct kd_render_job {
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
     enum kd_render_kernels kernels;
-    struct kd_compilation *compilation;    /* of those that are missing; run, or only compared with what is being run */
-    struct kd_claim missing;               /* for those, while there are any */
-    double kernels_ms, missing_ms;         /* kernels_ms: waited for them; missing_ms: since when */
-    bool sky;                              /* the picture of its sky was not there when it came */
-    bool inside;                           /* it is at work with the renderer, or waits between two slices */
-    bool repeated;                         /* the device has failed it once */
+    struct kd_compilation *compilation; /* of those that are missing; run, or only compared with what is being run */
+    struct kd_compilation *lacked;      /* of those that it has come to need; it begins once more when they are there */
+    unsigned lacks;                     /* how often it has */
+    struct kd_claim missing;            /* for those, while there are any */
+    double kernels_ms, missing_ms;      /* kernels_ms: waited for them; missing_ms: since when */
+    bool sky;                           /* the picture of its sky was not there when it came */
+    bool inside;                        /* it is at work with the renderer, or waits between two slices */
+    bool repeated;                      /* the device has failed it once */
     double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
 };
 

@@ -146,6 +146,16 @@ static void charge(struct kd_render_queue *queue, struct kd_render_job *job)
     job->turn_ms = now;
 }
 
+void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    charge(queue, job);
+    job->away_ms = job->turn_ms;
+    queue->holder = NULL;
+    kd_render_next(queue);
+    while (queue->holder != job)
+        pthread_cond_wait(&queue->changed, &queue->lock);
+}
+
 /* Between two slices: whoever is before it has the device meanwhile. */
 static bool between_slices(void *user, double fraction)
 {
@@ -154,13 +164,8 @@ static bool between_slices(void *user, double fraction)
     pthread_mutex_lock(&queue->lock);
     charge(queue, job);
     job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
-    if (choose(queue) != job) {
-        job->away_ms = job->turn_ms;
-        queue->holder = NULL;
-        kd_render_next(queue);
-        while (queue->holder != job)
-            pthread_cond_wait(&queue->changed, &queue->lock);
-    }
+    if (choose(queue) != job)
+        kd_render_give_way(queue, job);
     kd_pulse_beat(&queue->pulse);
     const bool failed = queue->failed; /* while others had it */
     pthread_mutex_unlock(&queue->lock);
@@ -259,8 +264,8 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     charge(queue, job);
     queue->worked_ms = job->turn_ms;
     queue->holder = NULL;
-    const bool again = kd_render_once_more(queue, job), more = again || (!job->status && job->more),
-               encode = !more && !job->status && !job->run;
+    const bool again = kd_render_begins_with_kernels(queue, job) || kd_render_once_more(queue, job),
+               more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
     if (!again)
         job->repeated = false; /* it has come on */
     if (more)

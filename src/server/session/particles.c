@@ -56,6 +56,11 @@ static enum kd_status list_slice(struct kd_render_job *device, struct kd_rendere
     return status;
 }
 
+static enum kd_status ask(struct kd_renderer *renderer, const void *device)
+{
+    return kd_particle_list_ask(renderer, &((const struct kd_particles_job *)device)->list);
+}
+
 static void done(struct kd_render_job *device)
 {
     struct kd_particles_job *job = (struct kd_particles_job *)device;
@@ -149,6 +154,7 @@ static enum MHD_Result submit(struct kd_request *request)
     job->device = (struct kd_render_job) {
         .claim.class = KD_CLASS_RAYS,
         .run = list_slice,
+        .ask = ask,
         .socket = kd_connection_socket(request->connection),
         .done = done,
     };
