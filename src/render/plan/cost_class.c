@@ -13,6 +13,7 @@ static const struct named left_out[] = {
     { "image", NULL },
     { "image.tile", NULL },
     { "motion", NULL },
+    { "source", NULL },
     { "bodies", NULL },
     { "", "time" },
     { "camera", "azimuth_deg" },
