@@ -426,7 +426,8 @@
          "time at which it was struck; before that nothing rings")
 
 #define KD_SOURCE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
-    ENUM(source, name, MODEL, REST, KD_SOURCE_NONE, "the source on the sky that the hole stands for", "none|m87|sgra") \
+    ENUM(source, name, MODEL, FRONT, KD_SOURCE_NONE, "the source on the sky that the hole stands for", \
+         "none|m87|sgra") \
     REAL(source, ra_deg, MODEL, REST, 0.0, 0.0, 360.0, "degrees", "right ascension of the hole (ICRS)") \
     REAL(source, dec_deg, MODEL, REST, 0.0, -90.0, 90.0, "degrees", "declination of the hole (ICRS)") \
     WORD(source, mjd, MODEL, REST, INFINITY, 0.0, 1e6, "days", "date of the picture, as a modified Julian date", "none")
