@@ -52,6 +52,8 @@ export function buildForm(root, prefix, specs, changed) {
       link.set(key, input.value === String(spec.value) ? null : input.value);
       changed();
     }
+    input.addEventListener('input', () => (input.typed = true)); // and not given yet
+    for (const event of ['change', 'blur']) input.addEventListener(event, () => (input.typed = false));
     input.addEventListener('change', tell);
     const range = { minimum: spec.min, maximum: spec.max, unit: spec.unit, default: spec.value, step: spec.step };
     const give = value => ((input.value = value), tell());
@@ -92,8 +94,7 @@ export function buildForm(root, prefix, specs, changed) {
     },
     // What an auto field comes to, as long as nobody has chosen or is choosing.
     suggest(name, value) {
-      if (!input(name).chosen && document.activeElement !== input(name))
-        (input(name).value = value), inputs.get(name).follow();
+      if (!input(name).chosen && !input(name).typed) (input(name).value = value), inputs.get(name).follow();
     },
   };
 }

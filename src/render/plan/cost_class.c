@@ -10,18 +10,12 @@
  * the document itself. */
 struct named { const char *section, *name; };
 static const struct named left_out[] = {
-    { "image", NULL },
-    { "image.tile", NULL },
-    { "motion", NULL },
-    { "source", NULL },
-    { "bodies", NULL },
-    { "", "time" },
-    { "camera", "azimuth_deg" },
-    { "camera", "inclination_deg" },
-    { "camera", "yaw_deg" },
-    { "camera", "pitch_deg" },
-    { "camera", "roll_deg" },
-    { "style", "exposure" },
+    { "image", NULL },           { "image.tile", NULL },
+    { "motion", NULL },          { "source", NULL },
+    { "bodies", NULL },          { "", "time" },
+    { "camera", "azimuth_deg" }, { "camera", "inclination_deg" },
+    { "camera", "yaw_deg" },     { "camera", "pitch_deg" },
+    { "camera", "roll_deg" },    { "style", "exposure" },
 };
 static const struct named roughly[] = { { "camera", "r" }, { "camera", "fov_deg" }, { "camera", "field_m" } };
 
