@@ -24,13 +24,12 @@
 /* Where they are: M87* by S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317), Sagittarius A* by M. J. Reid & A.
  * Brunthaler 2004 (ApJ 616, 872); and the days of the pictures that the Event Horizon Telescope published, 11 and 7
  * April 2017 (ApJL 875, L1; ApJL 930, L12). */
-#define M87_AT_(rest) "\"source\":{\"name\":\"m87\",\"ra_deg\":187.7059308,\"dec_deg\":12.3911233" rest "},"
-#define SGRA_AT_(rest) "\"source\":{\"name\":\"sgra\",\"ra_deg\":266.4168371,\"dec_deg\":-29.0078106" rest "},"
-#define AT_(mjd) ",\"mjd\":" mjd
-#define M87 M87_AT_("")
-#define M87_AT(mjd) M87_AT_(AT_(mjd))
-#define SGRA SGRA_AT_("")
-#define SGRA_AT(mjd) SGRA_AT_(AT_(mjd))
+#define M87_(rest) "\"source\":{\"name\":\"m87\",\"ra_deg\":187.7059308,\"dec_deg\":12.3911233" rest "},"
+#define SGRA_(rest) "\"source\":{\"name\":\"sgra\",\"ra_deg\":266.4168371,\"dec_deg\":-29.0078106" rest "},"
+#define M87 M87_("")
+#define M87_2017 M87_(",\"mjd\":57854")
+#define SGRA SGRA_("")
+#define SGRA_2017 SGRA_(",\"mjd\":57850")
 
 const struct kd_preset kd_presets[] = {
     { "smooth", "Smooth disk",
@@ -54,23 +53,22 @@ const struct kd_preset kd_presets[] = {
       "Horizon Telescope "
       "showed it; a thin disk stands in for the hot flow",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_AT(
-          "57854") "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108}," /* the approaching jet at a
-                                                                                              position angle of 288
-                                                                                              degrees */
-                   "\"disk\":{\"outer\":15},"
-                   "\"style\":{\"name\":\"eht\"},"
-                   "\"image\":{\"samples\":2}}" },
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_2017
+      "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108},"
+      /* the approaching jet at a position angle of 288 degrees */
+      "\"disk\":{\"outer\":15},"
+      "\"style\":{\"name\":\"eht\"},"
+      "\"image\":{\"samples\":2}}" },
     { "sgra", "Sagittarius A*",
       "The hole in the middle of our Galaxy through a beam of 20 microarcseconds, brightness in false colour: as the "
       "Event "
       "Horizon Telescope showed it; a thin disk stands in for the hot flow",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277}," SGRA_AT(
-          "57850") "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
-                   "\"disk\":{\"outer\":15},"
-                   "\"style\":{\"name\":\"eht\"},"
-                   "\"image\":{\"samples\":2}}" },
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277}," SGRA_2017
+      "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
+      "\"disk\":{\"outer\":15},"
+      "\"style\":{\"name\":\"eht\"},"
+      "\"image\":{\"samples\":2}}" },
     { "luminet1979", "The first picture, 1979",
       "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness", true,
       "{\"spacetime\":{\"spin\":0},"

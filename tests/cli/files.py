@@ -17,6 +17,7 @@ try:
     import numpy
     import OpenEXR
     from astropy.io import fits
+    from astropy.time import Time
     from astropy.wcs import WCS
 except ImportError as missing:
     print(f"left out: {missing}; scripts/setup --browser installs it")
@@ -236,6 +237,7 @@ class Files(support.Case):
             [header[key] for key in ("CRVAL1", "CRVAL2", "MJD-OBS", "MJD")], [10.5, -3.25, 57854.25, 57854.25]
         )
         self.assertEqual(header["DATE-OBS"], "2017-04-11T06:00:00")
+        self.assertEqual(Time(header["DATE-OBS"]).mjd, header["MJD-OBS"])
         self.bad(2, "source.dec_deg is 91", "plan", "--set", "source.dec_deg=91")
 
     def test_the_standard(self):

@@ -130,7 +130,8 @@ static void test_refining_is_learned(void **state)
     kd_frame_finish(&frame);
     const double estimate = estimated(&plan, "refine");
     print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
-    assert_true(estimate > took / 50 && estimate < 3 * took); /* less the time for which others had the cores */
+    /* Less the time for which others had the cores: a fifth of it beside eight busy ones, on two. */
+    assert_true(estimate > took / 50 && estimate < 2 * took);
 }
 
 /* A picture is estimated by those of its class, however many others were made meanwhile: the light of a volume takes a
@@ -159,7 +160,7 @@ static void test_classes_are_learned(void **state)
     kd_frame_finish(&frame);
     const double known = kd_cost_known(&learned, plan.cost_class, KD_PASS_MARCH);
     print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
-    assert_true(known > took / 100 && known < 30 * took); /* less the time for which others had the cores */
+    assert_true(known > took / 100 && known < 4 * took); /* less the time for which others had the cores */
     assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan)) < 1e-6 * known);
 }
 

@@ -129,6 +129,8 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
         double value;
         const char *comment, *of[2];
     } numbers[] = {
+        { "OBSRA", s->source.ra_deg, "deg; of the hole", { "source.ra_deg" } },
+        { "OBSDEC", s->source.dec_deg, "deg", { "source.dec_deg" } },
         { "SPIN", s->spacetime.spin, "a/M", { "spacetime.spin" } },
         { "MASS", s->spacetime.mass_msun, "solar masses", { "spacetime.mass_msun" } },
         { "DISTANCE", s->spacetime.distance_pc, "pc", { "spacetime.distance_pc" } },
@@ -145,11 +147,10 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
     static const char *const objects[] = { [KD_SOURCE_NONE] = "Kerr black hole",
                                            [KD_SOURCE_M87] = "M87",
                                            [KD_SOURCE_SGRA] = "SGRA" }; /* as ehtim calls them */
-    KD_TRY(kd_fits_text(cards, "OBJECT", objects[s->source.name], NULL));
+    if (!varies(sweep, "source.name"))
+        KD_TRY(kd_fits_text(cards, "OBJECT", objects[s->source.name], NULL));
     KD_TRY(kd_fits_text(cards, "TELESCOP", "kerrd", "a model, and no observation"));
-    KD_TRY(kd_fits_real(cards, "OBSRA", s->source.ra_deg, "deg; of the hole"));
-    KD_TRY(kd_fits_real(cards, "OBSDEC", s->source.dec_deg, "deg"));
-    if (isfinite(s->source.mjd))
+    if (isfinite(s->source.mjd) && !varies(sweep, "source.mjd"))
         KD_TRY(put_date(cards, s->source.mjd));
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!varies(sweep, numbers[i].of[0]) && !(numbers[i].of[1] && varies(sweep, numbers[i].of[1])))
