@@ -2,6 +2,7 @@
 
 #include "base/utf8.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -38,6 +39,28 @@ static bool make_pipe(int *ours, int *its, bool we_write)
     return fcntl(*ours, F_SETFL, O_NONBLOCK) == 0;
 }
 
+/* Closes descriptors from 4 on, which libraries may have left open. */
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 34) && !defined(KD_PROGRAM_LISTS) /* tests */
+static int close_others(posix_spawn_file_actions_t *files)
+{
+    return posix_spawn_file_actions_addclosefrom_np(files, 4);
+}
+#else
+static int close_others(posix_spawn_file_actions_t *files)
+{
+    DIR *all = opendir("/proc/self/fd");
+    int code = all ? 0 : errno;
+    for (struct dirent *one; !code && (one = readdir(all));) {
+        const int fd = atoi(one->d_name); /* 0 of "." and ".." */
+        if (fd >= 4 && fd != dirfd(all) && !(fcntl(fd, F_GETFD) & FD_CLOEXEC))
+            code = posix_spawn_file_actions_addclose(files, fd);
+    }
+    if (all)
+        closedir(all);
+    return code;
+}
+#endif
+
 /* Descriptors may be numbered 0 to 3 already where ours were closed at the start: each goes out of the way first. */
 static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid)
 {
@@ -63,7 +86,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
         !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, out, 3)) &&
         !(code = posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0)) &&
-        !(code = posix_spawn_file_actions_addclosefrom_np(&files, 4)))
+        !(code = close_others(&files)))
         code = posix_spawnp(pid, argv[0], &files, &how, (char *const *)argv, environ);
     posix_spawnattr_destroy(&how);
     posix_spawn_file_actions_destroy(&files);

@@ -21,7 +21,7 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
 {
     void *library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        return kd_error_set(error, KD_EDEVICE, "no Vulkan loader: %s", dlerror());
+        return kd_error_set(error, KD_EDEVICE, "no Vulkan loader: %s; " KD_VK_INSTALL, dlerror());
     void *symbol = dlsym(library, "vkGetInstanceProcAddr");
     if (!symbol)
         return absent(error, "vkGetInstanceProcAddr");

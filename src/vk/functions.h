@@ -13,6 +13,9 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan.h>
 
+/* The end of an error where a loader or a driver is missing. apt and dnf know the package by this name. */
+#define KD_VK_INSTALL "install mesa-vulkan-drivers, whose driver works on any machine"
+
 #define KD_VK_GLOBAL_FUNCTIONS(X) \
     X(EnumerateInstanceVersion) \
     X(EnumerateInstanceLayerProperties) \

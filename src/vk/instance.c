@@ -69,7 +69,8 @@ static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCr
 {
     VkResult result = instance->fn.CreateInstance(info, NULL, &instance->handle);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-        return kd_error_set(error, KD_EDEVICE, "no Vulkan device: no driver is installed, or none works here");
+        return kd_error_set(error, KD_EDEVICE,
+                            "no Vulkan device: no driver is installed, or none works here; " KD_VK_INSTALL);
     if (result < 0)
         return kd_vk_result_error(error, result, "vkCreateInstance");
     return kd_vk_functions_instance(&instance->fn, instance->handle, error);

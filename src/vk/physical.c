@@ -175,7 +175,8 @@ enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance 
 
     KD_VK_TRY(fn, EnumeratePhysicalDevices, instance, &n, handles);
     if (!n)
-        return kd_error_set(error, KD_EDEVICE, "no Vulkan device: the loader found no driver that works");
+        return kd_error_set(error, KD_EDEVICE,
+                            "no Vulkan device: the loader found no driver that works; " KD_VK_INSTALL);
     list = calloc(n, sizeof *list);
     if (!list)
         return kd_error_set(error, KD_ENOMEM, "no memory for a list of %u devices", n);

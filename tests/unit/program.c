@@ -62,6 +62,22 @@ static void test_a_child_that_stays(void **state)
     assert_true(kd_program_over(&p, &code) && code == -1); /* asked again it ends nobody, least of all our own group */
 }
 
+/* A descriptor that a library left open, and that is not closed on exec, does not reach it. */
+static void test_it_has_four_descriptors(void **state)
+{
+    (void)state;
+    char open_fd[64];
+    const int null = open("/dev/null", O_RDONLY), left = fcntl(null, F_DUPFD, 10); /* without FD_CLOEXEC */
+    close(null);
+    assert_true(left >= 10);
+    snprintf(open_fd, sizeof open_fd, "test ! -e /proc/self/fd/%d", left);
+    struct kd_program p = start(open_fd);
+    assert_int_equal(end_of(&p), 0);
+    close(left);
+    p = start("test -e /proc/self/fd/3");
+    assert_int_equal(end_of(&p), 0);
+}
+
 /* Of much that it says the beginning is kept, and the end. */
 static void test_a_long_story(void **state)
 {
@@ -138,9 +154,9 @@ static void test_what_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_child_that_stays),     cmocka_unit_test(test_a_long_story),
-        cmocka_unit_test(test_its_group_ends_with_it), cmocka_unit_test(test_one_that_does_nothing),
-        cmocka_unit_test(test_what_is_told),
+        cmocka_unit_test(test_a_child_that_stays),    cmocka_unit_test(test_it_has_four_descriptors),
+        cmocka_unit_test(test_a_long_story),          cmocka_unit_test(test_its_group_ends_with_it),
+        cmocka_unit_test(test_one_that_does_nothing), cmocka_unit_test(test_what_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -303,12 +303,20 @@ static void empty_lingering(struct kd_connections *all, double now)
     }
 }
 
+/* A request that has arrived and that its daemon has not read yet is not late, however busy this machine is. */
+static bool waits_for_us(const struct kd_connection *one)
+{
+    int unread = 0;
+    return one->handed_on && (one->stage == KD_STAGE_OPEN || one->stage == KD_STAGE_IDLE) &&
+           !ioctl(one->socket, FIONREAD, &unread) && unread > 0;
+}
+
 void kd_connections_sweep(struct kd_connections *all)
 {
     pthread_mutex_lock(&all->lock);
     double now = kd_clock_ms();
     for (struct kd_connection *one = all->first; one; one = one->next) {
-        if (one->deadline <= 0 || now < one->deadline)
+        if (one->deadline <= 0 || now < one->deadline || waits_for_us(one))
             continue;
         answer_late(one);
         shutdown(one->socket, SHUT_RDWR);

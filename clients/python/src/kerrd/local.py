@@ -4,16 +4,30 @@ from __future__ import annotations
 
 import atexit
 import os
+import platform
 import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
+from importlib import metadata
 from pathlib import Path
 from types import TracebackType
 
 from .client import Client
 from .errors import KerrdError, NoBinary
+
+
+def _installed() -> str | None:
+    """The program that the wheel of this package brought, wherever pip put it."""
+    try:
+        files = metadata.files("kerrd") or []
+    except metadata.PackageNotFoundError:
+        return None
+    for file in files:
+        if file.name == "kerrd" and file.parent.name == "bin":
+            return shutil.which(Path(str(file.locate())).resolve())
+    return None
 
 
 def _checkout() -> Path | None:
@@ -42,21 +56,23 @@ def _build(tree: Path) -> None:
 
 
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
-    """The program: as given, $KERRD, the PATH, or the build in the source tree that this package was installed from
-    with -e. build: whether that is made if it is not there yet, by scripts/setup, which may install packages."""
+    """The program: as given, $KERRD, the one of this package's wheel, the PATH, or the build in the source tree that
+    this package was installed from with -e. build: whether that is made if it is not there yet, by scripts/setup, which
+    may install packages."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))
             if found is None:
                 raise NoBinary(f"{os.fspath(said)} is no program")
             return found
-    on_path = shutil.which("kerrd")
-    if on_path:
-        return on_path
+    found = _installed() or shutil.which("kerrd")
+    if found:
+        return found
     tree = _checkout()
     if tree is None:
         raise NoBinary(
-            "there is no kerrd: give binary=, set $KERRD, put it on the PATH, or install this package from its source tree with pip install -e"
+            f"there is no kerrd for {sys.platform} {platform.machine()} in this package: give binary=, set $KERRD, put it on the PATH, "
+            "or install this package from its source tree with pip install -e; kerrd.Client(url) speaks to a server elsewhere"
         )
     made = tree / "build/kerrd"
     if not made.exists() and build:
