@@ -108,6 +108,8 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
                                   .ns[KD_NS_RAY_RADIUS] = 1000,
                                   .ns[KD_NS_RAY_FULL] = 1000,
                                   .ns[KD_NS_SAMPLE_TRANSFER] = 1,
+                                  .ns[KD_NS_RAY_STARS] = 1.5,
+                                  .ns[KD_NS_SAMPLE_STARS] = 1,
                                   .ns[KD_NS_PIXEL_POST] = 1,
                                   .float64 = true,
                                   .accuracy = kd_accuracy_built_in() };
