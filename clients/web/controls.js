@@ -2,7 +2,7 @@
 import { badge, know } from './badge.js';
 import { assetRow } from './asset.js';
 import { hint } from './choices.js';
-import { byId, el } from './dom.js';
+import { byId, el, typing } from './dom.js';
 import { element, named, nature, number, section, t, tell, unit, word } from './i18n.js';
 import { beside_time, left_out, meansSomething } from './known.js';
 import { scale, stepByArrows } from './slider.js';
@@ -28,13 +28,11 @@ function numberRow(field, scene, id, hint) {
     step: whole ? 1 : 'any',
     'aria-describedby': hint,
   });
-  let typed = false; // a number that is not given yet: what else happens leaves it there
+  const hand = typing(box);
   const give = value => {
-    typed = false;
+    hand.given();
     scene.change({ [field.path]: value });
   };
-  box.addEventListener('input', () => (typed = true));
-  for (const event of ['change', 'blur']) box.addEventListener(event, () => (typed = false));
   slider.addEventListener('input', () => {
     const value = short ? slider.valueAsNumber : s.from(slider.valueAsNumber);
     give(whole ? Math.round(value) : value);
@@ -55,7 +53,7 @@ function numberRow(field, scene, id, hint) {
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
     if (!given) box.value = '';
-    else if (!typed)
+    else if (!hand.typed)
       box.value =
         field.path === 'time'
           ? Math.round(value * 100) / 100

@@ -17,6 +17,24 @@ export const svg = maker(tag => document.createElementNS('http://www.w3.org/2000
 export const math = maker(tag => document.createElementNS('http://www.w3.org/1998/Math/MathML', tag));
 export const byId = id => document.getElementById(id);
 
+// What somebody types into a field stays there until it is given. typed: a value that is not given yet; held: that, or
+// the field has the focus, for values that come all the time, older ones among them; given(): it was given by a key.
+export function typing(input) {
+  let typed = false;
+  const given = () => (typed = false);
+  input.addEventListener('input', () => (typed = true));
+  for (const event of ['change', 'blur']) input.addEventListener(event, given);
+  return {
+    given,
+    get typed() {
+      return typed;
+    },
+    get held() {
+      return typed || document.activeElement === input;
+    },
+  };
+}
+
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
 // Waits until somebody looks elsewhere. The listener that is not called goes, too.

@@ -1,6 +1,6 @@
 // Small forms of numbers whose values live in the page's address: labels, units and help are the server's.
 import { badge } from './badge.js';
-import { el } from './dom.js';
+import { el, typing } from './dom.js';
 import { named, unit, word } from './i18n.js';
 import * as link from './link.js';
 import { scale, stepByArrows } from './slider.js';
@@ -52,14 +52,13 @@ export function buildForm(root, prefix, specs, changed) {
       link.set(key, input.value === String(spec.value) ? null : input.value);
       changed();
     }
-    input.addEventListener('input', () => (input.typed = true)); // and not given yet
-    for (const event of ['change', 'blur']) input.addEventListener(event, () => (input.typed = false));
+    const hand = typing(input);
     input.addEventListener('change', tell);
     const range = { minimum: spec.min, maximum: spec.max, unit: spec.unit, default: spec.value, step: spec.step };
     const give = value => ((input.value = value), tell());
     if (slide) stepByArrows(slide.node, range, give, input);
     else if (!spec.choices) stepByArrows(input, range, give);
-    inputs.set(spec.name, { input, spec, key, follow: () => slide?.follow?.() });
+    inputs.set(spec.name, { input, hand, spec, key, follow: () => slide?.follow?.() });
     root.append(
       el(
         'div',
@@ -94,7 +93,8 @@ export function buildForm(root, prefix, specs, changed) {
     },
     // What an auto field comes to, as long as nobody has chosen or is choosing.
     suggest(name, value) {
-      if (!input(name).chosen && !input(name).typed) (input(name).value = value), inputs.get(name).follow();
+      const { input, hand, follow } = inputs.get(name);
+      if (!input.chosen && !hand.typed) (input.value = value), follow();
     },
   };
 }

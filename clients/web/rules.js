@@ -1,6 +1,6 @@
 // The settings of a playground: a control for each that the server lists. Those that everybody turns stand in front.
 import { badge } from './badge.js';
-import { el } from './dom.js';
+import { el, typing } from './dom.js';
 import { helpOf, t, word } from './i18n.js';
 import { stepByArrows } from './slider.js';
 
@@ -68,6 +68,7 @@ function control(row, id, changed) {
       });
   const tell = () =>
     input.validity.valid ? changed(row.name, row.words ? input.value : input.valueAsNumber) : input.reportValidity();
+  const hand = typing(input);
   input.addEventListener('change', tell);
   if (!row.words && row.type !== 'integer')
     stepByArrows(input, { minimum: row.least, maximum: row.most, default: row.default }, value => {
@@ -82,7 +83,7 @@ function control(row, id, changed) {
       input,
       help,
     ),
-    show: value => document.activeElement !== input && (input.value = value),
+    show: value => hand.held || (input.value = value),
   };
 }
 

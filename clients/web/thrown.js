@@ -1,6 +1,6 @@
 // The numbers of a body: of one that is to be thrown, or of one that is there. What a drag does these fields do too.
 import { badge } from './badge.js';
-import { el } from './dom.js';
+import { el, typing } from './dom.js';
 import { helpOf, number, t } from './i18n.js';
 import { stepByArrows } from './slider.js';
 
@@ -42,6 +42,7 @@ export function thrown(root, rows, told) {
     const about = help ? helpOf(help) : null;
     return {
       input,
+      hand: typing(input),
       node: el(
         'div',
         { class: 'field', title: about?.help },
@@ -114,7 +115,6 @@ export function thrown(root, rows, told) {
   const fresh = () => el('option', { value: '' }, t('a new one', 'uno nuovo'));
   which.append(fresh());
 
-  const idle = input => document.activeElement !== input;
   const short = x => Number(x.toPrecision(5));
   return {
     bodies(list) {
@@ -129,14 +129,14 @@ export function thrown(root, rows, told) {
       go.textContent = body ? t('Throw it anew', 'Rilancialo') : t('Throw', 'Lancia');
       for (const { input } of place) input.disabled = Boolean(body);
       if (body) {
-        for (const { name, input } of own) if (other || idle(input)) input.value = short(body[name]);
+        for (const { name, input, hand } of own) if (other || !hand.held) input.value = short(body[name]);
         where.textContent = `r = ${number(Math.hypot(...body.x))} M, v = ${number(Math.hypot(...body.v), 3)} c`;
       } else where.textContent = '';
     },
     aims(now) {
       aims = now;
-      place.forEach(({ input }, k) => idle(input) && (input.value = short(now.from[k])));
-      speed.forEach(({ input }, k) => idle(input) && (input.value = short(now.velocity[k])));
+      place.forEach(({ input, hand }, k) => hand.held || (input.value = short(now.from[k])));
+      speed.forEach(({ input, hand }, k) => hand.held || (input.value = short(now.velocity[k])));
     },
     fields: () => Object.fromEntries(own.map(({ name, input }) => [name, input.valueAsNumber])),
   };

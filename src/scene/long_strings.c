@@ -18,8 +18,9 @@ static size_t end_of(const char *text, size_t length, size_t at, bool *escapes)
     *escapes = memchr(text + at, '\\', end - at);
     if (!*escapes)
         return end;
+    uint64_t characters = 0;
     for (end = at; end < length && text[end] != '"'; end++) {
-        kd_pause_every(end, PIECE);
+        kd_pause_every(++characters, PIECE / 4);
         end += text[end] == '\\';
     }
     return end < length ? end : length;
@@ -36,8 +37,9 @@ void kd_long_strings_find(struct kd_long_strings *strings, const char *text, siz
         bool escapes;
         kd_pause_every(i, 4096);
         const size_t start = (size_t)(quote - text) + 1, end = end_of(text, length, start, &escapes);
-        if (!escapes && end - start >= KD_LONG_STRING) {
+        if (end - start >= KD_LONG_STRING) {
             strings->at[strings->n].start = start;
+            strings->at[strings->n].escapes = escapes;
             strings->at[strings->n++].end = end;
             strings->length -= end - start - 1;
         }
@@ -72,6 +74,56 @@ size_t kd_long_strings_place(const struct kd_long_strings *strings, size_t at)
     return at;
 }
 
+static unsigned digits(const char *text)
+{
+    char four[5] = "";
+    memcpy(four, text, 4);
+    return (unsigned)strtoul(four, NULL, 16);
+}
+
+/* RFC 3629, section 3. */
+static char *put_utf8(char *to, unsigned code)
+{
+    if (code < 0x80) {
+        *to++ = (char)code;
+        return to;
+    }
+    const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    *to++ = (char)((0xf00u >> (more + 1) & 0xff) | code >> 6 * more);
+    for (int i = more - 1; i >= 0; i--)
+        *to++ = (char)(0x80 | (code >> 6 * i & 0x3f));
+    return to;
+}
+
+/* Writes the character of an escape, which the scan has found to be whole. Returns what follows it. */
+static const char *unescape(const char *from, char **to)
+{
+    static const char names[] = "bfnrt", are[] = "\b\f\n\r\t";
+    const char c = from[1], *name = strchr(names, c);
+    if (c != 'u') {
+        *(*to)++ = name ? are[name - names] : c;
+        return from + 2;
+    }
+    const unsigned unit = digits(from + 2);
+    const bool pair = unit >= 0xd800 && unit < 0xdc00; /* RFC 8259, section 7: the other half follows */
+    *to = put_utf8(*to, pair ? 0x10000 + ((unit - 0xd800) << 10) + (digits(from + 8) - 0xdc00) : unit);
+    return from + (pair ? 12 : 6);
+}
+
+/* Copies a string with escapes, none of which is shorter than what it stands for. */
+static char *copy_unescaped(char *to, const char *from, size_t n)
+{
+    const char *const end = from + n;
+    for (uint64_t characters = 0; from < end;) {
+        kd_pause_every(characters++, PIECE / 4);
+        if (*from == '\\')
+            from = unescape(from, &to);
+        else
+            *to++ = *from++;
+    }
+    return to;
+}
+
 /* What is still to be put in. */
 struct fill {
     const struct kd_long_strings *strings;
@@ -87,7 +139,7 @@ static bool put(struct fill *f, char **string)
     char *whole = cJSON_malloc(n + 1);
     if (!whole)
         return false;
-    *copy(whole, f->strings->text + start, n) = 0;
+    *(f->strings->at[f->next].escapes ? copy_unescaped : copy)(whole, f->strings->text + start, n) = 0;
     cJSON_free(*string);
     *string = whole;
     f->next++;

@@ -1,19 +1,23 @@
 /* Long strings of a JSON document, such as a playground's debris: cJSON would read one in a single piece of up to 200
  * ms. They are cut out before it reads the rest, and put into its tree afterwards. The document has been scanned
- * (scan.h); strings with escapes stay where they are. Any thread. */
+ * (scan.h), so that each escape is a whole one. Any thread. */
 #ifndef KD_SCENE_LONG_STRINGS_H
 #define KD_SCENE_LONG_STRINGS_H
 
 #include "base/error.h"
 
 #include <cjson/cJSON.h>
+#include <stdbool.h>
 
 #define KD_LONG_STRING ((size_t)4 << 20) /* bytes from which on a string is long */
 
 struct kd_long_strings {
-    const char *text;                     /* of the document */
-    size_t n, length;                     /* of the text without them */
-    struct { size_t start, end; } at[32]; /* others stay where they are */
+    const char *text; /* of the document */
+    size_t n, length; /* of the text without them */
+    struct {
+        size_t start, end;
+        bool escapes;
+    } at[32]; /* others stay where they are */
 };
 
 void kd_long_strings_find(struct kd_long_strings *strings, const char *text, size_t length);

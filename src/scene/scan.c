@@ -36,6 +36,16 @@ static enum kd_status fail(struct scan *s, size_t at, const char *what)
                         what, at, place.line, place.column);
 }
 
+/* The four digits of a \u at s->at; 0, which no escape may be, where there is none. */
+static unsigned unit_at(const struct scan *s, size_t at)
+{
+    char digits[5] = "";
+    if (at + 6 > s->length || s->text[at] != '\\' || s->text[at + 1] != 'u')
+        return 0;
+    memcpy(digits, s->text + at + 2, 4);
+    return (unsigned)strtoul(digits, NULL, 16);
+}
+
 /* The escape after a backslash at s->at. */
 static enum kd_status escape(struct scan *s)
 {
@@ -53,7 +63,11 @@ static enum kd_status escape(struct scan *s)
             return fail(s, s->at, "malformed escape");
     if (!memcmp(s->text + s->at + 2, "0000", 4))
         return fail(s, s->at, "NUL in a string");
-    s->at += 6; /* cJSON checks the pairs of surrogates */
+    const unsigned unit = unit_at(s, s->at), next = unit_at(s, s->at + 6);
+    const bool high = unit >= 0xd800 && unit < 0xdc00, low = unit >= 0xdc00 && unit < 0xe000;
+    if (low || (high && (next < 0xdc00 || next >= 0xe000)))
+        return fail(s, s->at, "half of a pair of surrogates");
+    s->at += high ? 12 : 6;
     return KD_OK;
 }
 
@@ -61,7 +75,7 @@ static enum kd_status string(struct scan *s)
 {
     size_t start = s->at++;
     for (uint64_t characters = 1; s->at < s->length; characters++) {
-        kd_pause_every(characters, 1 << 20);
+        kd_pause_every(characters, 1 << 18);
         char c = s->text[s->at];
         enum kd_status status = KD_OK;
         if (c == '"') {

@@ -164,6 +164,44 @@ class Sweep(support.Case):
         self.assertEqual((header.get("CTYPE1"), header["CTYPE3"]), (None, "camera.field_m"))
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
+    def test_cards_leave_out_what_of_the_source_is_swept(self):
+        """The axis has it; what is the same in all scenes has its card."""
+        cards = {
+            "source.name": ["OBJECT"],
+            "source.ra_deg": ["OBSRA"],
+            "source.dec_deg": ["OBSDEC"],
+            "source.mjd": ["DATE-OBS", "MJD-OBS", "MJD"],
+        }
+        given = ["name=sgra", "ra_deg=266.4168371", "dec_deg=-29.0078106", "mjd=57850"]
+        source = [part for text in given for part in ("--set", "source." + text)]
+        axes = {
+            "source.name": ["none", "m87"],
+            "source.ra_deg": [10, 187.7],
+            "source.dec_deg": [-20, 12.4],
+            "source.mjd": [57854, 57855.5],
+        }
+        for path, values in axes.items():
+            axis = ["-x", path + "=" + ",".join(map(str, values))]
+            for name in "a.fits", "a.npz":
+                stats = self.swept(name, *source, layers=["r"], axes=axis)
+                self.assertEqual(stats["lens_maps_traced"], 1)  # where the hole is changes no ray
+            units, arrays = self.opened("a.fits"), numpy.load(self.path("a.npz"))
+            header = units[0].header
+            for other, keys in cards.items():
+                for key in keys:
+                    self.assertEqual(key in header, other != path, (path, key))
+            if path != "source.name":
+                self.assertEqual(header["OBJECT"], "SGRA")
+            if path != "source.ra_deg":
+                self.assertEqual(header["OBSRA"], 266.4168371)
+            if path != "source.mjd":
+                self.assertEqual((header["MJD"], header["DATE-OBS"]), (57850, "2017-04-07T00:00:00"))
+            self.assertEqual([*units[path].data["value"]], values)
+            self.assertEqual([*arrays[path]], values)
+            self.assertEqual(json.loads(arrays["notes.json"])["axes"], {path: values})
+            self.assertEqual(json.loads(header["KDAXES"]), {path: values})
+            self.assertTrue(numpy.array_equal(bits(units["r"].data[0]), bits(units["r"].data[1])))
+
     def radio(self, name, *more, layers="brightness_temperature"):
         done = support.run(
             "sweep",

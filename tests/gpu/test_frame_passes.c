@@ -100,6 +100,29 @@ static void test_learned(void **state)
                 learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
 }
 
+/* Stars and the light between them take several times what a disk's light does: they have figures of their own, and do
+ * not spoil that of disks. */
+static void test_stars_are_learned(void **state)
+{
+    (void)state;
+    struct kd_plan plan;
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        renderer->capacity.ns[i] = 1e5;
+    for (int k = 0; k < 10; k++) {
+        renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
+            renderer->store.maps[3].key[0] = 0;
+        renderer->frames = 0; /* each of them teaches */
+        struct kd_frame frame = drawn("{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"none\"}, "
+                                      "\"sky\": {\"model\": \"stars\"}}",
+                                      &plan);
+        assert_true(timing_of(&frame, "stars") > 0 && timing_of(&frame, "transfer") > 0);
+        kd_frame_finish(&frame);
+    }
+    const double *ns = renderer->capacity.ns;
+    print_message("stars %.0f ns a ray, light %.0f ns\n", ns[KD_NS_RAY_STARS], ns[KD_NS_SAMPLE_STARS]);
+    assert_true(ns[KD_NS_RAY_STARS] < 5e4 && ns[KD_NS_SAMPLE_STARS] < 5e4 && ns[KD_NS_SAMPLE_TRANSFER] == 1e5);
+}
+
 static double estimated(const struct kd_plan *plan, const char *pass)
 {
     for (size_t i = 0; i < plan->n_passes; i++)
@@ -172,6 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_learned),
+        cmocka_unit_test(test_stars_are_learned),
         cmocka_unit_test(test_refining_is_learned),
         cmocka_unit_test(test_classes_are_learned),
     };

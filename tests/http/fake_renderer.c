@@ -7,7 +7,8 @@
  * cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each
  * takes a millisecond. The picture of a sky of seed 4711 is under way until another picture is rendered, and
  * kernels of one of seed 4712, and of rays with steps 20, are compiled until then, if that is within a minute; one of
- * seed 4713 is found to lack them once it has begun. Each compilation is told as a kilobyte more of kernels. A device
+ * seed 4713 is found to lack them once it has begun. Each compilation is told as a kilobyte more of kernels; on a
+ * device called "miscompiles" each fails. A device
  * called "compiles" is busy with a small picture of a preset, as with a kernel, until five other pictures have been
  * rendered meanwhile; it fails after a minute without them. */
 #include "base/clock.h"
@@ -29,7 +30,7 @@
 
 struct kd_renderer {
     char lens_key[65];
-    bool measured, slow, held, gated, compiles, bright;
+    bool measured, slow, held, gated, compiles, miscompiles, bright;
     struct kd_renderer_params params;
     _Atomic bool read; /* the picture of that sky */
     bool compiled;     /* the kernels of the other ones */
@@ -55,6 +56,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         (*out)->gated = params->device && !strcmp(params->device, "gated");
     if (*out)
         (*out)->compiles = params->device && !strcmp(params->device, "compiles");
+    if (*out)
+        (*out)->miscompiles = params->device && !strcmp(params->device, "miscompiles");
     return *out ? KD_OK : KD_ENOMEM;
 }
 
@@ -105,6 +108,8 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
                                   .ns[KD_NS_RAY_RADIUS] = 1000,
                                   .ns[KD_NS_RAY_FULL] = 1000,
                                   .ns[KD_NS_SAMPLE_TRANSFER] = 1,
+                                  .ns[KD_NS_RAY_STARS] = 1.5,
+                                  .ns[KD_NS_SAMPLE_STARS] = 1,
                                   .ns[KD_NS_PIXEL_POST] = 1,
                                   .float64 = true,
                                   .accuracy = kd_accuracy_built_in() };
@@ -241,9 +246,10 @@ enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_
 enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
                                   struct kd_error *error)
 {
-    (void)error;
     const unsigned before = atomic_load(&drawn);
     atomic_fetch_add(&compilations, 1);
+    if (compilation->renderer->miscompiles)
+        return kd_error_set(error, KD_EIO, "the driver could not make a kernel");
     for (int ms = 0; ms < PATIENCE_MS && atomic_load(&drawn) == before; ms += 10)
         if (pass_time(10, progress, user, NULL))
             return KD_OK;

@@ -174,6 +174,36 @@ class Kernels(Case):
                 ask = f"GET {target}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
                 self.assertGreater(self.kernels(self.holds_nobody(ask)), 0)
 
+    def test_one_that_goes_while_its_lane_waits_for_a_kernel_leaves_the_lane(self):
+        """Its client may have no other lane: the next long picture of the same client has it."""
+        own = daemon.Daemon()
+        self.addCleanup(own.stop)
+        gone = own.connect()
+        gone.sendall(f"GET {LONG % 0}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_kept_bytes{kind="kernels"}'] >= 1024))
+        daemon.vanish(gone)
+        self.assertTrue(daemon.eventually(lambda: own.metrics()["kerrd_renders_unfinished"] == 0))
+        self.assertEqual(own.get(LONG % 1).status, 200)
+        again = own.connect()
+        self.addCleanup(again.close)
+        again.sendall(f"GET {LONG % 0}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_kept_bytes{kind="kernels"}'] >= 2048))
+        self.assertEqual(own.get(RENDER).status, 200)  # until then it is compiled
+        self.assertEqual(daemon.read_answer(again).status, 200)
+
+    def test_what_cannot_be_compiled_holds_nobody(self):
+        """What lacks it is made in its own turn, where a kernel that cannot be made is told. Nothing waits for ever,
+        in the line or in a lane, and nothing is compiled again and again."""
+        own = daemon.Daemon("--device", "miscompiles")
+        self.addCleanup(own.stop)
+        for target in (self.NEW, RENDER + "&sky.seed=4713", (LONG % 0) + "&sky.seed=4713"):
+            before = own.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024
+            self.assertEqual(own.get(target).status, 200, target)
+            tried = own.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024 - before
+            self.assertTrue(1 <= tried <= 8, (target, tried))
+            self.assertEqual(own.get(RENDER).status, 200)
+        self.assertEqual(own.metrics()["kerrd_renders_unfinished"], 0)
+
     def test_a_plan_counts_the_kernels_that_have_to_be_compiled(self):
         own = daemon.Daemon()
         self.addCleanup(own.stop)

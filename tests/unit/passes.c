@@ -68,8 +68,8 @@ static void names_are_names(void **state)
 static void words_stay(void **state)
 {
     (void)state;
-    const char *const relied_on[] = { "ray_radius", "ray_full",    "sample_transfer", "pixel_post",
-                                      "ray_march",  "ray_refined", "particle" };
+    const char *const relied_on[] = { "ray_radius",  "ray_full",  "sample_transfer", "pixel_post", "ray_march",
+                                      "ray_refined", "ray_stars", "sample_stars",    "particle" };
     for (size_t i = 0; i < sizeof relied_on / sizeof *relied_on; i++)
         assert_string_equal(kd_figures[i].word, relied_on[i]);
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
@@ -159,6 +159,39 @@ static void estimates_are_figures(void **state)
     assert_true(plan.trace_ns == 10);
 }
 
+/* A sky of stars has figures of its own, and nothing else is estimated or measured by them. */
+static void stars_have_figures(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *json;
+        bool stars;
+    } of[] = {
+        { "{\"image\": {\"width\": 100, \"height\": 50}, \"sky\": {\"model\": \"stars\"}}", true },
+        { "{\"image\": {\"width\": 100, \"height\": 50}, \"sky\": {\"model\": \"stars\"}, "
+          "\"disk\": {\"model\": \"none\"}}",
+          true },
+        { "{\"image\": {\"width\": 100, \"height\": 50}, \"sky\": {\"model\": \"grid\"}}", false },
+    };
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        const struct kd_capacity c = device();
+        const struct kd_plan plan = planned(of[k].json, &c);
+        bool looked_for = false;
+        for (size_t i = 0; i < plan.n_passes; i++) {
+            const struct kd_plan_pass *pass = &plan.passes[i];
+            const bool stars = !strcmp(pass->name, "stars"), light = !strcmp(pass->name, "transfer");
+            const enum kd_figure_id own = stars ? KD_NS_RAY_STARS : KD_NS_SAMPLE_STARS;
+            looked_for |= stars;
+            if (stars || (light && of[k].stars))
+                assert_true(pass->figure == own &&
+                            fabs(pass->estimate_ms - c.ns[own] * 1e-6 * (double)pass->invocations) < 1e-9);
+            else
+                assert_true(pass->figure != KD_NS_RAY_STARS && pass->figure != KD_NS_SAMPLE_STARS);
+        }
+        assert_true(looked_for == of[k].stars);
+    }
+}
+
 static uint64_t class_of(const char *json)
 {
     const struct kd_capacity c = device();
@@ -240,6 +273,7 @@ int main(void)
         cmocka_unit_test(each_is_in_a_plan_and_each_figure_learned),
         cmocka_unit_test(emitters_are_prepared),
         cmocka_unit_test(estimates_are_figures),
+        cmocka_unit_test(stars_have_figures),
         cmocka_unit_test(estimates_are_of_a_class),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

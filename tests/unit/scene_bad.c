@@ -78,8 +78,10 @@ static const struct bad syntax[] = {
     { "{\"a\\x\":1}", "", "unknown escape" },
     { "{\"a\\u00", "", "escape cut short" },
     { "{\"time\\u00zz\":1}", "", "malformed escape at byte 6" },
-    { "{\"a\\uD83D\\u0041\":1}", "", "not valid JSON" },
-    { "{\"a\\ud800\":1}", "", "not valid JSON" },
+    { "{\"a\\uD83D\\u0041\":1}", "", "half of a pair of surrogates at byte 3" },
+    { "{\"a\\ud800\":1}", "", "half of a pair of surrogates at byte 3" },
+    { "{\"a\\udc00\":1}", "", "half of a pair of surrogates at byte 3" },
+    { "{\"a\\ud83d\\ud83d\\ude00\":1}", "", "half of a pair of surrogates at byte 3" },
     { "{\"time\\u0000x\":1}", "", "NUL in a string at byte 6" },
     { "{\"\xff\":1}", "", "invalid UTF-8 at byte 2" },
     { "{\"\xc0\xaf\":1}", "", "invalid UTF-8" },         /* overlong / */

@@ -47,6 +47,11 @@ static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_ca
                              : (struct kd_pass_cost) { "transfer.comp", ns, KD_NS_RAY_REFINED };
 }
 
+static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), kd_plan_light_figure(plan) };
+}
+
 /* One figure is for all volumes, and learned of those that it is meant for. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {

@@ -26,8 +26,10 @@ struct kd_scene;
     F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */ \
     F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */ \
     F(PIXEL_POST, "pixel_post", 30) \
-    F(RAY_MARCH, "ray_march", 4000)    /* the light of a ray through volumes */ \
-    F(RAY_REFINED, "ray_refined", 400) /* a ray that refining plans for, and what choosing it takes */
+    F(RAY_MARCH, "ray_march", 4000)     /* the light of a ray through volumes */ \
+    F(RAY_REFINED, "ray_refined", 400)  /* a ray that refining plans for, and what choosing it takes */ \
+    F(RAY_STARS, "ray_stars", 220)      /* a ray where stars are looked for, and their images */ \
+    F(SAMPLE_STARS, "sample_stars", 90) /* a ray's light under a sky of stars */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
 #define KD_P(emitter, id, word, guess) KD_NS_##id,
@@ -55,8 +57,8 @@ extern const struct kd_figure {
     P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP) \
     P(AUDIT, "audit", audited, BY(audit), FIXED, MAP) \
     KD_EMIT_PASSES \
-    P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME) \
-    P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME) \
+    P(STARS, "stars", starred, WHOLE("star_tiles.comp", RAY_STARS), RAYS, FRAME) \
+    P(TRANSFER, "transfer", lit, BY(transfer), RAYS, FRAME) \
     P(MARCH, "march", marched, BY(march), RAYS, FRAME) \
     P(MARCH_ERROR, "march_error", sampled, BY(march_error), RAYS, FRAME) \
     P(REFINE, "refine", refined, BY(refine), RAYS, FRAME) \

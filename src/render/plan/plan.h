@@ -250,9 +250,14 @@ static inline enum kd_pass_id kd_plan_light_pass(const struct kd_plan *plan)
 {
     return plan->march.steps ? KD_PASS_MARCH : KD_PASS_TRANSFER;
 }
+/* Where the sky has stars, the light between them is read too, which takes several times what a disk does. */
+static inline enum kd_figure_id kd_plan_light_figure(const struct kd_plan *plan)
+{
+    return plan->march.steps ? KD_NS_RAY_MARCH : plan->points ? KD_NS_SAMPLE_STARS : KD_NS_SAMPLE_TRANSFER;
+}
 static inline double kd_plan_light_ns(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    return plan->march.steps ? plan->march.weight * c->ns[KD_NS_RAY_MARCH] : c->ns[KD_NS_SAMPLE_TRANSFER];
+    return (plan->march.steps ? plan->march.weight : 1) * c->ns[kd_plan_light_figure(plan)];
 }
 
 /* Linear light takes so many bytes a pixel, all that is kept behind it included. */

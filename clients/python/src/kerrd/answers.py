@@ -550,6 +550,8 @@ class DeviceFigures(TypedDict):
     pixel_post: float
     ray_march: float
     ray_refined: float
+    ray_stars: float
+    sample_stars: float
     particle: float
 
 
