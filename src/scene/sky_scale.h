@@ -1,5 +1,5 @@
-/* The width of the image plane is one number in two units: camera.field_m, which all who draw read, and camera.field_uas,
- * from which it follows where that is a number. Pure, any thread. */
+/* The width of the image plane is one number in two units: camera.field_m, which all who draw read, and
+ * camera.field_uas, from which it follows where that is a number. Pure, any thread. */
 #ifndef KD_SCENE_SKY_SCALE_H
 #define KD_SCENE_SKY_SCALE_H
 
