@@ -64,6 +64,7 @@ const labels = {
   'spacetime.distance_pc': 'Distance from Earth',
   'camera.r': 'Distance',
   'camera.field_m': 'Field',
+  'camera.field_uas': 'Field on the sky',
   'camera.fov_deg': 'Field of view',
   'camera.velocity_r': 'Velocity outwards',
   'camera.velocity_theta': 'Velocity southwards',

@@ -52,6 +52,10 @@ export const fields = {
     'Piana: raggi paralleli, solo all’infinito. Stenopeica: solo a distanza finita. Anello: angolo attorno alla curva critica contro il logaritmo della distanza da essa. Equirettangolare: tutte le direzioni, longitudine in orizzontale e latitudine in verticale. Cupola: l’angolo dal centro come distanza da esso, 90° ai bordi più vicini. Automatica: quella adatta alla distanza',
   ],
   'camera.field_m': ['Campo', 'Larghezza del piano immagine (proiezione piana)'],
+  'camera.field_uas': [
+    'Campo in cielo',
+    'La stessa larghezza in cielo, per massa e distanza del buco; nessuno: quella in M',
+  ],
   'camera.fov_deg': ['Campo visivo', 'Angolo orizzontale abbracciato (proiezione stenopeica)'],
   'camera.centre_alpha': ['Centro α', 'α al centro dell’immagine (proiezione piana)'],
   'camera.centre_beta': ['Centro β', 'β al centro dell’immagine (proiezione piana)'],

@@ -14,6 +14,10 @@ const refusals = [
     '{} è {}, ammesso è 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo',
   ],
   [
+    '{} is {}, allowed are {} to {}, camera.field_m {} to {}, at this spacetime.mass_msun and spacetime.distance_pc',
+    '{} è {}, ammessi sono da {} a {}, per camera.field_m da {} a {}, con questi spacetime.mass_msun e spacetime.distance_pc',
+  ],
+  [
     '{} is {}, allowed are up to {}, {} times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
     '{} è {}, ammessi sono fino a {}, {} volte la larghezza dell’immagine per questi spacetime.mass_msun e spacetime.distance_pc',
   ],

@@ -41,7 +41,7 @@ const of_camera = [
   {
     chosen: scene =>
       scene.get('camera.projection') !== 'auto' ? scene.get('camera.projection') : far(scene) ? 'plane' : 'pinhole',
-    plane: ['field_m', 'centre_alpha', 'centre_beta'],
+    plane: ['field_m', 'field_uas', 'centre_alpha', 'centre_beta'],
     pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
     equirectangular: ['yaw_deg', 'pitch_deg', 'observer'],
     fulldome: ['yaw_deg', 'pitch_deg', 'observer'],

@@ -49,6 +49,10 @@ function sections([path, spec]) {
   ];
 }
 
+// Microarcseconds that one M is wide on the sky, for one solar mass at one parsec: G m_sun/c^2 (nominal, IAU 2015
+// resolution B3) over the parsec (B2).
+const m_uas = (1.3271244e20 / 299792458 ** 2 / 3.085677581491367e16) * ((180 * 3.6e9) / Math.PI);
+
 // As a link has it: nobody sees the seventh digit.
 export const linkedTime = time => Number(time?.toPrecision(6)) || null;
 
@@ -131,6 +135,7 @@ export class Scene extends EventTarget {
       else if (value != null) scene.#put(path, value);
       if (!Number.isNaN(value) && link.get(path) != null) scene.linked.push(path);
     }
+    scene.#field({});
     const names = scene.sections.map(({ name }) => name);
     for (const [key] of link.entries(''))
       if (
@@ -240,6 +245,16 @@ export class Scene extends EventTarget {
     const all = { ...this.#styles[values['style.name']], ...values };
     for (const path of this.#moved.keys()) if (path in all) this.#moved.delete(path), this.jumped.add(path);
     for (const [path, value] of this.#styleFirst(Object.entries(all))) this.#put(path, value);
+    this.#field(all);
+  }
+
+  // The width of the image plane is one number in two units, as the server has it (src/scene/sky_scale.h): the one that
+  // is given last holds, of both that on the sky.
+  #field(given) {
+    if ('camera.field_m' in given && given['camera.field_uas'] == null) this.#put('camera.field_uas', null);
+    const uas = this.get('camera.field_uas');
+    if (typeof uas === 'number')
+      this.#put('camera.field_m', (uas * this.get('spacetime.distance_pc')) / this.get('spacetime.mass_msun') / m_uas);
   }
 
   #changed() {
@@ -279,6 +294,7 @@ export class Scene extends EventTarget {
     this.#stop();
     if ('time' in values) this.#now = null;
     for (const [path, value] of Object.entries(values)) this.#moved.delete(path), this.#put(path, value);
+    this.#field(values);
     this.dispatchEvent(new Event('settle'));
   }
 

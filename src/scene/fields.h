@@ -72,6 +72,10 @@
          "plane or pinhole, whichever fits camera.r", \
          "auto|plane|pinhole|ring|equirectangular|fulldome") \
     REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)") \
+    WORD(camera, field_uas, LOOK, REST, INFINITY, 1e-12, 1e12, "microarcseconds", \
+         "the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it " \
+         "comes to; none: camera.field_m says it", \
+         "none") \
     REAL(camera, fov_deg, LOOK, FRONT, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)") \
     REAL(camera, centre_alpha, LOOK, REST, 0.0, -1e7, 1e7, "M", \
          "image-plane alpha at the middle of the picture (plane)") \
@@ -531,6 +535,7 @@
     SPAN("spacetime.distance_pc", 1e3, 1e9) \
     SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60) \
     SPAN("camera.field_m", 4, 400) \
+    SPAN("camera.field_uas", 20, 2000) FIRST("camera.field_uas", 200) \
     SPAN("camera.fov_deg", 2, 120) \
     SPAN("camera.azimuth_deg", -180, 180) \
     SPAN("camera.centre_alpha", -50, 50) \

@@ -2,6 +2,7 @@
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/scan.h"
+#include "scene/sky_scale.h"
 #include "scene/style.h"
 #include "scene/text.h"
 #include "scene/tree.h"
@@ -273,6 +274,7 @@ static enum kd_status read_document(struct reader *reader, const struct kd_scene
             kd_section_trim(&reader->scene, &kd_sections[i], kd_section_size(before, &kd_sections[i]));
     if (kd_style_field() && reader->given[kd_style_field() - kd_fields])
         kd_style_apply(&reader->scene, reader->given);
+    kd_scene_settle(&reader->scene, reader->given);
     return status;
 }
 

@@ -6,6 +6,7 @@
 #include "physics/qnm.h"
 #include "physics/worldline.h"
 #include "scene/number.h"
+#include "scene/sky_scale.h"
 #include "scene/value.h"
 
 #include <stdio.h>
@@ -400,6 +401,19 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
         show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
 }
 
+static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_field *field = kd_field_find("camera", "field_m");
+    const double width = kd_scene_field_of_uas(scene), of_m = scene->camera.field_uas / width;
+    if (isinf(scene->camera.field_uas) || kd_field_holds(field, width))
+        return KD_OK;
+    return kd_error_field(error, "/camera/field_uas",
+                          "camera.field_uas is %s microarcseconds, allowed are %s to %s, camera.field_m %s to %s, at "
+                          "this spacetime.mass_msun and spacetime.distance_pc",
+                          show(scene->camera.field_uas).text, show(of_m * field->minimum).text,
+                          show(of_m * field->maximum).text, show(field->minimum).text, show(field->maximum).text);
+}
+
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
 {
     const double width = kd_scene_width_uas(scene), most = BEAM_WIDTHS * width;
@@ -501,6 +515,9 @@ const struct kd_rule kd_rules[] = {
       "`camera.pitch_deg` "
       "those from a finite radius; each pair is 0 in the other projections.",
       aim },
+    { "`camera.field_uas` comes to a width within the range of `camera.field_m`; a document that gives both means "
+      "`camera.field_uas`, one that gives `camera.field_m` alone sets `camera.field_uas` to \"none\".",
+      field_uas },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2), unless `camera.observer` is \"infall\".", horizon },
     { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },

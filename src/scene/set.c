@@ -1,6 +1,7 @@
 /* This sets one field by its dotted path: --set and query parameters. */
 #include "scene/element.h"
 #include "scene/hint.h"
+#include "scene/sky_scale.h"
 #include "scene/style.h"
 #include "scene/text.h"
 #include "scene/value.h"
@@ -129,6 +130,7 @@ enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char
     struct kd_value value = kd_value_typed(text);
     const struct kd_field *field;
     struct place place;
+    bool given[KD_FIELD_COUNT] = { false };
     if (!strcmp(path, "version"))
         return kd_value_version(&value, error);
     enum kd_status status;
@@ -143,6 +145,8 @@ enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char
     KD_TRY(kd_value_store(&grown, field, place.index, &value, error));
     if (field == kd_style_field())
         kd_style_apply(&grown, NULL);
+    given[field - kd_fields] = true;
+    kd_scene_settle(&grown, given);
     if (place.old)
         kd_section_trim(&grown, place.section, size);
     *scene = grown;

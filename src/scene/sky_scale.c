@@ -1,6 +1,24 @@
-#include "scene/scene.h"
+#include "scene/sky_scale.h"
 
 #include "physics/scale.h"
+#include "scene/table.h"
+
+static double uas_of_m(const struct kd_scene *scene)
+{
+    return kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc);
+}
+
+double kd_scene_field_of_uas(const struct kd_scene *scene) { return scene->camera.field_uas / uas_of_m(scene); }
+
+void kd_scene_settle(struct kd_scene *scene, const bool *given)
+{
+    const struct kd_field *in_m = kd_field_find("camera", "field_m"), *on_sky = kd_field_find("camera", "field_uas");
+    if (given && given[in_m - kd_fields] && !given[on_sky - kd_fields])
+        scene->camera.field_uas = INFINITY;
+    const double width = kd_scene_field_of_uas(scene);
+    if (isfinite(scene->camera.field_uas) && kd_field_holds(in_m, width))
+        scene->camera.field_m = width;
+}
 
 /* Half of the field of view has its tangent at the distance 1. */
 static double width_m(const struct kd_camera *camera)
@@ -12,5 +30,5 @@ double kd_scene_width_uas(const struct kd_scene *scene)
 {
     if (!kd_scene_is_flat(scene))
         return NAN;
-    return width_m(&scene->camera) * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc);
+    return width_m(&scene->camera) * uas_of_m(scene);
 }

@@ -1,6 +1,7 @@
 #include "scene/timeline.h"
 
 #include "physics/worldline.h"
+#include "scene/sky_scale.h"
 #include "scene/table.h"
 
 #include <math.h>
@@ -109,7 +110,8 @@ static double between(const struct column *c, size_t key, double t)
 
 static bool is_distance(const struct kd_field *field)
 {
-    return !strcmp(field->section, "camera") && (!strcmp(field->name, "r") || !strcmp(field->name, "field_m"));
+    return !strcmp(field->section, "camera") &&
+           (!strcmp(field->name, "r") || !strcmp(field->name, "field_m") || !strcmp(field->name, "field_uas"));
 }
 
 static bool is_turn(const struct kd_field *field)
@@ -229,6 +231,9 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
+        if (isinf(to->scene.camera.field_uas)) /* from one unit to the other: in M */
+            out->camera.field_uas = INFINITY;
+        kd_scene_settle(out, NULL);
         proper_time = between(&clock, key, t);
     } else if (proper_time == 0 && from->aim.kind == KD_AIM_FREE) {
         return KD_OK;

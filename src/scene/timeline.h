@@ -28,7 +28,8 @@
  * much of its own time since the beginning, in M, or, if it falls, "horizon" or "end": that of the outer horizon,
  * and that of the last place a camera can be. A keyframe without it has that of the keyframe before, the first has
  * 0. It is interpolated as numbers are, but for "catmull-rom" by the monotone cubic; where it takes the observer is
- * exact. With "distances": "geometric" camera.r and camera.field_m go by equal ratios instead of equal steps. */
+ * exact. With "distances": "geometric" camera.r, camera.field_m and camera.field_uas go by equal ratios instead of
+ * equal steps. */
 #ifndef KD_SCENE_TIMELINE_H
 #define KD_SCENE_TIMELINE_H
 

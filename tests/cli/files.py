@@ -133,6 +133,7 @@ class Files(support.Case):
         scene, written = (json.loads(file.header()["kerrd:scene"]) for file in (now, before))
         self.assertEqual(scene.pop("version"), written.pop("version"))
         self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")  # fields since then, at their defaults
+        self.assertEqual(scene["camera"].pop("field_uas"), "none")
         self.assertEqual(scene.pop("source"), {"name": "none", "ra_deg": 0, "dec_deg": 0, "mjd": "none"})
         self.assertEqual(scene, written)
 
@@ -190,6 +191,22 @@ class Files(support.Case):
         header = self.opened(self.shot("d.fits", *near, "--set", "camera.projection=fulldome", layers=["r"]))[0].header
         right, up = WCS(header).pixel_to_world_values(31.5, 17.5 + 9)
         self.assertAlmostEqual(float(up), 45, places=6)
+
+    def test_a_field_in_microarcseconds(self):
+        """The picture is that of the same width in M, to the byte; the file's coordinates say it."""
+        hole = ["--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
+        on_sky = self.shot("a.fits", "--set", "camera.field_uas=200", *hole, layers=["r"])
+        header, numbers = self.opened(on_sky)[0].header, self.opened(on_sky)[0].data
+        camera = json.loads(header["KDSCENE"])["camera"]
+        self.assertAlmostEqual(header["CDELT1"] * -3.6e9 * 64, 200, places=6)
+        self.assertEqual(camera["field_uas"], 200)
+        self.assertAlmostEqual(camera["field_m"] * header["M_UAS"] / 200, 1, delta=1e-12)
+        in_m = self.opened(self.shot("b.fits", "--set", f"camera.field_m={camera['field_m']!r}", *hole, layers=["r"]))
+        self.assertEqual(numbers.tobytes(), in_m[0].data.tobytes())
+        self.assertEqual(header["CDELT1"], in_m[0].header["CDELT1"])
+        self.assertEqual(json.loads(in_m[0].header["KDSCENE"])["camera"]["field_uas"], "none")
+        again = self.good("scene", "--from", on_sky)
+        self.assertEqual(json.loads(again)["camera"], camera)
 
     def test_janskys_of_each_pixel(self):
         """They add up to the flux that is told; Stokes Q, U and V beside them have their unit, in FITS alone."""

@@ -56,6 +56,7 @@ SCENE = (
     "%s is %s, allowed is |a velocity of at most 0.999 together with the other two components",
     '%s is %s, allowed is |0 unless motion is "velocity"',
     "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of them rings alone",
+    "camera.field_uas is %s microarcseconds, allowed are %s to %s, camera.field_m %s to %s, at this spacetime.mass_msun and spacetime.distance_pc",
     "style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle",
     "style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc",
     'style.colour_bar is true, allowed is false unless style.palette is "heat" and style.tone_map "srgb": else brightness has no one colour, or no even scale',

@@ -227,6 +227,19 @@ class Sessions(daemon.Owned):
         problem = self.assertProblem(self.patch(session, {"style": {"name": "noir"}}), 422)
         self.assertEqual(problem["pointer"], "/style/name")
 
+    def test_patch_of_a_width(self):
+        """In microarcseconds it follows the hole; one in M takes its place."""
+        session = self.open({**SCENE, "camera": {"field_uas": 40}})
+        camera = lambda patch: self.patch(session, patch).json()["scene"]["camera"]
+        before = camera({"time": 1})
+        after = camera({"spacetime": {"mass_msun": 2e8}})
+        self.assertEqual((before["field_uas"], after["field_uas"]), (40, 40))
+        self.assertAlmostEqual(after["field_m"] / before["field_m"], 0.5, delta=1e-12)
+        now = camera({"camera": {"field_m": 30}})
+        self.assertEqual((now["field_m"], now["field_uas"]), (30, "none"))
+        refused = self.patch(session, {"camera": {"field_uas": 1e11}})
+        self.assertEqual((refused.status, refused.json()["pointer"]), (422, "/camera/field_uas"))
+
     def test_patch_of_a_list(self):
         """RFC 7396 puts an array in the place of the whole one; an object changes elements by their index."""
         session = self.open({**SCENE, "spots": [{"r": 10}, {"r": 11, "size": 2}]})

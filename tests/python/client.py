@@ -459,6 +459,17 @@ class Saved(Case):
         for name in "quv":
             self.assertTrue(np.allclose(given[name], ratio * frame.layers["stokes_" + name], rtol=1e-6))
 
+    def test_a_field_in_microarcseconds(self):
+        """What is changed last holds, over a scene that was told whole, too."""
+        told = self.hole.render({"camera": {"field_uas": 40}}, size=(16, 9)).scene
+        self.assertEqual(told["camera"]["field_uas"], 40)
+        again = self.hole.render(told, spacetime={"mass_msun": 2e8}).scene["camera"]
+        self.assertAlmostEqual(again["field_m"] / told["camera"]["field_m"], 0.5, delta=1e-12)
+        in_m = self.hole.render(told, camera={"field_m": 30}).scene["camera"]
+        self.assertEqual((in_m["field_m"], in_m["field_uas"]), (30, "none"))
+        both = self.hole.render(told, camera__field_m=30, camera__field_uas=20).scene["camera"]
+        self.assertEqual(both["field_uas"], 20)
+
     def test_packages_that_are_missing(self):
         scene = {
             "camera": {"projection": "auto", "r": "infinity", "field_m": 40},

@@ -3,6 +3,7 @@
 
 #include "base/pause.h"
 #include "scene/number.h"
+#include "scene/sky_scale.h"
 #include "scene/tree.h"
 
 #include <locale.h>
@@ -40,6 +41,7 @@ static void random_scenes_round_trip(void **state)
     for (int i = 0; i < 1000; i++) {
         struct kd_scene scene;
         support_scene(&scene, &seed);
+        kd_scene_settle(&scene, NULL);
         assert_round_trip(&scene);
     }
 }
@@ -298,6 +300,58 @@ static void sections_stand_in_sections(void **state)
     assert_string_equal(error.pointer, "/disk/gas");
     assert_int_equal(kd_scene_set(&scene, "disk.gas.sed", "1", &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/disk/gas/sed");
+}
+
+/* One width in two units. M is 3.8189932 uas at m87's mass and distance. */
+static void a_field_in_microarcseconds(void **state)
+{
+    (void)state;
+    struct kd_scene scene = of("{\"camera\":{\"field_uas\":200,\"field_m\":30},\"spacetime\":{\"mass_msun\":6.5e9,"
+                               "\"distance_pc\":16.8e6}}"),
+                    again, in_m;
+    struct kd_error error;
+    assert_true(scene.camera.field_uas == 200 && fabs(scene.camera.field_m / 52.3698228 - 1) < 1e-7);
+    assert_int_equal(kd_scene_validate(&scene, NULL), KD_OK);
+    assert_true(fabs(kd_scene_width_uas(&scene) / 200 - 1) < 1e-15);
+
+    /* a scene read back is the scene written, and has the width of the one that says it in M */
+    char *text = support_canonical(&scene);
+    again = of(text);
+    assert_memory_equal(&again, &scene, sizeof scene);
+    free(text);
+    in_m = scene;
+    in_m.camera.field_uas = INFINITY;
+    assert_true(in_m.camera.field_m == scene.camera.field_m);
+
+    /* it follows the hole, in whatever order they are given */
+    patched(&scene, "{\"spacetime\":{\"mass_msun\":3.25e9}}");
+    assert_true(fabs(scene.camera.field_m / 104.7396457 - 1) < 1e-7);
+    assert_int_equal(kd_scene_set(&scene, "spacetime.distance_pc", "33.6e6", &error), KD_OK);
+    assert_true(fabs(scene.camera.field_m / 209.4792913 - 1) < 1e-7 && scene.camera.field_uas == 200);
+
+    /* what is given last holds */
+    again = scene;
+    patched(&again, "{\"camera\":{\"field_m\":40}}");
+    assert_true(again.camera.field_m == 40 && isinf(again.camera.field_uas));
+    again = scene;
+    assert_int_equal(kd_scene_set(&again, "camera.field_m", "41", &error), KD_OK);
+    assert_true(again.camera.field_m == 41 && isinf(again.camera.field_uas));
+    assert_int_equal(kd_scene_set(&again, "camera.field_uas", "100", &error), KD_OK);
+    assert_true(fabs(again.camera.field_m / 104.7396457 - 1) < 1e-7);
+    patched(&again, "{\"camera\":{\"field_uas\":null}}"); /* as wide as it was */
+    assert_true(fabs(again.camera.field_m / 104.7396457 - 1) < 1e-7 && isinf(again.camera.field_uas));
+    patched(&scene, "{\"camera\":null}");
+    assert_true(scene.camera.field_m == 46 && isinf(scene.camera.field_uas));
+
+    /* out of the range of the one in M: said of the one that was given */
+    patched(&scene, "{\"camera\":{\"field_uas\":1e10}}");
+    assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/camera/field_uas");
+    assert_non_null(strstr(error.message, "camera.field_uas is 10000000000 microarcseconds, allowed are "));
+    assert_non_null(strstr(error.message, "camera.field_m 1e-6 to 10000000, at this spacetime.mass_msun"));
+    assert_int_equal(support_parse(&scene, "{\"camera\":{\"field_uas\":0}}", &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "camera.field_uas is 0, allowed are 1e-12 to 1000000000000 "
+                                          "microarcseconds, and \"none\""));
 }
 
 static void canonical_form_is_stable(void **state)
@@ -613,6 +667,7 @@ int main(void)
         cmocka_unit_test(old_names_are_read),
         cmocka_unit_test(sections_stand_in_sections),
         cmocka_unit_test(elements_are_set),
+        cmocka_unit_test(a_field_in_microarcseconds),
         cmocka_unit_test(canonical_form_is_stable),
         cmocka_unit_test(numbers_are_short),
         cmocka_unit_test(invalid_scenes_have_no_text),

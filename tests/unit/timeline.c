@@ -100,8 +100,31 @@ static void an_approach_by_ratios(void **state)
     t = made("{\"camera\":{\"field_m\":10}}", "[{\"at\":2,\"scene\":{\"camera\":{\"field_m\":40}}}]", "geometric");
     assert_true(fabs(at(&t, 1).camera.field_m - 20) < 1e-12 && isinf(at(&t, 1).camera.r));
     kd_timeline_finish(&t);
+    t = made("{\"camera\":{\"field_uas\":50}}", "[{\"at\":2,\"scene\":{\"camera\":{\"field_uas\":200}}}]", "geometric");
+    assert_true(fabs(at(&t, 1).camera.field_uas - 100) < 1e-11 &&
+                fabs(at(&t, 1).camera.field_m / at(&t, 0).camera.field_m - 2) < 1e-12);
+    kd_timeline_finish(&t);
     t = made("{\"camera\":{\"r\":1000}}", "[{\"at\":2,\"scene\":{\"camera\":{\"r\":10}}}]", NULL);
     assert_true(fabs(at(&t, 1).camera.r - 505) < 1e-10);
+    kd_timeline_finish(&t);
+}
+
+/* From one unit to the other the width goes on in M; while the hole changes it stays on the sky. */
+static void a_field_in_microarcseconds(void **state)
+{
+    (void)state;
+    struct kd_timeline t = made("{\"camera\":{\"field_uas\":50}}",
+                                "[{\"at\":2,\"scene\":{\"camera\":{\"field_m\":40}}},"
+                                "{\"at\":4,\"scene\":{\"camera\":{\"field_uas\":50}}}]",
+                                NULL);
+    const double from = at(&t, 0).camera.field_m;
+    assert_true(at(&t, 0).camera.field_uas == 50 && fabs(at(&t, 1).camera.field_m - 0.5 * (from + 40)) < 1e-12);
+    assert_true(isinf(at(&t, 1).camera.field_uas) && at(&t, 2).camera.field_m == 40);
+    assert_true(fabs(at(&t, 3).camera.field_m - 0.5 * (from + 40)) < 1e-12 && at(&t, 4).camera.field_uas == 50);
+    kd_timeline_finish(&t);
+    t = made("{\"camera\":{\"field_uas\":50},\"spacetime\":{\"mass_msun\":1e8}}",
+             "[{\"at\":2,\"scene\":{\"spacetime\":{\"mass_msun\":3e8}}}]", NULL);
+    assert_true(fabs(at(&t, 1).camera.field_m / at(&t, 0).camera.field_m - 0.5) < 1e-14);
     kd_timeline_finish(&t);
 }
 
@@ -234,9 +257,10 @@ static void curves_are_local(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(free_fall_by_proper_time), cmocka_unit_test(an_orbit_by_proper_time),
-        cmocka_unit_test(an_approach_by_ratios),    cmocka_unit_test(a_great_many_keys),
-        cmocka_unit_test(curves_are_local),         cmocka_unit_test(what_is_no_path_is_refused),
+        cmocka_unit_test(free_fall_by_proper_time),   cmocka_unit_test(an_orbit_by_proper_time),
+        cmocka_unit_test(an_approach_by_ratios),      cmocka_unit_test(a_field_in_microarcseconds),
+        cmocka_unit_test(a_great_many_keys),          cmocka_unit_test(curves_are_local),
+        cmocka_unit_test(what_is_no_path_is_refused),
     };
     return cmocka_run_group_tests_name("timeline", tests, NULL, NULL);
 }

@@ -459,6 +459,22 @@ class Lensing(Browser):
         page.wait_for_selector(AT_REST)
         self.assertEqual(wide(), 33)
 
+    def test_a_field_in_microarcseconds(self):
+        """The width in M is shown as what it comes to, and follows the mass; a wheel goes on from it."""
+        page = self.open(f"lang=en&{SMOOTH}&camera.field_uas=40")
+        self.open_groups(page)
+        scale = self.physics("scale", mass_msun=1e8, distance_pc=260000)["m_uas"]
+        wide = lambda: float(self.field(page, "camera.field_m"))
+        self.assertAlmostEqual(wide() * scale / 40, 1, delta=1e-4)
+        page.fill('[data-path="spacetime.mass_msun"] input[type=number]', "2e8")
+        page.keyboard.press("Enter")
+        self.assertTrue(daemon.eventually(lambda: abs(wide() * 2 * scale / 40 - 1) < 1e-4))
+        before = wide()
+        page.hover("#stage")
+        page.mouse.wheel(0, 200)
+        self.assertTrue(daemon.eventually(lambda: wide() > before))
+        self.assertTrue(daemon.eventually(lambda: "field_uas" not in page.evaluate("location.hash")))
+
     def test_the_scene_can_be_taken_away(self):
         page = self.open("lang=en&spacetime.spin=-0.5")
         self.open_groups(page)

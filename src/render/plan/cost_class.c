@@ -17,7 +17,9 @@ static const struct named left_out[] = {
     { "camera", "yaw_deg" },     { "camera", "pitch_deg" },
     { "camera", "roll_deg" },    { "style", "exposure" },
 };
-static const struct named roughly[] = { { "camera", "r" }, { "camera", "fov_deg" }, { "camera", "field_m" } };
+static const struct named roughly[] = {
+    { "camera", "r" }, { "camera", "fov_deg" }, { "camera", "field_m" }, { "camera", "field_uas" }
+};
 
 static bool is_among(const struct named *names, size_t n, const char *section, const char *name)
 {

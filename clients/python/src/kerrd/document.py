@@ -111,10 +111,18 @@ def tile_of(document: Document, window: Window) -> Document:
     }
 
 
+def _widths(document: Document) -> tuple[Any, Any]:
+    """One width in two units: of a scene with changes over it the one that is changed holds, as src/scene/sky_scale.h
+    of the server has it."""
+    camera = document.get("camera") or {}
+    return camera.get("field_m"), camera.get("field_uas")
+
+
 def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
     """The document of a scene with changes over it: camera={"inclination_deg": 60}, camera__inclination_deg=60, or
     **{"camera.inclination_deg": 60}; size=(640, 360), or "640x360", is image.width and image.height."""
     document: Document = plain(scene) if scene is not None else {}
+    before = _widths(document)
     for name, value in changes.items():
         new = plain(value)
         if name == "size":
@@ -124,6 +132,9 @@ def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
             _at(document, name.replace("__", "."), new)
         else:
             _merge(document, {name: new})
+    after = _widths(document)
+    if after[0] != before[0] and after[1] == before[1] and isinstance(after[1], (int, float)):
+        document["camera"]["field_uas"] = "none"
     return document
 
 

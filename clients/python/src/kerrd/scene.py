@@ -54,6 +54,8 @@ class Camera:
         radius, longitude across and latitude upwards; fulldome: the angle from the middle as the distance from it, 90 degrees at the
         nearer edges, from a finite radius; auto: plane or pinhole, whichever fits camera.r; default "auto".
     field_m: width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46.
+    field_uas: the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it comes to; none:
+        camera.field_m says it; in microarcseconds; 1e-12 to 1e+12; default "none".
     fov_deg: horizontal field of view (pinhole projection); in degrees; 1e-06 to 179; default 50.
     centre_alpha: image-plane alpha at the middle of the picture (plane); in M; -10000000 to 10000000; default 0.
     centre_beta: image-plane beta at the middle of the picture (plane); in M; -10000000 to 10000000; default 0.
@@ -82,6 +84,7 @@ class Camera:
     infall_momentum: float | None = None
     projection: Literal['auto', 'plane', 'pinhole', 'ring', 'equirectangular', 'fulldome'] | None = None
     field_m: float | None = None
+    field_uas: Literal['none'] | float | None = None
     fov_deg: float | None = None
     centre_alpha: float | None = None
     centre_beta: float | None = None
