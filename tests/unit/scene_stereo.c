@@ -81,6 +81,7 @@ static void far_away_eyes_are_euclids(void **state)
                                                 .stereo = KD_STEREO_PAIR,
                                                 .eye_distance = 3e5,
                                                 .field_m = 46,
+                                                .field_uas = INFINITY,
                                                 .ring_decades_min = -10 };
             assert_false(kd_wcs_of(&scene).known);
             compare(&scene, k == 3 ? 3e-6 : 2e-6); /* M/r, and half as much of what falls */
@@ -109,6 +110,7 @@ static void rain_sees_flat_space(void **state)
                                                 .stereo = KD_STEREO_PAIR,
                                                 .eye_distance = 0.5,
                                                 .field_m = 46,
+                                                .field_uas = INFINITY,
                                                 .ring_decades_min = -10 };
             compare(&scene, 1e-12);
         }
