@@ -605,6 +605,25 @@ static void test_audit(void **state)
     kd_frame_finish(&first);
 }
 
+/* Rays that start sideways, which constants of 32 bits would start elsewhere: the audit follows those of the picture. */
+static void test_audit_of_rays_that_start_sideways(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    scene.spacetime.spin = 0.7;
+    scene.camera.r = 5;
+    scene.camera.inclination_deg = 17;
+    scene.camera.fov_deg = 0.001;
+    scene.camera.yaw_deg = 90;
+    scene.camera.pitch_deg = 30;
+    struct kd_frame frame = rendered(&scene);
+    assert_int_equal(frame.accuracy.sampled, KD_AUDIT_RAYS);
+    assert_int_equal(frame.accuracy.crossings, KD_AUDIT_RAYS);
+    assert_int_equal(frame.accuracy.differ, 0);
+    assert_true(frame.accuracy.worst < 1e-5);
+    kd_frame_finish(&frame);
+}
+
 /* What a scene does not use is not in its plan. */
 static void test_plan(void **state)
 {
@@ -673,6 +692,7 @@ int main(void)
         cmocka_unit_test(test_asides_with_particles),
         cmocka_unit_test(test_too_big),
         cmocka_unit_test(test_audit),
+        cmocka_unit_test(test_audit_of_rays_that_start_sideways),
         cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
