@@ -605,7 +605,7 @@ static void test_audit(void **state)
     kd_frame_finish(&first);
 }
 
-/* Rays that start sideways, which constants of 32 bits would start elsewhere: the audit follows those of the picture. */
+/* Rays that start sideways: constants of 32 bits would start them elsewhere, and the audit has them in double. */
 static void test_audit_of_rays_that_start_sideways(void **state)
 {
     (void)state;
