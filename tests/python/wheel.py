@@ -101,6 +101,9 @@ class Wheels(unittest.TestCase):
         self.assertEqual(Path(there), program.resolve())
         said = subprocess.run([*found], env={**away, "KERRD": "/bin/true"}, check=True, capture_output=True, text=True)
         self.assertEqual(said.stdout.strip(), "/bin/true", "what is named comes first")
+        bad = "import kerrd\ntry: kerrd.local(args=['--nonesuch'])\nexcept kerrd.KerrdError as error: print(error)"
+        said = subprocess.run([python, "-c", bad], env=away, check=True, capture_output=True, text=True).stdout
+        self.assertRegex(said, "bin/kerrd serve .* did not start")
 
 
 class Portable(unittest.TestCase):

@@ -26,7 +26,7 @@ def _installed() -> str | None:
         return None
     for file in files:
         if file.name == "kerrd" and file.parent.name == "bin":
-            return shutil.which(Path(str(file.locate())).resolve())
+            return shutil.which(str(Path(str(file.locate())).resolve()))
     return None
 
 
