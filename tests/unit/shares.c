@@ -108,11 +108,13 @@ static void shares_are_by_client(void **state)
     assert_true(fabs(third->served - 20000) <= 2 * SLICE);
 }
 
-/* By their weights. Sources: the table in shares.h. */
+/* Of the classes. Source: the table in shares.h. */
+static const double weight[KD_N_CLASSES] = { 64, 8, 4, 4, 2, 0.1, 0.1 };
+
+/* By their weights. */
 static void classes_of_a_client(void **state)
 {
     (void)state;
-    static const double weight[KD_N_CLASSES] = { 64, 8, 4, 4, 2, 0.1, 0.1 };
     static struct bench b;
     memset(&b, 0, sizeof b);
     struct work *w[KD_N_CLASSES];
@@ -226,6 +228,27 @@ static void no_savings_and_no_debts(void **state)
     assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
 }
 
+/* Nor does a class of one client's work: whatever its weight, one that was barred catches up by 200 ms of the device. */
+static void a_class_that_was_barred(void **state)
+{
+    (void)state;
+    static struct bench b;
+    for (unsigned i = 0; i < KD_N_CLASSES; i++)
+        for (unsigned k = 0; k < KD_N_CLASSES; k++) {
+            if (i == k)
+                continue;
+            memset(&b, 0, sizeof b);
+            struct work *barred = come(&b, "one", i, 1e9), *other = come(&b, "one", k, 1e9);
+            barred->barred = true;
+            run(&b, 60000);
+            barred->barred = false;
+            const double before = other->served, waited = b.now;
+            while (other->served <= before) /* at least until it has its share again */
+                assert_non_null(turn(&b));
+            assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
+        }
+}
+
 /* One who comes and goes, each time with a new work, has no more than its share. */
 static void coming_and_going(void **state)
 {
@@ -286,6 +309,7 @@ int main(void)
         cmocka_unit_test(a_picture_beside_living_sessions),
         cmocka_unit_test(short_first),
         cmocka_unit_test(no_savings_and_no_debts),
+        cmocka_unit_test(a_class_that_was_barred),
         cmocka_unit_test(coming_and_going),
         cmocka_unit_test(more_clients_than_places),
         cmocka_unit_test(wrong_estimates),

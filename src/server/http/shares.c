@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A client that cannot be served for a while, for want of memory say, falls behind; it may make up so much of that at a
- * stretch. */
+/* A client that cannot be served for a while, for want of memory say, falls behind. It then catches up, by this much of
+ * the device's time at most; so does each of its flows. */
 #define CREDIT_MS 200.0
 
 static const double weights[] = {
@@ -70,8 +70,8 @@ void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
     claim->owner->claims--;
 }
 
-/* What counts as paid by a client that may have fallen behind the one that was served last. */
-static double standing(double paid, double now) { return fmax(paid, now - CREDIT_MS); }
+/* What counts as paid by a client or a flow that may have fallen behind the one that was served last. */
+static double standing(double paid, double now, double weight) { return fmax(paid, now - CREDIT_MS / weight); }
 
 static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *),
                                      void *user)
@@ -90,9 +90,10 @@ static struct kd_claim *next_of_client(const struct kd_share_client *client,
     double least = INFINITY;
     for (unsigned i = 0; i < KD_N_CLASSES; i++) {
         const struct kd_share_flow *flow = &client->flows[i];
-        if (!flow->claims || standing(flow->paid, client->now) >= least || !(found = next_of_flow(flow, may, user)))
+        const double paid = standing(flow->paid, client->now, weights[i]);
+        if (!flow->claims || paid >= least || !(found = next_of_flow(flow, may, user)))
             continue;
-        least = standing(flow->paid, client->now);
+        least = paid;
         best = found;
     }
     return best;
@@ -105,28 +106,29 @@ struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const stru
     double least = INFINITY;
     for (unsigned i = 0; i < KD_SHARE_CLIENTS; i++) {
         const struct kd_share_client *c = &shares->clients[i];
-        if (!c->claims || standing(c->paid, shares->now) >= least || !(found = next_of_client(c, may, user)))
+        const double paid = standing(c->paid, shares->now, 1);
+        if (!c->claims || paid >= least || !(found = next_of_client(c, may, user)))
             continue;
-        least = standing(c->paid, shares->now);
+        least = paid;
         best = found;
     }
     return best;
 }
 
 /* Makes the standing of the one that is served that of newcomers; then it pays. */
-static void pay(double *paid, double *now, double ms)
+static void pay(double *paid, double *now, double ms, double weight)
 {
-    *paid = standing(*paid, *now);
+    *paid = standing(*paid, *now, weight);
     *now = fmax(*now, *paid);
-    *paid += ms;
+    *paid += ms / weight;
 }
 
 void kd_shares_charge(struct kd_shares *shares, struct kd_claim *claim, double ms)
 {
     struct kd_share_client *c = claim->owner;
     struct kd_share_flow *flow = &c->flows[claim->class];
-    pay(&c->paid, &shares->now, ms);
-    pay(&flow->paid, &c->now, ms / weights[claim->class]);
+    pay(&c->paid, &shares->now, ms, 1);
+    pay(&flow->paid, &c->now, ms, weights[claim->class]);
     flow->now += ms / flow->claims;
     claim->paid += ms;
     claim->left_ms = fmax(claim->left_ms - ms, 0);
