@@ -25,17 +25,23 @@ struct map {
     float *planes;
 };
 
-static struct map map_of(const struct kd_scene *scene, uint32_t quantities, bool followed)
+static struct map map_with(const struct kd_scene *scene, const struct kd_needs *needs)
 {
     struct kd_capacity c;
     struct map map;
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(scene, &error));
-    const struct kd_needs needs = { .quantities = quantities, .followed = followed };
-    OK(kd_plan_one(scene, &needs, &c, &map.plan, &error)); /* of a tile without its margin */
-    assert_true(followed ? map.plan.interpolates == 0 : map.plan.interpolates > 0);
+    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* of a tile without its margin */
     map.planes = test_calloc(map.plan.planes * map.plan.rays, sizeof *map.planes);
     OK(kd_render_lens(renderer, scene, &map.plan, map.planes, NULL, &error));
+    return map;
+}
+
+static struct map map_of(const struct kd_scene *scene, uint32_t quantities, bool followed)
+{
+    const struct kd_needs needs = { .quantities = quantities, .followed = followed };
+    const struct map map = map_with(scene, &needs);
+    assert_true(followed ? map.plan.interpolates == 0 : map.plan.interpolates > 0);
     return map;
 }
 
@@ -90,17 +96,16 @@ static void compare(const struct map *a, const struct map *b, struct tally *t)
     }
 }
 
-/* Radii of both against the closed form in double, on one ray in EVERY. */
-static void judge(const struct kd_scene *scene, const struct map *a, const struct map *b, struct tally *t)
+enum { EVERY = 13, JUDGED = (RAYS + EVERY - 1) / EVERY, ORDERS = 3 };
+static struct kd_ray_crossing truth[JUDGED * ORDERS];
+static struct kd_ray_end ends[JUDGED];
+
+/* Follows one ray in EVERY by the closed form in double: `truth` and `ends`. */
+static void follow(const struct kd_scene *scene)
 {
-    enum { EVERY = 13, JUDGED = (RAYS + EVERY - 1) / EVERY, ORDERS = 3 };
     static double alpha_beta[2 * JUDGED];
     static bool outward[JUDGED];
-    static struct kd_ray_crossing truth[JUDGED * ORDERS];
-    static struct kd_ray_end ends[JUDGED];
     const struct kd_camera_exact c = kd_camera_exact(scene);
-    if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
-        return;
     for (uint32_t i = 0; i < JUDGED; i++) {
         struct kd_camera_label label;
         kd_camera_label(&c, i * EVERY % SIDE, i * EVERY / SIDE, &label);
@@ -118,6 +123,14 @@ static void judge(const struct kd_scene *scene, const struct map *a, const struc
     };
     const struct kd_ray_labels rays = { alpha_beta, outward, JUDGED };
     OK(kd_rays_closed(&params, &rays, true, truth, ends, NULL, NULL, &error));
+}
+
+/* Radii of both against the closed form. */
+static void judge(const struct kd_scene *scene, const struct map *a, const struct map *b, struct tally *t)
+{
+    if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
+        return;
+    follow(scene);
     for (uint32_t i = 0; i < JUDGED; i++) {
         const uint32_t at = i * EVERY, n = crossings(b, at);
         for (uint32_t k = 0; k < n && k < ends[i].n_crossings; k++) {
@@ -279,6 +292,52 @@ static void some_scenes_follow_every_ray(void **state)
     assert_true(plan.interpolates == 0);
 }
 
+/* What docs/accuracy.md says of a picture's tolerance: 99 of 100 crossings of the bulk are within it, all orders
+ * together, and nearly all of order 0; of order 1 most are, and the others are within four times of it. */
+static void a_tolerance_of_a_picture(void **state)
+{
+    (void)state;
+    static const struct {
+        double spin, inclination_deg;
+    } holes[] = { { 0, 20 }, { 0.9, 70 }, { -0.9, 80 }, { 0.998, 45 } };
+    static const double tolerances[] = { 1e-4, 1e-5, 1e-6, 1e-7 };
+    for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++) {
+        const double tolerance = tolerances[k];
+        size_t n[2] = { 0 }, beyond[2] = { 0 }, far = 0;
+        for (size_t h = 0; h < sizeof holes / sizeof *holes; h++) {
+            struct kd_scene scene = scene_of(holes[h].spin, INFINITY);
+            scene.camera.inclination_deg = holes[h].inclination_deg;
+            scene.image.width = scene.image.height = SIDE;
+            scene.accuracy.orders = ORDERS;
+            scene.accuracy.tolerance = tolerance;
+            const struct kd_needs needs = { .quantities = KD_LENS_W };
+            struct map map = map_with(&scene, &needs);
+            follow(&scene);
+            for (uint32_t i = 0; i < JUDGED; i++) {
+                if (ends[i].n_crossings > 2) /* next to the critical curve, where 32 bits do not hold it */
+                    continue;
+                for (uint32_t order = 0; order < ends[i].n_crossings; order++) {
+                    const double r = truth[i * ORDERS + order].r,
+                                 off = fabs(plane(&map, KD_LENS_W, order)[i * EVERY] * r - 1);
+                    if (!(r < 1e3) || r < kd_kerr_isco(scene.spacetime.spin))
+                        continue;
+                    n[order]++;
+                    beyond[order] += off > tolerance;
+                    far += order ? off > 4 * tolerance : 0;
+                }
+            }
+            test_free(map.planes);
+        }
+        print_message("tolerance %g: beyond it %zu of %zu crossings of order 0, %zu of %zu of order 1, of which %zu by "
+                      "more than four times\n",
+                      tolerance, beyond[0], n[0], beyond[1], n[1], far);
+        assert_true(n[0] > 4000 && n[1] > 100);
+        assert_true((double)(beyond[0] + beyond[1]) <= 0.01 * (double)(n[0] + n[1]));
+        assert_true((double)beyond[0] <= 0.005 * (double)n[0]);
+        assert_true((double)beyond[1] <= 0.15 * (double)n[1] && (double)far <= 0.01 * (double)n[1]);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -286,6 +345,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(tiles_are_the_bytes_of_the_whole),
         cmocka_unit_test(footprints_are_derivatives),
         cmocka_unit_test(some_scenes_follow_every_ray),
+        cmocka_unit_test(a_tolerance_of_a_picture),
     };
     cameras = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : cameras;
     seed = argc > 2 ? strtoull(argv[2], NULL, 10) : seed;
