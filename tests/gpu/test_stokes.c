@@ -350,6 +350,33 @@ static void test_mixed(void **state)
         }
 }
 
+/* How much the choice of Faraday rotation's fit changes a picture's sums: what docs/physics/polarization.md says. */
+static void test_spread_of_rotations(void **state)
+{
+    (void)state;
+    enum { SIDE = 64 };
+    static const char *const layers[] = { "intensity", "stokes_q", "stokes_u", "stokes_v" },
+                             *const fits[] = { "shcherbakov", "dexter" };
+    static const double least[] = { 0, 0.0005, 0.015, 0.015 }, most[] = { 1e-4, 0.002, 0.03, 0.03 };
+    double sums[2][4] = { { 0 } };
+    for (int fit = 0; fit < 2; fit++) {
+        struct kd_scene scene = scene_of("{}", SIDE, SIDE);
+        OK(kd_scene_set(&scene, "polarization.rotation", fits[fit], &error));
+        struct kd_frame frame = rendered(&scene);
+        for (int k = 0; k < 4; k++)
+            for (int p = 0; p < SIDE * SIDE; p++)
+                sums[fit][k] += layer_of(&frame, layers[k])[p];
+        kd_frame_finish(&frame);
+    }
+    for (int k = 0; k < 4; k++) {
+        const double change = fabs(sums[1][k] / sums[0][k] - 1);
+        printf("%s: %.3g with shcherbakov's rotation, with dexter's %+.3f %%\n", layers[k], sums[0][k],
+               100 * (sums[1][k] / sums[0][k] - 1));
+        if (!(change >= least[k] && change <= most[k]))
+            fail_msg("%s changes by %.3g, told are %g to %g", layers[k], change, least[k], most[k]);
+    }
+}
+
 /* The energies of a kappa distribution, n(gamma), but for a factor; and what one electron's light of I and Q (K. C.
  * Westfold 1959) and of V (M. P. C. Legg & K. C. Westfold 1968) is by its energy. */
 static double kappa_number(double kappa, double w, double g)
@@ -466,7 +493,7 @@ static void test_published(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_spread_of_rotations), cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays),
                                         cmocka_unit_test(test_adversarial), cmocka_unit_test(test_mixed),
                                         cmocka_unit_test(test_published) };
     int skip = open_renderer();
