@@ -53,6 +53,16 @@ class Particles(Case):
         for (phi, rate), (later, _) in zip(start, then):
             self.assertAlmostEqual(math.remainder(later - phi - 7 * rate, 2 * math.pi), 0, delta=2e-6)
 
+    def test_lists_reach_beyond_the_edges_of_the_disk(self):
+        """Guiding orbits reach beyond both edges by the share disk.epicycles, and particles swing by as much."""
+        swing = 0.1
+        disk = ["disk.inner=10", "disk.outer=14", f"disk.epicycles={swing}", "disk.plunging=0"]
+        options = [word for each in disk for word in ("--set", each)]
+        _, rows, _ = read(self.good("particles", *SCENE, *options, "--fields", "r", "-o", "-"))
+        radii = [r for (r,) in rows]
+        self.assertTrue(14 < max(radii) <= 14 * (1 + swing) ** 2, max(radii))
+        self.assertTrue(10 > min(radii) >= 10 * (1 - swing) ** 2, min(radii))
+
     def test_refused(self):
         self.bad(
             2,

@@ -240,6 +240,38 @@ static void test_turning(void **state)
     kd_frame_finish(&against);
 }
 
+/* Particles swing across the edges of the disk; the picture shows those between them. From above, without spin,
+ * the direct image of a circle of r has b^2 = r^2 + 2r to a percent (A. M. Beloborodov 2002, at 90 degrees). */
+static void test_edges(void **state)
+{
+    (void)state;
+    struct kd_scene scene = particle_scene(0, 0);
+    scene.image.height = scene.image.width;
+    scene.camera.inclination_deg = 0;
+    scene.camera.field_m = 50;
+    scene.disk.inner = 12;
+    scene.disk.outer = 18;
+    scene.disk.taper = 0;
+    scene.disk.epicycles = 0.2;
+    scene.accuracy.orders = 1;
+    scene.style.exposure = 0;
+    struct kd_frame frame = rendered(&scene);
+    const double pixel = scene.camera.field_m / scene.image.width, middle = scene.image.width / 2.0;
+    unsigned lit = 0, outside = 0, within = 0;
+    for (int y = 0; y < scene.image.height; y++)
+        for (int x = 0; x < scene.image.width; x++) {
+            const double b = pixel * hypot(x + 0.5 - middle, y + 0.5 - middle);
+            const uint8_t *rgb = (uint8_t *)kd_frame_pixels(&frame) + 3 * (y * scene.image.width + x);
+            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* more than dither */
+            lit += light && b > 14 && b < 18;
+            outside += light && b > sqrt(18 * 18 + 2 * 18) + 1;
+            within += light && b < sqrt(12 * 12 + 2 * 12) - 1;
+        }
+    printf("%u pixels are lit between the edges, %u beyond, %u inside\n", lit, outside, within);
+    assert_true(lit > 1000 && outside == 0 && within == 0);
+    kd_frame_finish(&frame);
+}
+
 /* Light that takes D to arrive shows the disk of D ago: a pixel of slow light is that of a fast-light picture at t -
  * D, D being the delay of its ray, for an observer at infinity and a near one. Not to the last step, for a grid
  * turned by a part of a cell is blurred another way. */
@@ -297,7 +329,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase),   cmocka_unit_test(test_periods),
                                         cmocka_unit_test(test_frames),  cmocka_unit_test(test_lists_between_frames),
-                                        cmocka_unit_test(test_turning), cmocka_unit_test(test_slow_light) };
+                                        cmocka_unit_test(test_edges), cmocka_unit_test(test_turning), cmocka_unit_test(test_slow_light) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
