@@ -58,6 +58,10 @@ class Server:
             own.close()
         return answer, data
 
+    def metric(self, name):
+        text = self.ask("127.0.0.1", "GET", "/metrics")[1].decode()
+        return float(re.search(rf"^{name}(?:{{[^}}]*}})? (\S+)", text, re.MULTILINE)[1])
+
     def stop(self):
         self.process.kill()
         self.process.wait()

@@ -11,6 +11,7 @@ import select
 import statistics
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
@@ -66,6 +67,35 @@ class Fair(unittest.TestCase):
         self.assertGreater(
             sum(n for name, n in beside["load"].items() if name.endswith(": 200")), 10, "the loads were there"
         )
+
+
+class Pixel(unittest.TestCase):
+    def test_a_pixel_beside_a_long_picture_of_the_same_client(self):
+        """It waits for the slice that is under way: some 150 ms where nothing else runs, ten times that at most."""
+        server = fairness.Server(daemon.COMMAND[0])
+        self.addCleanup(server.stop)
+        size, source = (640, 360), "127.0.0.1"
+        fairness.warm(server, size)
+
+        def ask(k):
+            begun = time.monotonic()
+            answer, text = server.ask(
+                source, "GET", f"/v1/pixel?at={100 + k},{150 + k}&image.width={size[0]}&image.height={size[1]}"
+            )
+            self.assertEqual(answer.status, 200, text)
+            return 1e3 * (time.monotonic() - begun)
+
+        ask(99)  # its kernels
+        alone = [ask(k) for k in range(5)]
+        load = fairness.Load(server, source)
+        self.addCleanup(load.end)
+        fairness.large(load)
+        while not int(server.metric("kerrd_renders_unfinished")):
+            time.sleep(0.05)
+        beside = [ask(k) for k in range(9)]
+        print("alone", alone, "beside", beside, load.counts)
+        self.assertLess(statistics.median(beside), max(1500, 30 * statistics.median(alone)))
+        self.assertFalse(load.counts, "the picture is under way")
 
 
 class NewKernels(unittest.TestCase):
