@@ -327,9 +327,10 @@ static void test_slow_light(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase),   cmocka_unit_test(test_periods),
-                                        cmocka_unit_test(test_frames),  cmocka_unit_test(test_lists_between_frames),
-                                        cmocka_unit_test(test_edges), cmocka_unit_test(test_turning), cmocka_unit_test(test_slow_light) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase),     cmocka_unit_test(test_periods),
+                                        cmocka_unit_test(test_frames),    cmocka_unit_test(test_lists_between_frames),
+                                        cmocka_unit_test(test_edges),     cmocka_unit_test(test_turning),
+                                        cmocka_unit_test(test_slow_light) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -355,8 +355,9 @@ static void test_spread_of_rotations(void **state)
 {
     (void)state;
     enum { SIDE = 64 };
-    static const char *const layers[] = { "intensity", "stokes_q", "stokes_u", "stokes_v" },
-                             *const fits[] = { "shcherbakov", "dexter" };
+    static const char *const layers[] = { "intensity", "stokes_q", "stokes_u", "stokes_v" }, *const fits[] = {
+        "shcherbakov", "dexter"
+    };
     static const double least[] = { 0, 0.0005, 0.015, 0.015 }, most[] = { 1e-4, 0.002, 0.03, 0.03 };
     double sums[2][4] = { { 0 } };
     for (int fit = 0; fit < 2; fit++) {
@@ -493,9 +494,10 @@ static void test_published(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_spread_of_rotations), cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays),
-                                        cmocka_unit_test(test_adversarial), cmocka_unit_test(test_mixed),
-                                        cmocka_unit_test(test_published) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_spread_of_rotations), cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays),
+        cmocka_unit_test(test_adversarial),         cmocka_unit_test(test_mixed),      cmocka_unit_test(test_published)
+    };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
