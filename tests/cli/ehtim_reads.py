@@ -10,6 +10,7 @@ import sys
 import support
 
 PYTHON = pathlib.Path(__file__).resolve().parents[2] / "venv-ehtim/bin/python"
+NUMBERS = pathlib.Path(__file__).with_name("ehtim_numbers.json")
 M_UAS = 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16) * math.degrees(1) * 3.6e9  # G m_sun/c^2 = 1476.625 m
 READER = """
 import json, sys
@@ -130,10 +131,10 @@ angles = [float(numpy.angle(q.sum() + 1j * u.sum()) / 2) for q, u in (theirs[1:3
 print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles": angles,
                   "fraction": float(abs(image.lin_polfrac())), "rate": image.rf / fits.getheader(sys.argv[1])["FREQ"]}))
 """
-        layers = "image.layers=jy_per_pixel,stokes_q,stokes_u,stokes_v,intensity"
-        scene = ["-p", "riaf", "--size", "64x64", "--set", "polarization.model=transfer", "--set", layers]
-        for end in ("fits", "npz"):
-            self.good("render", *scene, "-o", self.path("a." + end))
+        scene = ["-p", "riaf", "--size", "64x64", "--set", "polarization.model=transfer"]
+        self.good("render", *scene, "-o", self.path("a.fits"))  # without image.layers: as it comes
+        layers = "image.layers=stokes_q,stokes_u,stokes_v,intensity"
+        self.good("render", *scene, "--set", layers, "-o", self.path("a.npz"))
         done = subprocess.run(
             [PYTHON, "-I", "-c", code, self.path("a.fits"), self.path("a.npz")],
             capture_output=True,
@@ -147,6 +148,27 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         self.assertAlmostEqual(*found["angles"], delta=1e-4)
         self.assertGreater(found["fraction"], 0)
         self.assertEqual(found["rate"], 1)
+
+    def test_numbers_that_are_compared_where_ehtim_is_not(self):
+        """tests/cli/files.py compares them: flux, polarisation, and where the light's middle is, east to the left."""
+        code = """
+import json, sys
+import ehtim
+image = ehtim.image.load_fits(sys.argv[1])
+x, y = image.centroid() / ehtim.RADPERUAS
+print(json.dumps({"flux_jy": float(image.total_flux()), "linear": float(abs(image.lin_polfrac())), "circular": float(image.circ_polfrac()),
+                  "evpa_rad": float(image.evpa()), "east_uas": float(x), "north_uas": float(y)}))
+"""
+        fixture = json.loads(NUMBERS.read_text())
+        self.good("render", *fixture["scene"], "-o", self.path("a.fits"))
+        done = subprocess.run(
+            [PYTHON, "-I", "-c", code, self.path("a.fits")], capture_output=True, text=True, timeout=200
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout.splitlines()[-1])
+        print(json.dumps(found))
+        for name, value in fixture["ehtim"].items():
+            self.assertAlmostEqual(found[name] / value, 1, delta=1e-5, msg=name)
 
     def test_the_python_client(self):
         """kerrd.to_ehtim has what ehtim reads of the file of the same picture."""

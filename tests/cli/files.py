@@ -243,6 +243,51 @@ class Files(support.Case):
             "image.layers=jy_per_pixel",
         )
 
+    def test_a_radio_source_begins_with_janskys(self):
+        """Without image.layers, so that ehtim reads a preset's file as it is; whoever names layers has those."""
+        hot = ["render", "-p", "riaf", "--size", "24x20"]
+        polarised = ["--set", "polarization.model=transfer"]
+        jansky, stokes = "jy_per_pixel", ["stokes_q", "stokes_u", "stokes_v"]
+        for more, names in (
+            ([], [jansky]),
+            (polarised, [jansky, *stokes]),
+            (["--set", "image.layers=rgb,specific_intensity"], ["rgb", "specific_intensity"]),
+            (["--set", "camera.r=1000", "--set", "camera.fov_deg=2"], ["rgb"]),
+            (["--set", "sky.model=grid"], ["rgb"]),
+        ):
+            self.good(*hot, *more, "-o", self.path("a.fits"))
+            units = self.opened(self.path("a.fits"))
+            self.assertEqual([unit.header["EXTNAME"] for unit in units], names)
+            self.assertEqual(json.loads(units[0].header["KDSCENE"])["image"]["layers"], names)
+            for unit in units if names[0] == jansky else ():
+                self.assertEqual(unit.header["BUNIT"], "JY/PIXEL")
+        self.good(*hot, *polarised, "-o", self.path("a.fits"))
+        named = ",".join([jansky, *stokes])
+        self.good(*hot, *polarised, "--set", "image.layers=" + named, "-o", self.path("b.fits"))
+        self.assertEqual(self.read("a.fits"), self.read("b.fits"))
+
+    def test_ehtim_would_say_the_same(self):
+        """By hand from the arrays, beside the numbers that ehtim told of the same picture: their sums, the direction
+        of their polarisation, north over east, and the middle of the light from that of the picture."""
+        fixture = json.loads(pathlib.Path(__file__).with_name("ehtim_numbers.json").read_text())
+        self.good("render", *fixture["scene"], "-o", self.path("a.fits"))
+        units = self.opened(self.path("a.fits"))
+        header, arrays = units[0].header, [unit.data.astype(float) for unit in units]
+        light, q, u, v = (array.sum() for array in arrays)
+        height, width = arrays[0].shape
+        east = (numpy.arange(width) - (width - 1) / 2) * header["CDELT1"] * 3.6e9
+        north = (numpy.arange(height) - (height - 1) / 2) * header["CDELT2"] * 3.6e9
+        ours = {
+            "flux_jy": light,
+            "linear": math.hypot(q, u) / light,
+            "circular": v / light,
+            "evpa_rad": math.atan2(u, q) / 2,
+            "east_uas": (arrays[0].sum(0) * east).sum() / light,
+            "north_uas": (arrays[0].sum(1) * north).sum() / light,
+        }
+        for name, value in fixture["ehtim"].items():
+            self.assertAlmostEqual(ours[name] / value, 1, delta=1e-4, msg=name)
+
     def test_the_day(self):
         """Of a source that a scene names by hand, with the fraction of a day; astropy reads the same day of both."""
         day = ["source.ra_deg=10.5", "source.dec_deg=-3.25", "source.mjd=57854.25"]

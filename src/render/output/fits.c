@@ -54,6 +54,25 @@ static bool has(const struct kd_scene *scene, int kind)
     return false;
 }
 
+/* Of a radio source whose picture alone is asked for, the file holds the flux of each pixel instead, and Stokes Q, U
+ * and V where its light is polarised. Programs of radio astronomy take the primary array to be the former (ehtim, CASA,
+ * DS9), and ehtim 1.3.2 reads no file in which any array is a picture of three colours. */
+static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_words *layers = &scene->image.layers;
+    const int polarised = scene->polarization.model == KD_POLARIZATION_NONE       ? 0
+                          : scene->polarization.model == KD_POLARIZATION_TRANSFER ? 3
+                                                                                  : 2;
+    static const int stokes[] = { KD_LAYER_stokes_q, KD_LAYER_stokes_u, KD_LAYER_stokes_v };
+    (void)error;
+    if (layers->count != 1 || layers->at[0].word != KD_LAYER_rgb || !kd_layers_have_flux(scene))
+        return KD_OK;
+    layers->at[0].word = KD_LAYER_jy_per_pixel;
+    for (int i = 0; i < polarised; i++)
+        layers->at[layers->count++] = (struct kd_numbered_word) { (int16_t)stokes[i], -1 };
+    return KD_OK;
+}
+
 /* Stokes Q, U and V beside the layer jy_per_pixel are in its unit: programs that read both take them to be. Sets *out
  * to numbers that the caller frees, or to NULL where they stay as they are. */
 static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
@@ -127,6 +146,7 @@ const struct kd_format kd_format_fits = {
     .media_type = "application/fits",
     .magic = "SIMPLE  =",
     .carries = KD_CARRIES_LAYERS,
+    .draws = draws,
     .encode = encode,
     .scene = scene_in,
 };

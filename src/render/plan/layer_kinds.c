@@ -74,6 +74,12 @@ uint32_t kd_layers_needs(const struct kd_scene *scene)
     return needs;
 }
 
+bool kd_layers_have_flux(const struct kd_scene *scene)
+{
+    return kd_scene_is_radio_alone(scene) && !isfinite(scene->camera.r) &&
+           scene->camera.projection != KD_PROJECTION_RING && scene->camera.stereo == KD_STEREO_NONE;
+}
+
 static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_layer layer, struct kd_error *error)
 {
     char name[KD_LAYER_NAME];
@@ -110,9 +116,7 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
                               "volume.model \"gold\", \"riaf\", \"torus\" or \"grid\", "
                               "disk.model and sky.model \"none\", no jets, spots or bodies",
                               name);
-    if (layer.kind == KD_LAYER_jy_per_pixel &&
-        (isfinite(scene->camera.r) || scene->camera.projection == KD_PROJECTION_RING ||
-         scene->camera.stereo != KD_STEREO_NONE))
+    if (layer.kind == KD_LAYER_jy_per_pixel && !kd_layers_have_flux(scene))
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s, which must be of one picture from camera.r \"infinity\", not in "
                               "the projection \"ring\": there each pixel is the same part of the sky. "

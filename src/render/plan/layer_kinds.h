@@ -45,6 +45,9 @@ struct kd_plan_layer { int16_t kind, order; };
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
 /* What the lens map must hold for all of them: KD_LENS_... */
 uint32_t kd_layers_needs(const struct kd_scene *scene);
+/* Whether jy_per_pixel is known: nothing but a volume at a radio frequency shines, and each pixel is the same part of
+ * the sky. */
+bool kd_layers_have_flux(const struct kd_scene *scene);
 /* KD_EINVAL at a field for what cannot be: a layer of the disk's where there is none, of a place that the projection
  * does not know, of an order that is not followed; ends of a scale that are none. */
 enum kd_status kd_layers_check(const struct kd_scene *scene, struct kd_error *error);
