@@ -110,21 +110,30 @@ class Documents(unittest.TestCase):
             )
             self.assertEqual(done.returncode, 0, f"{name}:\n{block}\n{done.stderr.decode()}\n{done.stdout[-2000:]}")
 
+    def made(self, name, count, *files):
+        """And the commands make these files."""
+        for file in files:
+            pathlib.Path(self.folder.name, file).unlink(missing_ok=True)
+        self.run_all(name, count)
+        for file in files:
+            self.assertTrue(pathlib.Path(self.folder.name, file).stat().st_size, file)
+
     def test_every_document_with_commands_is_here(self):
         """And what is left out is still shown somewhere."""
         documents = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
         shown = {document.relative_to(ROOT).as_posix(): list(blocks(document.read_text())) for document in documents}
         run = {name for name, found in shown.items() if any(commands(block) for block in found)}
-        self.assertEqual(run, set(re.findall(r'self.run_all\("([^"]+)"', pathlib.Path(__file__).read_text())))
+        self.assertEqual(run, set(re.findall(r'self\.(?:run_all|made)\("([^"]+)"', pathlib.Path(__file__).read_text())))
         lines = [line for found in shown.values() for block in found for line in block.splitlines()]
         self.assertEqual(
             [begin for begin in (*LEFT_OUT, *BEGUN) if not any(line.startswith(begin) for line in lines)], []
         )
 
     def test_readme(self):
-        self.run_all("README.md", 6)
-        for name in "hole.png", "tilted.png", "fast.png", "maps.fits", "flare.csv":
-            self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
+        self.made("README.md", 4, "hole.png", "tilted.png", "fast.png", "maps.fits")
+
+    def test_command_line(self):
+        self.made("docs/command-line.md", 1, "hole.png", "tilted.png", "fast.png", "maps.fits", "flow.png", "flare.csv")
 
     def test_statuses(self):
         problems = set(re.findall(r"^    X\(\w+, (\d+),", ROOT.joinpath("src/server/http/problem.h").read_text(), re.M))
@@ -176,9 +185,7 @@ class Documents(unittest.TestCase):
         self.run_all("docs/jobs.md", 3)
 
     def test_films(self):
-        self.run_all("docs/films.md", 1)
-        for name in "turn.zip", "blurred.zip", "frames/000011.png":
-            self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
+        self.made("docs/films.md", 1, "turn.zip", "blurred.zip", "frames/000011.png")
 
     def test_sweeps(self):
         self.run_all("docs/sweeps.md", 3)

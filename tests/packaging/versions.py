@@ -15,6 +15,7 @@ import daemon
 PLACES = (
     "meson.build",
     "clients/python/pyproject.toml",
+    "CITATION.cff",
     "packaging/kubernetes/kerrd.yaml",
     "packaging/kubernetes/dask.yaml",
     "docs/scale.md",
