@@ -77,6 +77,9 @@ class Release(unittest.TestCase):
         done = self.run_it("--only", "wheels")
         self.assertEqual(done.returncode, 1)
         self.assertIn("wheels need the program for x86_64 and aarch64: the part portable makes it", done.stderr)
+        done = self.run_it("--only", "lock")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the lock names the wheels: the part wheels makes them", done.stderr)
         news = self.tree / "NEWS"
         text = news.read_text()
         self.addCleanup(news.write_text, text)
