@@ -138,6 +138,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .listen = listen,
         .port = (uint16_t)kd_settings_number(settings, KD_SERVE_PORT),
         .base_path = base_path,
+        .public_url = kd_settings_text(settings, KD_SERVE_PUBLIC_URL),
         .hosts = kd_settings_list(settings, KD_SERVE_HOST),
         .cors_origins = kd_settings_list(settings, KD_SERVE_CORS_ORIGIN),
         .queue = kd_settings_number(settings, KD_SERVE_QUEUE),

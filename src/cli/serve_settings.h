@@ -17,6 +17,10 @@
       "what stands before every path, as a proxy passes it on, like /some/prefix (default: nothing)") \
     S(HOST, "host", 'H', "NAME", LIST, 0, 0, NULL, ANYWHERE, \
       "answer requests for this host name too; may be repeated") \
+    S(PUBLIC_URL, "public-url", 'u', "URL", TEXT, 0, 0, NULL, ANYWHERE, \
+      "by which others reach the page, like https://example.org/black-holes: links and pictures that other sites " \
+      "show " \
+      "have it, and its host is answered as that of --host is (default: by the Host of a request)") \
     GROUP("Who may use it:") \
     S(TOKEN_FILE, "token-file", 'T', "FILE", TEXT, 0, 0, NULL, ANYWHERE, \
       "take requests with a token of this file alone; a line is NAME ROLE TOKEN, the role view or render") \

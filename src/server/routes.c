@@ -10,6 +10,10 @@ const struct kd_route kd_routes[] = {
       .status = { 200, 304 } },
     { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots",
       .status = { 200, 304 } },
+    { "/s/{code}", KD_GET, kd_handle_shared, "text/html; charset=utf-8",
+      "A shared scene: what other sites show of a link to it, and the way to the page with it", KD_TAKES_LINK },
+    { "/oembed", KD_GET, kd_handle_oembed, JSON,
+      "What a site shows in the place of a link to a shared scene (oEmbed)" },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives", .open = true },
     { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down", .open = true },
     { "/metrics", KD_GET, kd_handle_metrics, "text/plain; version=0.0.4; charset=utf-8",
@@ -136,6 +140,10 @@ const struct kd_route kd_routes[] = {
       "What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it "
       "ends and why; with trace=steps the engine's steps along it",
       KD_TAKES_SCENE, .status = { 200, 304 }, .own = { "at", "trace" }, .question = true },
+    { "/v1/share", KD_GET | KD_POST, kd_handle_share, JSON, "A short address of a scene, for others", KD_TAKES_SCENE,
+      .question = true },
+    { "/v1/share/{code}/picture.png", KD_GET, kd_handle_shared_picture, "image/png",
+      "The picture of a shared scene, 1200 by 630 pixels", KD_TAKES_LINK, .status = { 200, 304 } },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, NULL, "The picture of a scene", KD_TAKES_SCENE,
       .gives = KD_GIVES_PICTURE, .status = { 200, 304 }, .question = true },
 };

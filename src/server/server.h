@@ -14,6 +14,7 @@ struct kd_server_params {
     uint16_t port;      /* 0: any free port */
     const char
         *base_path; /* what stands before every path, as a proxy passes it on: "/some/prefix"; NULL or "": nothing */
+    const char *public_url;   /* by which others reach the page (http/public_url.h); NULL: by the Host of a request */
     const char *const *hosts; /* Host names to accept besides loopback's, without port; NULL-terminated */
     unsigned queue;           /* renders that may wait, default 16 */
     unsigned sessions;        /* live ones at once, default 16 */

@@ -1,5 +1,6 @@
 /* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers
- * of struct kd_server_params by name, --listen, --host and --cors-origin (once each), --token-file and --device. */
+ * of struct kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file and
+ * --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -54,6 +55,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->listen = value, 1;
     if (!strcmp(name, "--base-path"))
         return params->base_path = value, 1;
+    if (!strcmp(name, "--public-url"))
+        return params->public_url = value, 1;
     if (!strcmp(name, "--token-file"))
         return params->token_file = value, 1;
     if (!strcmp(name, "--state"))

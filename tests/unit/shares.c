@@ -228,7 +228,8 @@ static void no_savings_and_no_debts(void **state)
     assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
 }
 
-/* Nor does a class of one client's work: whatever its weight, one that was barred catches up by 200 ms of the device. */
+/* Nor does a class of one client's work: whatever its weight, one that was barred catches up by 200 ms of the device.
+ */
 static void a_class_that_was_barred(void **state)
 {
     (void)state;
