@@ -244,7 +244,12 @@ class Share(Case):
             self.assertEqual((told["width"], told["height"]), size)
             got = self.get(told["url"].removeprefix(self.origin))
             self.assertEqual(size_of(got.body), size)
-        for query, pointer in (("&maxwidth=9", None), ("&maxheight=x", None), ("&format=xml", "/format"), ("&x=1", "/x")):
+        for query, pointer in (
+            ("&maxwidth=9", None),
+            ("&maxheight=x", None),
+            ("&format=xml", "/format"),
+            ("&x=1", "/x"),
+        ):
             problem = self.assertProblem(self.get(f"/oembed?url={url}{query}"), 422, "invalid-parameters")
             self.assertEqual(problem.get("pointer"), pointer)
         self.assertEqual(self.assertProblem(self.get("/oembed"), 422)["pointer"], "/url")
@@ -297,7 +302,8 @@ class Closed(daemon.Case):
             self.assertProblem(self.daemon.get(target), 401, "unauthorized")
         answer = self.daemon.get(f"/v1/share/{code}/picture.png", Authorization="Bearer " + access.VIEW)
         self.assertEqual((answer.status, answer.header("Cache-Control")), (200, "private, no-cache"))
-        self.assertEqual(self.daemon.post("/v1/share", {}, Authorization="Bearer " + access.VIEW).status, 200)
+        told = self.daemon.post("/v1/share?preset=jet", {"time": 7}, Authorization="Bearer " + access.VIEW)
+        self.assertEqual(told.json()["url"], "../#preset=jet&time=7", "the page asks for a token")
 
 
 class Option(unittest.TestCase):

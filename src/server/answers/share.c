@@ -24,8 +24,7 @@ static enum kd_status tell_preset(const char *name, struct kd_shared *out)
         i++;
     const bool known = name && kd_scene_preset_name(i);
     enum kd_status status = kd_buffer_printf(&out->title, "%s", known ? kd_scene_preset_label(i) : PLAIN_TITLE);
-    return status ? status
-                  : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
+    return status ? status : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
 }
 
 /* target: the link, taken apart. */
@@ -98,24 +97,43 @@ void kd_shared_finish(struct kd_shared *shared)
         kd_buffer_finish(all[i]);
 }
 
-/* Relative to the request's own, as each Location is, unless the server knows by which address it is reached. */
+enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out)
+{
+    const char *text = (const char *)shared->link.data;
+    const char *plain = strncmp(text, "preset=", strlen("preset=")) ? "preset=default" : "";
+    return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
+}
+
+/* The address to send on. Relative to the request's own, as each Location is, unless the server knows by which
+ * address it is reached. Of a server with access tokens it is the page's own, which asks for one. */
+static enum kd_status add_url(const struct kd_request *request, const struct kd_shared *shared, struct kd_json *json)
+{
+    struct kd_buffer url = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&url, "%s/", request->server->public_url ? request->server->public_url : ".."));
+    if (request->server->access) {
+        KD_TRY(kd_buffer_printf(&url, "#"));
+        KD_TRY(kd_shared_fragment(shared, &url));
+    } else {
+        KD_TRY(kd_buffer_printf(&url, "s/%s", (const char *)shared->code.data));
+    }
+    kd_json_string(json, "url", (const char *)url.data);
+done:
+    kd_buffer_finish(&url);
+    return status;
+}
+
 static enum kd_status share_json(const struct kd_request *request, const struct kd_shared *shared,
                                  struct kd_buffer *out)
 {
-    struct kd_buffer relative = { 0 };
-    enum kd_status status = kd_buffer_printf(&relative, "../s/%s", (const char *)shared->code.data);
     struct kd_json json = kd_json_begin(out);
-    const struct kd_buffer *url = request->server->public_url ? &shared->address : &relative;
-    if (!status) {
-        kd_json_object(&json, NULL);
-        kd_json_string(&json, "url", (const char *)url->data);
-        kd_json_string(&json, "title", (const char *)shared->title.data);
-        kd_json_string(&json, "about", (const char *)shared->about.data);
-        kd_json_end(&json);
-        status = kd_json_finish_line(&json);
-    }
-    kd_buffer_finish(&relative);
-    return status;
+    kd_json_object(&json, NULL);
+    enum kd_status status = add_url(request, shared, &json);
+    kd_json_string(&json, "code", (const char *)shared->code.data);
+    kd_json_string(&json, "title", (const char *)shared->title.data);
+    kd_json_string(&json, "about", (const char *)shared->about.data);
+    kd_json_end(&json);
+    return status ? status : kd_json_finish_line(&json);
 }
 
 enum MHD_Result kd_handle_share(struct kd_request *request)
@@ -128,9 +146,8 @@ enum MHD_Result kd_handle_share(struct kd_request *request)
     if (!kd_scene_of_request(request, &scene, &problem, &error))
         return kd_reply_problem(request, &problem);
     enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
-    enum MHD_Result result =
-        status ? kd_reply_error(request, &error)
-               : kd_reply_json(request, share_json(request, &shared, &body), &body, JSON_TYPE);
+    enum MHD_Result result = status ? kd_reply_error(request, &error)
+                                    : kd_reply_json(request, share_json(request, &shared, &body), &body, JSON_TYPE);
     kd_shared_finish(&shared);
     return result;
 }
@@ -195,8 +212,7 @@ static enum kd_status oembed_json(const struct kd_shared *shared, int32_t width,
 static enum MHD_Result refuse(struct kd_request *request, enum kd_problem_type type, const char *detail,
                               const char *pointer)
 {
-    return kd_reply_problem(request,
-                            &(struct kd_problem) { .type = type, .detail = detail, .pointer = pointer });
+    return kd_reply_problem(request, &(struct kd_problem) { .type = type, .detail = detail, .pointer = pointer });
 }
 
 static enum MHD_Result tell_oembed(struct kd_request *request, const char *code, int32_t width)
@@ -209,9 +225,8 @@ static enum MHD_Result tell_oembed(struct kd_request *request, const char *code,
     if (!kd_shared_read(code, &scene, &problem, &error))
         return refuse(request, KD_PROBLEM_NOT_FOUND, error.message, NULL);
     enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
-    enum MHD_Result result = status
-                                 ? kd_reply_error(request, &error)
-                                 : kd_reply_json(request, oembed_json(&shared, width, &body), &body, JSON_TYPE);
+    enum MHD_Result result = status ? kd_reply_error(request, &error)
+                                    : kd_reply_json(request, oembed_json(&shared, width, &body), &body, JSON_TYPE);
     kd_shared_finish(&shared);
     return result;
 }
@@ -233,9 +248,9 @@ enum MHD_Result kd_handle_oembed(struct kd_request *request)
     if (!width_of(request, &width, &error))
         return refuse(request, KD_PROBLEM_INVALID_PARAMETERS, error.message, NULL);
     char *code = code_in(request, url);
-    enum MHD_Result result = code ? tell_oembed(request, code, width)
-                                  : refuse(request, KD_PROBLEM_NOT_FOUND,
-                                           "url must be the address of a shared scene of this server", NULL);
+    enum MHD_Result result =
+        code ? tell_oembed(request, code, width)
+             : refuse(request, KD_PROBLEM_NOT_FOUND, "url must be the address of a shared scene of this server", NULL);
     free(code);
     return result;
 }

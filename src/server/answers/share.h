@@ -17,6 +17,8 @@ struct kd_shared {
 /* Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. Whatever the result, finish it. */
 enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_scene *scene, struct kd_shared *out,
                               struct kd_error *error);
+/* Appends what the page's address has behind its #: without a preset it would be the first view. */
+enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);
 void kd_shared_finish(struct kd_shared *shared);
 
 #endif

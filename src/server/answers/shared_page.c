@@ -13,7 +13,10 @@
 /* Text as an attribute's value or an element's content. */
 static enum kd_status escape(const struct kd_buffer *text, struct kd_buffer *out)
 {
-    static const struct { char character; const char *reference; } table[] = {
+    static const struct {
+        char character;
+        const char *reference;
+    } table[] = {
         { '&', "&amp;" }, { '<', "&lt;" }, { '>', "&gt;" }, { '"', "&quot;" }, { '\'', "&#39;" },
     };
     enum kd_status status = KD_OK;
@@ -36,14 +39,6 @@ static enum kd_status as_value(const struct kd_buffer *text, struct kd_buffer *o
                      ? kd_buffer_append(out, &text->data[i], 1)
                      : kd_buffer_printf(out, "%%%02X", text->data[i]);
     return status ? status : kd_buffer_printf(out, "%s", "");
-}
-
-/* What a page's address has behind its #: without a preset it is the first view, unless it names the default scene. */
-static enum kd_status fragment(const struct kd_buffer *link, struct kd_buffer *out)
-{
-    const char *text = link->data ? (const char *)link->data : "";
-    const char *plain = strncmp(text, "preset=", strlen("preset=")) ? "preset=default" : "";
-    return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
 }
 
 enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, TEXTS };
@@ -82,11 +77,16 @@ static enum kd_status make_page(const struct kd_shared *shared, struct kd_buffer
     const char *texts[TEXTS];
     enum kd_status status;
     KD_TRY(as_value(&shared->address, &url));
-    KD_TRY(fragment(&shared->link, &open));
+    KD_TRY(kd_shared_fragment(shared, &open));
     const struct kd_buffer *const all[TEXTS] = {
-        [TITLE] = &shared->title,     [ABOUT] = &shared->about, [ADDRESS] = &shared->address,
-        [PICTURE] = &shared->picture, [HOME] = &shared->home,   [CODE] = &shared->code,
-        [URL] = &url,                 [OPEN] = &open,
+        [TITLE] = &shared->title,
+        [ABOUT] = &shared->about,
+        [ADDRESS] = &shared->address,
+        [PICTURE] = &shared->picture,
+        [HOME] = &shared->home,
+        [CODE] = &shared->code,
+        [URL] = &url,
+        [OPEN] = &open,
     };
     for (int i = 0; i < TEXTS; i++) {
         KD_TRY(escape(all[i], &escaped[i]));
@@ -127,8 +127,8 @@ enum MHD_Result kd_handle_shared(struct kd_request *request)
     enum MHD_Result result;
     if (!kd_shared_read(request->rest, &scene, &problem, &error))
         return kd_reply_problem(request, &problem);
-    result = kd_shared_tell(request, &scene, &shared, &error) ? kd_reply_error(request, &error)
-                                                              : reply(request, &shared);
+    result =
+        kd_shared_tell(request, &scene, &shared, &error) ? kd_reply_error(request, &error) : reply(request, &shared);
     kd_shared_finish(&shared);
     return result;
 }
