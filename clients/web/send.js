@@ -15,15 +15,23 @@ function documentOf(scene) {
   return scene.document({ ...(time && { time }), ...(fitted && { [fitted.path]: fitted.base }) });
 }
 
-async function copy(field, done) {
+// field: where it stands, if it does.
+async function copy(text, done, field) {
   try {
-    await navigator.clipboard.writeText(field.value); // only where the page came over HTTPS or from this machine
+    await navigator.clipboard.writeText(text); // only where the page came over HTTPS or from this machine
     done.textContent = t('Copied.', 'Copiato.');
   } catch {
+    field.value = text;
     field.select();
     done.textContent = t('Selected: copy it with your keyboard.', 'Selezionato: copialo con la tastiera.');
   }
 }
+
+const absolute = address => new URL(address, new URL(asked, location.href)).href;
+
+// For pages that the server lists.
+const frameOf = ({ embed, title }) =>
+  `<iframe src="${absolute(embed)}" title="${title}" style="border:0;width:100%;aspect-ratio:16/9" loading="lazy" allowfullscreen></iframe>`;
 
 // "Save picture" does it, in the panel, which tells how far it is.
 function makePoster(card) {
@@ -49,10 +57,10 @@ function previewOf({ code, title, about }) {
 }
 
 function fill(card, shared) {
-  const url = new URL(shared.url, new URL(asked, location.href)).href,
+  const url = absolute(shared.url),
     field = el('input', { id: 'sending-link', readonly: true, value: url, spellcheck: 'false' }),
     done = el('span', { role: 'status' });
-  const copies = el('button', { type: 'button', onclick: () => copy(field, done) }, t('Copy', 'Copia')),
+  const copies = el('button', { type: 'button', onclick: () => copy(url, done, field) }, t('Copy', 'Copia')),
     others =
       navigator.share &&
       el(
@@ -68,6 +76,12 @@ function fill(card, shared) {
       'p',
       { class: 'row' },
       others || null,
+      shared.embed &&
+        el(
+          'button',
+          { type: 'button', onclick: () => copy(frameOf(shared), done, field) },
+          t('Copy code for a page', 'Copia il codice per una pagina'),
+        ),
       el('button', { type: 'button', onclick: () => makePoster(card) }, t('Save a poster, 4K', 'Salva un poster, 4K')),
       done,
     ),

@@ -141,6 +141,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .public_url = kd_settings_text(settings, KD_SERVE_PUBLIC_URL),
         .hosts = kd_settings_list(settings, KD_SERVE_HOST),
         .cors_origins = kd_settings_list(settings, KD_SERVE_CORS_ORIGIN),
+        .embed_origins = kd_settings_list(settings, KD_SERVE_EMBED_ORIGIN),
         .queue = kd_settings_number(settings, KD_SERVE_QUEUE),
         .sessions = kd_settings_number(settings, KD_SERVE_SESSIONS),
         .playgrounds = kd_settings_number(settings, KD_SERVE_SESSIONS),

@@ -229,8 +229,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
     if (params->token_file && !(server->guesses = kd_guesses_create()))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
-    if (params->cors_origins)
-        KD_TRY(kd_cors_create(params->cors_origins, &server->cors, error));
+    if (params->cors_origins || params->embed_origins)
+        KD_TRY(kd_cors_create(params->cors_origins, params->embed_origins, &server->cors, error));
     KD_TRY(kd_public_url_make(params->public_url, &server->base, &server->public_url, &public_host, error));
     KD_TRY(collect_hosts(server, address, public_host, params->hosts, error));
     KD_TRY(kd_kept_create(server->base.path, server->access != NULL, &server->kept, error));

@@ -229,6 +229,11 @@ class Share(Case):
         self.assertEqual(self.page(path).open, "../#preset=default&spacetime.spin=0.5&camera.r=30")
         self.assertNotIn(b"0.500", self.get(path).body)
 
+    def test_no_page_has_a_frame_unless_it_is_listed(self):
+        self.assertNotIn("embed", self.share({}))
+        policy = self.daemon.get("/embed/" + code_of("preset=smooth")).header("Content-Security-Policy")
+        self.assertTrue(policy.endswith("frame-ancestors 'none'"), policy)
+
     def test_oembed(self):
         path = self.path_of({}, "?preset=edge-on")
         url = urllib.parse.quote(self.origin + path, safe="")
@@ -283,6 +288,41 @@ class Below(Case):
         self.assertTrue(url.startswith("http://holes.example:8080/holes/s/"))
         page = Page(self.daemon.get(url.removeprefix("http://holes.example:8080")).body.decode())
         self.assertEqual(page.links["canonical"], url)
+
+
+class Embedded(Case):
+    """In frames of pages that are listed, and of no others."""
+
+    options = ("--embed-origin", "https://blog.example,http://localhost:99")
+
+    def test_a_frame_of_those_alone(self):
+        path = urllib.parse.urljoin("/v1/share", self.share({}, "?preset=edge-on")["embed"])
+        answer = self.daemon.get(path)
+        policy = answer.header("Content-Security-Policy")
+        self.assertTrue(policy.endswith("frame-ancestors https://blog.example http://localhost:99"), policy)
+        self.assertNotIn("unsafe", policy)
+        self.assertIn('<kerr-hole scene="preset=edge-on"', answer.body.decode())
+        for other in ("/", path.replace("/embed/", "/s/")):
+            self.assertIn("frame-ancestors 'none'", self.daemon.get(other).header("Content-Security-Policy"))
+
+    def test_their_scripts_read_answers(self):
+        for origin, allowed in (("https://blog.example", "https://blog.example"), ("https://other.example", None)):
+            answer = self.daemon.get("/web/kerr-hole.js", Origin=origin)
+            self.assertEqual(answer.header("Access-Control-Allow-Origin"), allowed)
+
+    def test_origins_that_are_none(self):
+        for origin, says in (
+            ("null", "a page without an origin can have no frame"),
+            ("*", "each origin is named"),
+            ("https://blog.example/", "without a path"),
+            ("https://blog.example; script-src x", "an origin is SCHEME://HOST"),
+        ):
+            run = subprocess.run(
+                [*daemon.COMMAND, "--port", "0", "--embed-origin", origin], capture_output=True, text=True, timeout=60
+            )
+            self.assertNotEqual(run.returncode, 0)
+            self.assertIn(f'--embed-origin "{origin}"', run.stderr)
+            self.assertIn(says, run.stderr)
 
 
 class Closed(daemon.Case):

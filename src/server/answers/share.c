@@ -5,6 +5,7 @@
 #include "image/text_code.h"
 #include "scene/label.h"
 #include "scene/link.h"
+#include "server/http/cors.h"
 #include "server/http/public_url.h"
 #include "server/http/reply.h"
 #include "server/render/scene_source.h"
@@ -104,22 +105,35 @@ enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buff
     return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
 }
 
-/* The address to send on. Relative to the request's own, as each Location is, unless the server knows by which
- * address it is reached. Of a server with access tokens it is the page's own, which asks for one. */
-static enum kd_status add_url(const struct kd_request *request, const struct kd_shared *shared, struct kd_json *json)
+/* An address of this server: relative to the request's own, as each Location is, unless the server knows by which
+ * address it is reached. */
+static enum kd_status add_address(const struct kd_request *request, struct kd_json *json, const char *name,
+                                  const char *path, const char *rest)
 {
     struct kd_buffer url = { 0 };
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(&url, "%s/", request->server->public_url ? request->server->public_url : ".."));
-    if (request->server->access) {
-        KD_TRY(kd_buffer_printf(&url, "#"));
-        KD_TRY(kd_shared_fragment(shared, &url));
-    } else {
-        KD_TRY(kd_buffer_printf(&url, "s/%s", (const char *)shared->code.data));
-    }
-    kd_json_string(json, "url", (const char *)url.data);
-done:
+    enum kd_status status =
+        kd_buffer_printf(&url, "%s/%s%s", request->server->public_url ? request->server->public_url : "..", path, rest);
+    if (!status)
+        kd_json_string(json, name, (const char *)url.data);
     kd_buffer_finish(&url);
+    return status;
+}
+
+/* The address to send on: of a server with access tokens the page's own, which asks for one. And that for frames of
+ * other pages, where there are any that may have one. */
+static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
+                                    struct kd_json *json)
+{
+    const char *code = (const char *)shared->code.data;
+    struct kd_buffer fragment = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_shared_fragment(shared, &fragment));
+    KD_TRY(request->server->access ? add_address(request, json, "url", "#", (const char *)fragment.data)
+                                   : add_address(request, json, "url", "s/", code));
+    if (kd_cors_embedders(request->server->cors))
+        KD_TRY(add_address(request, json, "embed", "embed/", code));
+done:
+    kd_buffer_finish(&fragment);
     return status;
 }
 
@@ -128,7 +142,7 @@ static enum kd_status share_json(const struct kd_request *request, const struct 
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
-    enum kd_status status = add_url(request, shared, &json);
+    enum kd_status status = add_addresses(request, shared, &json);
     kd_json_string(&json, "code", (const char *)shared->code.data);
     kd_json_string(&json, "title", (const char *)shared->title.data);
     kd_json_string(&json, "about", (const char *)shared->about.data);

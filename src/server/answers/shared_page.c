@@ -3,6 +3,7 @@
  * picture and a link. */
 #include "server/answers/share.h"
 
+#include "server/http/cors.h"
 #include "server/http/reply.h"
 #include "server/render/shared.h"
 
@@ -118,7 +119,53 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-enum MHD_Result kd_handle_shared(struct kd_request *request)
+/* The link is a scene's; of the code nothing is told as it stands. */
+static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
+{
+    struct kd_buffer texts[3] = { 0 };
+    const struct kd_buffer *const all[] = { &shared->title, &shared->link, &shared->about };
+    enum kd_status status;
+    for (int i = 0; i < 3; i++)
+        KD_TRY(escape(all[i], &texts[i]));
+    KD_TRY(kd_buffer_printf(page,
+                            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                            "<meta name=\"robots\" content=\"noindex\">\n<title>%s – kerrd</title>\n"
+                            "<link rel=\"stylesheet\" href=\"../web/embed.css\">\n"
+                            "<script type=\"module\" src=\"../web/kerr-hole.js\"></script>\n</head>\n<body>\n"
+                            "<kerr-hole scene=\"%s\" label=\"%s\" interactive></kerr-hole>\n"
+                            "<noscript><img src=\"../v1/share/%s/picture.png\" alt=\"%s\"></noscript>\n"
+                            "</body>\n</html>\n",
+                            (const char *)texts[0].data, (const char *)texts[1].data, (const char *)texts[2].data,
+                            (const char *)shared->code.data, (const char *)texts[2].data));
+done:
+    for (int i = 0; i < 3; i++)
+        kd_buffer_finish(&texts[i]);
+    return status;
+}
+
+static enum MHD_Result reply_frame(struct kd_request *request, const struct kd_shared *shared)
+{
+    struct kd_buffer page = { 0 }, policy = { 0 };
+    const char *embedders = kd_cors_embedders(request->server->cors);
+    struct MHD_Response *response = NULL;
+    if (!make_frame(shared, &page) && !kd_buffer_printf(&policy,
+                                                        "default-src 'self'; img-src 'self' blob:; base-uri 'none'; "
+                                                        "form-action 'none'; frame-ancestors %s",
+                                                        embedders ? embedders : "'none'"))
+        response = kd_reply_text(request, &page, HTML);
+    if (response) {
+        MHD_add_response_header(response, "Content-Security-Policy", (const char *)policy.data);
+        MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+        MHD_add_response_header(response, "Cache-Control", "no-cache");
+    }
+    kd_buffer_finish(&page);
+    kd_buffer_finish(&policy);
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+static enum MHD_Result answer(struct kd_request *request,
+                              enum MHD_Result (*reply_with)(struct kd_request *, const struct kd_shared *))
 {
     struct kd_scene scene;
     struct kd_problem problem;
@@ -127,8 +174,13 @@ enum MHD_Result kd_handle_shared(struct kd_request *request)
     enum MHD_Result result;
     if (!kd_shared_read(request->rest, &scene, &problem, &error))
         return kd_reply_problem(request, &problem);
-    result =
-        kd_shared_tell(request, &scene, &shared, &error) ? kd_reply_error(request, &error) : reply(request, &shared);
+    result = kd_shared_tell(request, &scene, &shared, &error) ? kd_reply_error(request, &error)
+                                                              : reply_with(request, &shared);
     kd_shared_finish(&shared);
     return result;
 }
+
+enum MHD_Result kd_handle_shared(struct kd_request *request) { return answer(request, reply); }
+
+/* /embed/CODE: the picture alone, for a frame of another page, live once it is touched. */
+enum MHD_Result kd_handle_embed(struct kd_request *request) { return answer(request, reply_frame); }

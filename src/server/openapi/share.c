@@ -9,6 +9,7 @@ void kd_openapi_share_schemas(struct kd_json *json)
 {
     static const struct kd_openapi_member share[] = {
         { "url", "{\"type\":\"string\",\"format\":\"uri-reference\"}", false },
+        { "embed", "{\"type\":\"string\",\"format\":\"uri-reference\"}", true },
         { "code", KD_OPENAPI_CODE, false },
         { "title", KD_SCHEMA_TEXT, false },
         { "about", KD_SCHEMA_TEXT, false },
