@@ -24,31 +24,41 @@ static void strip(char *text)
     *to = 0;
 }
 
-static enum kd_status write_value(const struct kd_scene *scene, const struct kd_field *field, size_t index,
-                                  struct kd_buffer *out)
+/* Only what differs is written as text, which would be most of the work: a link looks at 30 presets. */
+static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_field *field, size_t index)
 {
-    struct kd_writer writer = { .out = out };
-    out->size = 0;
-    kd_write_field(&writer, scene, field, index);
-    return writer.status;
+    if (field->kind == KD_FIELD_ASSET)
+        return !strcmp(kd_field_asset(a, field, index), kd_field_asset(b, field, index));
+    if (field->kind == KD_FIELD_WORDS)
+        return !memcmp(kd_field_words(a, field, index), kd_field_words(b, field, index), sizeof(struct kd_words));
+    return kd_field_get(a, field, index) == kd_field_get(b, field, index);
 }
 
-/* Whether the field still differs; its value is then in t->value. A failure counts as a difference. */
-static bool differs(struct telling *t, const struct kd_field *field, size_t index, enum kd_status *status)
+static bool all_same(const struct kd_scene *a, const struct kd_scene *b)
 {
-    struct kd_buffer made = { 0 };
-    *status = write_value(&t->made, field, index, &made);
-    if (!*status)
-        *status = write_value(t->scene, field, index, &t->value);
-    const bool same = !*status && !strcmp((const char *)made.data, (const char *)t->value.data);
-    kd_buffer_finish(&made);
-    return !same;
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
+        const struct kd_section *section = &kd_sections[i];
+        const size_t size = kd_section_size(a, section);
+        if (size != kd_section_size(b, section))
+            return false;
+        for (size_t k = 0; k < size; k++)
+            for (size_t n = 0; n < section->count; n++)
+                if (!same(a, b, &kd_fields[section->first + n], k))
+                    return false;
+    }
+    return true;
 }
 
 static enum kd_status tell(struct telling *t, const struct kd_field *field, size_t index)
 {
-    char path[KD_PATH_SIZE], *value = (char *)t->value.data;
+    char path[KD_PATH_SIZE];
+    struct kd_writer writer = { .out = &t->value };
+    t->value.size = 0;
     kd_field_path(field, index, path);
+    kd_write_field(&writer, t->scene, field, index);
+    if (writer.status)
+        return writer.status;
+    char *value = (char *)t->value.data;
     strip(value);
     enum kd_status status = kd_scene_set(&t->made, path, value, NULL);
     if (!status && t->out->size > t->before)
@@ -63,8 +73,8 @@ static enum kd_status tell_fields(struct telling *t, const struct kd_section *se
     for (size_t i = 0; i < section->count && !status; i++) {
         const struct kd_field *field = &kd_fields[section->first + i];
         const bool missing = index >= kd_section_size(&t->made, section);
-        if (differs(t, field, index, &status) || missing)
-            status = status ? status : tell(t, field, index);
+        if (missing || !same(&t->made, t->scene, field, index))
+            status = tell(t, field, index);
     }
     return status;
 }
@@ -74,8 +84,8 @@ static enum kd_status tell_all(struct telling *t)
 {
     enum kd_status status = KD_OK;
     const struct kd_field *style = kd_style_field();
-    if (style && differs(t, style, 0, &status))
-        status = status ? status : tell(t, style, 0);
+    if (style && !same(&t->made, t->scene, style, 0))
+        status = tell(t, style, 0);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++)
         for (size_t k = 0; k < kd_section_size(t->scene, &kd_sections[i]) && !status; k++)
             status = tell_fields(t, &kd_sections[i], k);
@@ -86,9 +96,8 @@ enum kd_status kd_scene_difference(const struct kd_scene *base, const struct kd_
                                    struct kd_buffer *out)
 {
     struct telling t = { .scene = scene, .made = *base, .between = between, .before = out->size, .out = out };
-    t.made.crowd = scene->crowd; /* no field has it */
     enum kd_status status = tell_all(&t);
-    if (!status && memcmp(&t.made, scene, sizeof *scene))
+    if (!status && !all_same(&t.made, scene))
         status = KD_EINVAL;
     if (status)
         out->size = t.before;

@@ -87,8 +87,8 @@ static void changes_come_back(void **state)
             const double u = support_uniform(&seed),
                          value = field->kind == KD_FIELD_BOOL   ? u < 0.5
                                  : field->kind == KD_FIELD_ENUM ? floor(u * kd_field_word_count(field))
-                                 : field->kind == KD_FIELD_INT  ? field->minimum
-                                                                : field->minimum + u * (field->maximum - field->minimum);
+                                 : field->kind == KD_FIELD_INT ? field->minimum
+                                                               : field->minimum + u * (field->maximum - field->minimum);
             struct kd_scene scene = preset;
             char path[KD_PATH_SIZE], text[40];
             kd_field_path(field, 0, path);
@@ -135,6 +135,18 @@ static void a_style_does_not_hide_what_it_sets(void **state)
         assert_non_null(strstr((const char *)line.data, told));
         kd_buffer_finish(&line);
     }
+}
+
+/* -0 is 0 in a document, and so in a link. */
+static void minus_zero_has_a_link(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.camera.azimuth_deg = -0.0;
+    char *link = link_of(&scene);
+    assert_string_equal(link, "");
+    free(link);
 }
 
 /* No field makes a list shorter: another preset, or the default scene, is the base then. */
@@ -218,9 +230,13 @@ static void a_preview_is_as_high(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(presets_are_their_names),       cmocka_unit_test(changes_come_back),
-        cmocka_unit_test(a_style_does_not_hide_what_it_sets), cmocka_unit_test(a_shorter_list_has_another_base),
-        cmocka_unit_test(an_asset_is_refused),           cmocka_unit_test(changes_are_told),
+        cmocka_unit_test(presets_are_their_names),
+        cmocka_unit_test(changes_come_back),
+        cmocka_unit_test(minus_zero_has_a_link),
+        cmocka_unit_test(a_style_does_not_hide_what_it_sets),
+        cmocka_unit_test(a_shorter_list_has_another_base),
+        cmocka_unit_test(an_asset_is_refused),
+        cmocka_unit_test(changes_are_told),
         cmocka_unit_test(a_preview_is_as_high),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
