@@ -32,7 +32,7 @@
       "let pages of this origin, like https://example.org, use the server and read its answers; may be repeated, or " \
       "several with commas between") \
     S(EMBED_ORIGIN, "embed-origin", 'F', "ORIGIN", LIST, 0, 0, NULL, ANYWHERE, \
-      "let pages of this origin do so, and show the hole: by /embed in a frame, or by the element kerr-hole; given as " \
+      "let pages of this origin do so, and show the hole, by /embed in a frame or by the element kerr-hole; given as " \
       "--cors-origin is") \
     GROUP("How much at once, and for whom:") \
     S(QUEUE, "queue", 'q', "N", NUMBER, 1, 100000, "16", ANYWHERE, \

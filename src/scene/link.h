@@ -5,8 +5,8 @@
 
 #include "scene/scene.h"
 
-/* Appends the shortest one, and a NUL that out->size does not count, over all presets and the default scene: the same scene has the same link. Empty: the
- * default scene. KD_EINVAL with a pointer: the scene names an asset. KD_ENOMEM. */
+/* Appends the shortest one over all presets and the default scene, and a NUL that out->size does not count: the same
+ * scene has the same link. Empty: the default scene. KD_EINVAL with a pointer: the scene names an asset. KD_ENOMEM. */
 enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error);
 
 /* Checks that a scene names no asset: who follows a link may be at a server that does not have it. */

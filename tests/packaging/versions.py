@@ -17,6 +17,7 @@ PLACES = (
     "clients/python/pyproject.toml",
     "packaging/kubernetes/kerrd.yaml",
     "packaging/kubernetes/dask.yaml",
+    "packaging/npm/package.json",
     "docs/scale.md",
     "NEWS",
     "packaging/debian/changelog",

@@ -105,7 +105,7 @@ enum MHD_Result kd_handle_pixel(struct kd_request *request);
 enum MHD_Result kd_handle_shared_picture(struct kd_request *request);
 enum MHD_Result kd_handle_share(struct kd_request *request); /* answers/share.c */
 enum MHD_Result kd_handle_oembed(struct kd_request *request);
-enum MHD_Result kd_handle_shared(struct kd_request *request);    /* answers/shared_page.c */
+enum MHD_Result kd_handle_shared(struct kd_request *request); /* answers/shared_page.c */
 enum MHD_Result kd_handle_embed(struct kd_request *request);
 enum MHD_Result kd_handle_thumbnail(struct kd_request *request); /* render/thumbnails.c */
 enum MHD_Result kd_handle_rays(struct kd_request *request);      /* answers/rays.c */

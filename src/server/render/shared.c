@@ -6,7 +6,11 @@
 
 #include <stdlib.h>
 
-static bool refuse(struct kd_problem *problem, const struct kd_error *error) { return *problem = kd_problem_from(error), false; }
+static bool refuse(struct kd_problem *problem, const struct kd_error *error)
+{
+    *problem = kd_problem_from(error);
+    return false;
+}
 
 static bool nothing_there(struct kd_problem *problem, const struct kd_error *error)
 {
