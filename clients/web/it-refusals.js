@@ -2,6 +2,10 @@
 // What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
 const refusals = [
   [
+    '{} names an asset of this server, which a link does not hold; it must be null',
+    '{} nomina un file di questo server, che un collegamento non contiene; deve essere null',
+  ],
+  [
     '{} is {}, allowed are radii outside the horizon, r = {}',
     '{} è {}, ammessi sono valori fuori dall’orizzonte, r = {}',
   ],

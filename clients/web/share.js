@@ -1,6 +1,6 @@
 // What can be taken away: the link, the picture as a file, the scene as JSON and as a command.
 import { byId, paced } from './dom.js';
-import { t } from './i18n.js';
+import { t, tell } from './i18n.js';
 import * as link from './link.js';
 import { buildSave, picked } from './save.js';
 import { linkedTime } from './scene.js';
@@ -37,6 +37,13 @@ export function share(scene, size) {
     link.set('time', linkedTime(scene.get('time')));
     link.flush();
     copy(location.href);
+  });
+  byId('send').addEventListener('click', async () => {
+    try {
+      (await import('./send.js')).send(scene);
+    } catch {
+      tell(byId('copied'), t('The server does not answer', 'Il server non risponde'));
+    }
   });
   form.addEventListener('change', show);
   scene.addEventListener('change', paced(show));

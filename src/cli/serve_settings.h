@@ -17,6 +17,10 @@
       "what stands before every path, as a proxy passes it on, like /some/prefix (default: nothing)") \
     S(HOST, "host", 'H', "NAME", LIST, 0, 0, NULL, ANYWHERE, \
       "answer requests for this host name too; may be repeated") \
+    S(PUBLIC_URL, "public-url", 'u', "URL", TEXT, 0, 0, NULL, ANYWHERE, \
+      "by which others reach the page, like https://example.org/black-holes: links and pictures that other sites " \
+      "show " \
+      "have it, and its host is answered as that of --host is (default: by the Host of a request)") \
     GROUP("Who may use it:") \
     S(TOKEN_FILE, "token-file", 'T', "FILE", TEXT, 0, 0, NULL, ANYWHERE, \
       "take requests with a token of this file alone; a line is NAME ROLE TOKEN, the role view or render") \
@@ -27,6 +31,9 @@
     S(CORS_ORIGIN, "cors-origin", 'O', "ORIGIN", LIST, 0, 0, NULL, ANYWHERE, \
       "let pages of this origin, like https://example.org, use the server and read its answers; may be repeated, or " \
       "several with commas between") \
+    S(EMBED_ORIGIN, "embed-origin", 'F', "ORIGIN", LIST, 0, 0, NULL, ANYWHERE, \
+      "let pages of this origin do so, and show the hole, by /embed in a frame or by the element kerr-hole; given as " \
+      "--cors-origin is") \
     GROUP("How much at once, and for whom:") \
     S(QUEUE, "queue", 'q', "N", NUMBER, 1, 100000, "16", ANYWHERE, \
       "renders that may wait for the device (default 16)") \

@@ -3,7 +3,7 @@
 #include "cli/draw.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "cli/scene_line.h"
+#include "scene/difference.h"
 #include "cli/scene_options.h"
 #include "cli/show.h"
 #include "cli/terminal.h"

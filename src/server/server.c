@@ -12,6 +12,7 @@
 #include "server/http/listen.h"
 #include "server/http/measures.h"
 #include "server/http/names.h"
+#include "server/http/public_url.h"
 #include "server/http/request.h"
 #include "server/http/service.h"
 #include "server/job/jobs.h"
@@ -38,11 +39,12 @@ static bool add_host(struct kd_server *server, size_t *n, const char *name)
 }
 
 /* Loopback by name and number, the listening address if it is one address, else the machine's own ones and its name,
- * and what the caller adds. */
-static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more,
-                                    struct kd_error *error)
+ * the host of the public URL, and what the caller adds. */
+static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *public_host,
+                                    const char *const *more, struct kd_error *error)
 {
-    const char *names[4] = { "127.0.0.1", "localhost", "[::1]", listen };
+    const char *names[] = { "127.0.0.1", "localhost", "[::1]", listen, public_host ? public_host : listen };
+    enum { NAMES = sizeof names / sizeof *names };
     char bracketed[80];
     size_t n = 0, n_more = 0, n_own = 0;
     bool good = true;
@@ -57,9 +59,12 @@ static enum kd_status collect_hosts(struct kd_server *server, const char *listen
         n_more++;
     while (server->own && server->own[n_own])
         n_own++;
-    server->hosts = calloc(4 + n_own + n_more + 1, sizeof *server->hosts);
-    for (size_t i = 0; good && server->hosts && i < 4 + n_own + n_more; i++)
-        good = add_host(server, &n, i < 4 ? names[i] : i < 4 + n_own ? server->own[i - 4] : more[i - 4 - n_own]);
+    server->hosts = calloc(NAMES + n_own + n_more + 1, sizeof *server->hosts);
+    for (size_t i = 0; good && server->hosts && i < NAMES + n_own + n_more; i++)
+        good = add_host(server, &n,
+                        i < NAMES           ? names[i]
+                        : i < NAMES + n_own ? server->own[i - NAMES]
+                                            : more[i - NAMES - n_own]);
     return good && server->hosts ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
@@ -198,6 +203,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
 {
     const char *address = params->listen ? params->listen : "127.0.0.1";
     unsigned connections = kd_descriptors_for(or_default(params->connections, 512));
+    char *public_host = NULL;
     int fd = -1;
 
     server->port = params->port;
@@ -223,9 +229,10 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
     if (params->token_file && !(server->guesses = kd_guesses_create()))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
-    if (params->cors_origins)
-        KD_TRY(kd_cors_create(params->cors_origins, &server->cors, error));
-    KD_TRY(collect_hosts(server, address, params->hosts, error));
+    if (params->cors_origins || params->embed_origins)
+        KD_TRY(kd_cors_create(params->cors_origins, params->embed_origins, &server->cors, error));
+    KD_TRY(kd_public_url_make(params->public_url, &server->base, &server->public_url, &public_host, error));
+    KD_TRY(collect_hosts(server, address, public_host, params->hosts, error));
     KD_TRY(kd_kept_create(server->base.path, server->access != NULL, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
@@ -250,6 +257,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(start_http(server, listening, connections, error));
     KD_TRY(start_keeper(server, error));
 done:
+    free(public_host);
     if (fd >= 0)
         close(fd);
     return status;
@@ -332,6 +340,7 @@ void kd_server_destroy(struct kd_server *server)
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);
     free(server->hosts);
+    free(server->public_url);
     kd_names_free(server->own);
     kd_access_free(server->access);
     kd_guesses_destroy(server->guesses);

@@ -14,6 +14,7 @@ struct kd_server_params {
     uint16_t port;      /* 0: any free port */
     const char
         *base_path; /* what stands before every path, as a proxy passes it on: "/some/prefix"; NULL or "": nothing */
+    const char *public_url;   /* by which others reach the page (http/public_url.h); NULL: by the Host of a request */
     const char *const *hosts; /* Host names to accept besides loopback's, without port; NULL-terminated */
     unsigned queue;           /* renders that may wait, default 16 */
     unsigned sessions;        /* live ones at once, default 16 */
@@ -25,11 +26,12 @@ struct kd_server_params {
                                  default 75 */
     unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
     unsigned client_device_s; /* seconds of the device's time that one client may use in a minute; 0: all */
-    const char *const *cors_origins; /* of pages that may use it and read its answers (http/cors.h), NULL-terminated;
-                                        NULL: none but its own */
-    bool cross_site;                 /* take requests that pages of other sites make */
-    unsigned jobs_kib;               /* bytes of the frames of all jobs, default 16 GiB */
-    unsigned assets, assets_kib;     /* assets at once, and the size of all of them; default 64 and 256 MiB */
+    const char *const *cors_origins;  /* of pages that may use it and read its answers (http/cors.h), NULL-terminated;
+                                         NULL: none but its own */
+    const char *const *embed_origins; /* of pages that may do so, and have /embed in a frame, NULL-terminated; NULL */
+    bool cross_site;                  /* take requests that pages of other sites make */
+    unsigned jobs_kib;                /* bytes of the frames of all jobs, default 16 GiB */
+    unsigned assets, assets_kib;      /* assets at once, and the size of all of them; default 64 and 256 MiB */
     unsigned asset_keep_s;  /* how long an asset stays that nobody asks for, if others want its room; default a day */
     const char *token_file; /* who may use it, and how (http/access.h); NULL: everybody may do everything */
     const char *state;      /* a folder in which jobs and assets survive a restart; NULL: none */

@@ -34,6 +34,8 @@ GOOD = {
     "log-format": ("json", "json"),
     "client-device-seconds": ("10", 10),
     "cors-origin": ("https://a.example,https://b.example", ["https://a.example", "https://b.example"]),
+    "embed-origin": ("https://a.example", ["https://a.example"]),
+    "public-url": ("https://a.example/x", "https://a.example/x"),
     "device-timeout": ("30", 30),
     "device-reopenings": ("0", 0),
     "drain-seconds": ("30", 30),

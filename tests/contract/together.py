@@ -148,12 +148,19 @@ SESSION = (
     "image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size",
 )
 
-OF_SCENES = "(GET|POST) /v1/(render|pixel)$|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
+OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
 
 # (operations, their sentences)
 TOGETHER = [
     (OF_SCENES, SCENE + ENGINE),
     ("(GET|POST) /v1/render|POST /v1/jobs", PICTURE),
+    (
+        "(GET|POST) /v1/share",
+        (
+            "%s names an asset of this server, which a link does not hold; it must be null",
+            "it is too long for a link, which has at most %d characters",
+        ),
+    ),
     (
         "(GET|POST) /v1/pixel",
         ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',),

@@ -35,7 +35,7 @@ static void check_origins(const char *const *texts)
 {
     struct kd_cors *cors = NULL;
     struct kd_error error = { 0 };
-    const enum kd_status status = texts ? kd_cors_create(texts, &cors, &error) : KD_OK;
+    const enum kd_status status = texts ? kd_cors_create(texts, NULL, &cors, &error) : KD_OK;
     if (status)
         kd_fuzz_refused(status, &error);
     CHECK(!status == (cors || !texts), "origins are %s", cors ? "refused, and there" : "taken, and not there");

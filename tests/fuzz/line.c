@@ -2,7 +2,7 @@
  * and behind "axis " an axis of a sweep. The line that tells the scene makes the same scene again. */
 #include "fuzz.h"
 
-#include "cli/scene_line.h"
+#include "scene/difference.h"
 #include "cli/scene_options.h"
 #include "scene/sweep.h"
 #include "scene/table.h"

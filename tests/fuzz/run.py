@@ -117,7 +117,15 @@ def limit_of(name, limit):
 
 def longest_of(name):
     """Bytes of an input: large documents alone hold what they are for."""
-    return {"access": 4096, "http": 2048, "line": 2048, "query": 4096, "quantity": 1024, "files": 8192}.get(name, 16384)
+    return {
+        "access": 4096,
+        "http": 2048,
+        "line": 2048,
+        "link": 8192,
+        "query": 4096,
+        "quantity": 1024,
+        "files": 8192,
+    }.get(name, 16384)
 
 
 def revision():

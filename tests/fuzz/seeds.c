@@ -3,7 +3,7 @@
  * be made of tables is in tests/fuzz/corpus. */
 #include "fuzz.h"
 
-#include "cli/scene_line.h"
+#include "scene/difference.h"
 #include "cli/serve_settings.h"
 #include "image/npy.h"
 #include "image/png.h"
@@ -102,7 +102,7 @@ static void scene_words(FILE *dict, bool paths)
 static void write_scene_dictionaries(void)
 {
     static const char *const documents[] = { "scene", "patch", "job", "pictures", "playground", "state", "integrals" },
-                             *const texts[] = { "query", "line" };
+                             *const texts[] = { "query", "line", "link" };
     for (size_t i = 0; i < sizeof documents / sizeof *documents + sizeof texts / sizeof *texts; i++) {
         const bool paths = i >= sizeof documents / sizeof *documents;
         const char *name = paths ? texts[i - sizeof documents / sizeof *documents] : documents[i];
@@ -220,6 +220,8 @@ static void write_scenes(void)
         put("pictures", name, i % 2 ? "!" : "", json, strlen(json));
         snprintf(query, sizeof query, "/v1/render?preset=%s&image.width=64", name);
         put_text("query", name, query);
+        snprintf(query, sizeof query, "=preset=%s&camera.r=60", name);
+        put_text("link", name, query);
         CHECK(!kd_scene_line(&scene, &text), "out of memory");
         for (size_t k = 0; k < text.size; k++)
             text.data[k] = text.data[k] == ' ' ? '\n' : text.data[k];

@@ -17,6 +17,7 @@ SCENE = {"image": {"width": 32, "height": 18}}
 ORBIT = {"orbit": {"case": "isco"}, "samples": 2, "duration": {"periods": 1}}
 QUESTIONS = {
     "/v1/plan": SCENE,
+    "/v1/share": SCENE,
     "/v1/render": SCENE,
     "/v1/rays": {"rays": [[5, 1]]},
     "/v1/orbits": ORBIT,
@@ -52,6 +53,7 @@ READ = [
     "/v1/device",
     "/v1/presets",
     "/v1/schema",
+    "/s/KyhKLU4tsS3Ozc8vyQAA",
     "/v1/physics/kerr?spin=0.5",
     "/v1/render?" + daemon.SMALL,
     "/v1/assets",

@@ -2,6 +2,7 @@
 playground_schema.py."""
 
 import json
+import urllib.parse
 
 import daemon
 
@@ -48,6 +49,11 @@ class Answers(daemon.Case):
             self.get(path)
         for preset in self.get("/v1/presets")["presets"]:
             self.get("/v1/presets/{name}", "/v1/presets/" + preset["name"])
+
+    def test_shared_scenes(self):
+        told = self.send("POST", "/v1/share", "/v1/share?preset=gargantua", {"camera": {"r": 60}})
+        address = f"http://127.0.0.1:{self.daemon.port}/{told['url'].removeprefix('../')}"
+        self.get("/oembed", "/oembed?url=" + urllib.parse.quote(address, safe=""))
 
     def test_plans(self):
         near = {"camera": {"r": 20, "stereo": "pair"}, "sky": {"model": "catalogue"}}

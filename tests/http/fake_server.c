@@ -1,5 +1,6 @@
 /* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers
- * of struct kd_server_params by name, --listen, --host and --cors-origin (once each), --token-file and --device. */
+ * of struct kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file and
+ * --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -17,8 +18,8 @@ static void on_signal(int number)
     kd_server_stop(server);
 }
 
-static int set(struct kd_server_params *params, const char *hosts[2], const char *origins[2], const char *name,
-               const char *value)
+static int set(struct kd_server_params *params, const char *hosts[2], const char *origins[2], const char *embeds[2],
+               const char *name, const char *value)
 {
     struct {
         const char *name;
@@ -54,6 +55,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->listen = value, 1;
     if (!strcmp(name, "--base-path"))
         return params->base_path = value, 1;
+    if (!strcmp(name, "--public-url"))
+        return params->public_url = value, 1;
     if (!strcmp(name, "--token-file"))
         return params->token_file = value, 1;
     if (!strcmp(name, "--state"))
@@ -64,6 +67,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->renderer.device = value, 1;
     if (!strcmp(name, "--cors-origin"))
         return origins[0] = value, params->cors_origins = origins, 1;
+    if (!strcmp(name, "--embed-origin"))
+        return embeds[0] = value, params->embed_origins = embeds, 1;
     if (!strcmp(name, "--host"))
         return hosts[0] = value, params->hosts = hosts, 1;
     return !strcmp(name, "--log") ? kd_log_set_level((enum kd_log_level)atoi(value)), 1 : 0;
@@ -73,10 +78,10 @@ int main(int argc, char **argv)
 {
     struct kd_server_params params = { .client_share = 100 }; /* most tests fill a limit from one address */
     struct kd_error error;
-    const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL };
+    const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL }, *embeds[2] = { NULL, NULL };
 
     for (int i = 1; i + 1 < argc; i += 2)
-        if (!set(&params, hosts, origins, argv[i], argv[i + 1]))
+        if (!set(&params, hosts, origins, embeds, argv[i], argv[i + 1]))
             return fprintf(stderr, "fake_server: unknown option %s\n", argv[i]), 2;
     if (kd_server_create(&params, &server, &error))
         return fprintf(stderr, "fake_server: %s\n", error.message), 1;

@@ -31,6 +31,10 @@ GETS = {
     "/v1/presets": "application/json",
     "/v1/presets/gargantua": "application/json",
     "/v1/presets/gargantua/thumbnail.png": "image/png",
+    "/s/KyhKLU4tsS3Ozc8vyQAA": "text/html; charset=utf-8",  # preset=smooth
+    "/embed/KyhKLU4tsS3Ozc8vyQAA": "text/html; charset=utf-8",
+    "/v1/share?preset=smooth": "application/json",
+    "/v1/share/KyhKLU4tsS3Ozc8vyQAA/picture.png": "image/png",
     "/v1/schema": "application/schema+json",
     "/v1/render?" + daemon.SMALL: "image/png",
 }

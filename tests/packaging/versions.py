@@ -18,6 +18,7 @@ PLACES = (
     "CITATION.cff",
     "packaging/kubernetes/kerrd.yaml",
     "packaging/kubernetes/dask.yaml",
+    "packaging/npm/package.json",
     "docs/scale.md",
     "NEWS",
     "packaging/debian/changelog",

@@ -18,6 +18,7 @@
 struct kd_cors {
     char **origins;
     size_t n;
+    struct kd_buffer embedders; /* with blanks between */
 };
 
 /* What is wrong with an origin, as a sentence's end; NULL: nothing. */
@@ -46,11 +47,18 @@ static const char *fault_of(const char *origin)
     return NULL;
 }
 
-static enum kd_status add_one(struct kd_cors *cors, const char *origin, struct kd_error *error)
+static const char *embed_fault_of(const char *origin)
 {
-    const char *fault = fault_of(origin);
+    return strcmp(origin, "null") ? fault_of(origin) : "a page without an origin can have no frame of this server";
+}
+
+static enum kd_status add_one(struct kd_cors *cors, const char *origin, bool embeds, struct kd_error *error)
+{
+    const char *fault = (embeds ? embed_fault_of : fault_of)(origin);
     if (fault)
-        return kd_error_set(error, KD_EINVAL, "--cors-origin \"%.200s\": %s", origin, fault);
+        return kd_error_set(error, KD_EINVAL, "--%s-origin \"%.200s\": %s", embeds ? "embed" : "cors", origin, fault);
+    if (embeds && kd_buffer_printf(&cors->embedders, "%s%s", cors->embedders.size ? " " : "", origin))
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
     char **origins = realloc(cors->origins, (cors->n + 1) * sizeof *origins);
     if (!origins)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
@@ -59,22 +67,25 @@ static enum kd_status add_one(struct kd_cors *cors, const char *origin, struct k
     return origins[cors->n++] ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
-static enum kd_status add_all(struct kd_cors *cors, const char *text, struct kd_error *error)
+static enum kd_status add_all(struct kd_cors *cors, const char *text, bool embeds, struct kd_error *error)
 {
     char *copy = strdup(text), *rest = copy;
     enum kd_status status = copy ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
     for (const char *origin; !status && (origin = strsep(&rest, ","));)
-        status = add_one(cors, origin, error);
+        status = add_one(cors, origin, embeds, error);
     free(copy);
     return status;
 }
 
-enum kd_status kd_cors_create(const char *const *texts, struct kd_cors **out, struct kd_error *error)
+enum kd_status kd_cors_create(const char *const *texts, const char *const *embeds, struct kd_cors **out,
+                              struct kd_error *error)
 {
     struct kd_cors *cors = calloc(1, sizeof *cors);
     enum kd_status status = cors ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
-    for (; !status && *texts; texts++)
-        status = add_all(cors, *texts, error);
+    for (; !status && texts && *texts; texts++)
+        status = add_all(cors, *texts, false, error);
+    for (; !status && embeds && *embeds; embeds++)
+        status = add_all(cors, *embeds, true, error);
     if (status)
         kd_cors_destroy(cors);
     else
@@ -89,8 +100,11 @@ void kd_cors_destroy(struct kd_cors *cors)
     for (size_t i = 0; i < cors->n; i++)
         free(cors->origins[i]);
     free(cors->origins);
+    kd_buffer_finish(&cors->embedders);
     free(cors);
 }
+
+const char *kd_cors_embedders(const struct kd_cors *cors) { return cors ? (const char *)cors->embedders.data : NULL; }
 
 static const char *header(const struct kd_request *request, const char *name)
 {
@@ -149,10 +163,12 @@ enum MHD_Result kd_cors_preflight(struct kd_request *request)
     struct kd_problem nowhere;
     if (!kd_cors_origin(request))
         return kd_reply_problem(
-            request, &(struct kd_problem) {
-                         .type = KD_PROBLEM_CROSS_SITE,
-                         .close = request->body_announced,
-                         .detail = "the Origin that a browser asks for is none of those that --cors-origin names" });
+            request,
+            &(struct kd_problem) {
+                .type = KD_PROBLEM_CROSS_SITE,
+                .close = request->body_announced,
+                .detail =
+                    "the Origin that a browser asks for is none of those that --cors-origin or --embed-origin names" });
     request->route = NULL;
     if (!kd_route_find(request, &nowhere) && !request->route)
         return kd_reply_problem(request, &nowhere);

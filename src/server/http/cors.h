@@ -12,9 +12,11 @@
 struct kd_cors;
 
 /* Reads origins as browsers send them, "https://host" or "http://host:port", several of them in a text with commas
- * between; texts is NULL-terminated. "null" stands for pages without an origin, files among them. KD_EINVAL: one of
- * them is none, with what it should be. */
-enum kd_status kd_cors_create(const char *const *texts, struct kd_cors **out, struct kd_error *error);
+ * between; texts and embeds are NULL-terminated, or NULL for none. Pages of embeds may have /embed in a frame, too.
+ * "null" stands for pages without an origin, files among them, which may have no frame. KD_EINVAL: one of them is
+ * none, with what it should be. */
+enum kd_status kd_cors_create(const char *const *texts, const char *const *embeds, struct kd_cors **out,
+                              struct kd_error *error);
 void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 
 /* The origin of the page that asks, if it is listed; NULL: it is not, or nothing says that a page asks. HTTP
@@ -24,6 +26,10 @@ const char *kd_cors_origin(const struct kd_request *request);
 bool kd_cors_foreign(const struct kd_request *request);
 /* Adds to any answer what lets the page read it, where it may; nothing on a server without a list. */
 void kd_cors_add(const struct kd_request *request, struct MHD_Response *response);
+
+/* Those that may have /embed in a frame, as the policy frame-ancestors lists them; NULL: there are none, or cors is
+ * NULL. */
+const char *kd_cors_embedders(const struct kd_cors *cors);
 
 /* Whether this is what a browser asks first, on a server with a list. */
 bool kd_cors_is_preflight(const struct kd_request *request);

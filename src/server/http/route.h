@@ -36,6 +36,7 @@ enum kd_takes {
     KD_TAKES_PLAYGROUND, /* a document, or what changes one */
     KD_TAKES_STEP,
     KD_TAKES_TICK,     /* which and how many of its things, in the query */
+    KD_TAKES_LINK,     /* a scene by the code of a link, in the path */
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
@@ -101,6 +102,11 @@ enum MHD_Result kd_handle_kept(struct kd_request *request);   /* what openapi/ke
 enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
 enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
 enum MHD_Result kd_handle_pixel(struct kd_request *request);
+enum MHD_Result kd_handle_shared_picture(struct kd_request *request);
+enum MHD_Result kd_handle_share(struct kd_request *request); /* answers/share.c */
+enum MHD_Result kd_handle_oembed(struct kd_request *request);
+enum MHD_Result kd_handle_shared(struct kd_request *request); /* answers/shared_page.c */
+enum MHD_Result kd_handle_embed(struct kd_request *request);
 enum MHD_Result kd_handle_thumbnail(struct kd_request *request); /* render/thumbnails.c */
 enum MHD_Result kd_handle_rays(struct kd_request *request);      /* answers/rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request);    /* answers/orbits.c */

@@ -69,6 +69,7 @@ struct kd_server {
     struct kd_front *front;
     uint16_t port;
     struct kd_base_path base;
+    char *public_url;   /* of the page, without the slash behind it (public_url.h); NULL: by the Host of a request */
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
     char **own;         /* kd_names_own, where it listens on every address; else NULL */
     unsigned drain_ms, drain_s, longest_s;

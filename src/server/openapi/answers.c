@@ -23,6 +23,8 @@ static const struct {
     { "/v1/presets/{name}", KD_GET, KD_SCHEMA_REF("Scene") },
     { "/v1/physics", KD_GET, KD_SCHEMA_REF("Quantities") },
     { "/v1/plan", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("Plan") "," KD_SCHEMA_REF("SweepPlan") "]}" },
+    { "/v1/share", KD_GET | KD_POST, KD_SCHEMA_REF("Share") },
+    { "/oembed", KD_GET, KD_SCHEMA_REF("OEmbed") },
     { "/v1/pixel", KD_GET | KD_POST, KD_SCHEMA_REF("Pixel") },
     { "/v1/line", KD_POST, KD_SCHEMA_REF("LineProfile") },
     { "/v1/transfer-function", KD_POST, KD_SCHEMA_REF("TransferFunction") },

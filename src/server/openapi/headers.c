@@ -77,6 +77,8 @@ static const struct {
     { "/v1/render", 0, 304, SAME },
     { "/v1/pixel", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
     { "/v1/pixel", 0, 304, SAME },
+    { "/v1/share/{code}/picture.png", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
+    { "/v1/share/{code}/picture.png", 0, 304, SAME },
     { "/v1/rays", 0, 200, "Server-Timing Kerrd-Accuracy Kerrd-Approximations Content-Disposition" },
     { "/v1/orbits", 0, 200, "Server-Timing Content-Disposition" },
     { "/v1/line", 0, 200, "Server-Timing Content-Disposition" },

@@ -18,6 +18,7 @@
 #include "server/openapi/reports.h"
 #include "server/openapi/responses.h"
 #include "server/openapi/sessions.h"
+#include "server/openapi/share.h"
 #include "server/openapi/strict.h"
 #include "server/playground/plays.h"
 #include "server/http/query.h"
@@ -102,6 +103,8 @@ static void add_path_parameter(struct kd_json *json, const char *path)
         kd_json_raw(json, "schema", id, sizeof id - 1);
     else if (!strcmp(name, "sha256"))
         kd_json_raw(json, "schema", hash, sizeof hash - 1);
+    else if (!strcmp(name, "code"))
+        kd_json_raw(json, "schema", KD_OPENAPI_CODE, sizeof KD_OPENAPI_CODE - 1);
     else if (!strncmp(path, "/web/", 5))
         add_file_schema(json, path);
     else
@@ -123,6 +126,9 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     "patience_ms", PACE_MS, \
         "frames are narrower than that all the same where they were measured to take longer than this"
 #define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_WAIT_MS_MAX) "}"
+
+#define ROOM(least, most) \
+    "{\"type\":\"integer\",\"minimum\":" KD_SCHEMA_DIGITS(least) ",\"maximum\":" KD_SCHEMA_DIGITS(most) "}"
 
 /* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
 static const struct {
@@ -162,6 +168,11 @@ static const struct {
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}",
       "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "tells the engine's own steps along the middle ray, too" },
+    { "/v1/share/{code}/picture.png", "width", ROOM(64, 1200), "pixels; 1200 without it. Its height follows" },
+    { "/oembed", "url", "{\"type\":\"string\",\"format\":\"uri\"}", "the address of a shared scene", 0, true },
+    { "/oembed", "maxwidth", ROOM(64, 1000000), "pixels that there is room for" },
+    { "/oembed", "maxheight", ROOM(34, 1000000), "likewise" },
+    { "/oembed", "format", "{\"const\":\"json\"}", "the one that there is" },
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of "
       "pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
@@ -311,6 +322,7 @@ static void add_components(struct kd_json *json, const cJSON *fields, const stru
     kd_openapi_asset_schema(json);
     kd_openapi_report_schemas(json);
     kd_openapi_pixel_schemas(json);
+    kd_openapi_share_schemas(json);
     kd_openapi_session_schemas(json);
     kd_openapi_job_schema(json);
     kd_openapi_problem_schema(json);

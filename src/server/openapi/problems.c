@@ -36,7 +36,8 @@ static bool forbids(const struct kd_route *route, unsigned method)
 static bool is_found_by_name(const struct kd_route *route, unsigned method)
 {
     (void)method;
-    return (strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY) || !strcmp(route->path, "/v1/accuracy");
+    return (strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY) || !strcmp(route->path, "/v1/accuracy") ||
+           !strcmp(route->path, "/oembed");
 }
 
 /* Answers that a client chooses by Accept. */
@@ -65,6 +66,7 @@ static bool checks_what_it_is_given(const struct kd_route *route, unsigned metho
         "/v1/playground/{id}/events",
         "/v1/jobs/{id}/preview.png",
         "/v1/jobs/{id}/result",
+        "/oembed",
         NULL,
     };
     if (method == KD_DELETE)

@@ -3,6 +3,7 @@
 #include "render/output/format.h"
 #include "server/http/reply.h"
 #include "server/render/scene_source.h"
+#include "server/render/shared.h"
 #include "server/render/queue.h"
 
 #include <stdlib.h>
@@ -24,7 +25,11 @@ static bool read_scene(struct kd_planned *p)
 {
     struct kd_error error = { 0 };
     struct kd_problem problem;
-    return kd_scene_of_request(p->task.request, &p->scene, &problem, &error) || fail(p, error.status, &error, problem);
+    const struct kd_request *request = p->task.request;
+    const bool read = request->route->takes == KD_TAKES_LINK
+                          ? kd_shared_preview(request, &p->scene, &problem, &error)
+                          : kd_scene_of_request(request, &p->scene, &problem, &error);
+    return read || fail(p, error.status, &error, problem);
 }
 
 static bool make_plan(struct kd_planned *p, bool check)

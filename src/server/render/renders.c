@@ -6,6 +6,7 @@
 #include "server/render/planned.h"
 #include "server/http/reply.h"
 #include "server/render/queue.h"
+#include "server/render/shared.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,6 +63,13 @@ done:
     kd_buffer_finish(&list);
 }
 
+/* Who shows a link shows its picture to many; on a server with access tokens it is for one of them. */
+static const char *caching(const struct kd_request *request)
+{
+    const bool shared = request->route->takes == KD_TAKES_LINK && !request->server->access;
+    return shared ? "public, max-age=86400" : "private, no-cache";
+}
+
 /* What 200, 304 and HEAD have in common. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
                                      const struct kd_scene *scene, const struct kd_plan *plan)
@@ -72,7 +80,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
     kd_reply_file(request, KD_INLINE, "kerrd.%s", request->format->name);
     MHD_add_response_header(response, "ETag", request->etag);
-    MHD_add_response_header(response, "Cache-Control", "private, no-cache");
+    MHD_add_response_header(response, "Cache-Control", caching(request));
     MHD_add_response_header(response, "Vary", "Accept");
     MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
     add_approximations(response, plan);
@@ -294,6 +302,15 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
     return submit(request, planned);
+}
+
+enum MHD_Result kd_handle_shared_picture(struct kd_request *request)
+{
+    enum MHD_Result refused;
+    if (!kd_reply_only(request, (const char *const[]) { KD_SHARED_WIDTH_NAME, NULL }, &refused))
+        return refused;
+    request->format = kd_formats[0];
+    return kd_handle_render(request);
 }
 
 enum MHD_Result kd_handle_pixel(struct kd_request *request)

@@ -83,23 +83,35 @@ static enum kd_status apply_fields(const struct kd_target *target, const char *c
     return KD_OK;
 }
 
+enum kd_status kd_scene_of_query(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
+                                 struct kd_error *error)
+{
+    enum kd_status status;
+    kd_scene_defaults(scene);
+    KD_TRY(kd_scene_query_check(target, true, own, error));
+    KD_TRY(apply_preset(target, scene, error));
+    KD_TRY(apply_fields(target, own, scene, error));
+done:
+    return status;
+}
+
 bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scene, struct kd_problem *problem,
                          struct kd_error *error)
 {
     bool post = !strcmp(request->method, "POST"), malformed = false;
     const char *const *own = request->route->own;
 
-    kd_scene_defaults(scene);
     enum kd_status status;
-    KD_TRY(kd_scene_query_check(&request->target, !post, own, error));
-    KD_TRY(apply_preset(&request->target, scene, error));
     if (post) {
+        kd_scene_defaults(scene);
+        KD_TRY(kd_scene_query_check(&request->target, false, own, error));
+        KD_TRY(apply_preset(&request->target, scene, error));
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
                                     request->body.size, error);
         malformed = status == KD_EINVAL && !*error->pointer; /* what has no place in the document */
         KD_TRY(status);
     } else {
-        KD_TRY(apply_fields(&request->target, own, scene, error));
+        KD_TRY(kd_scene_of_query(&request->target, own, scene, error));
     }
     KD_TRY(kd_scene_resolve(scene, kd_asset_store_assets(request->server->assets), error));
     KD_TRY(kd_scene_validate(scene, error));

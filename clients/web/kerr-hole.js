@@ -1,0 +1,344 @@
+// <kerr-hole preset spin inclination interactive>: a black hole in any page, rendered by a kerrd server whose
+// --embed-origin names that page's origin. A picture first; with `interactive` a button makes it live, and then it is
+// dragged, or moved by arrow keys. This file needs no other one.
+//
+//   preset, spin, inclination   what is shown; scene: more of it, as a link has it behind its #
+//   interactive                 whether it can be moved
+//   label                       its alternative text
+//   server                      where the server is, with a slash at its end; without it: where this file came from
+const here = new URL('..', import.meta.url);
+const most_live = 2; // sessions of one page; one more ends the oldest
+const most_posters = 2; // that are asked for at once
+const idle_ms = 60000; // after which a hole that nobody moves is a picture again
+const retry_ms = 3000;
+const degrees_per_width = 180; // that a drag across the element goes round
+const key_deg = 5;
+const widest = 960; // pixels of a live picture
+
+const words = {
+  en: {
+    move: 'Move it',
+    hole: 'A black hole',
+    how: 'A black hole: arrow keys go round it, Escape ends',
+    wrong: 'The server does not answer',
+  },
+  it: {
+    move: 'Muovilo',
+    hole: 'Un buco nero',
+    how: 'Un buco nero: le frecce girano attorno, Esc termina',
+    wrong: 'Il server non risponde',
+  },
+};
+
+const sheet = new CSSStyleSheet();
+sheet.replaceSync(`
+  :host { display: block; position: relative; aspect-ratio: 16 / 9; overflow: hidden; background: #000; contain: content; }
+  :host([hidden]) { display: none; }
+  #stage, img, canvas { position: absolute; inset: 0; width: 100%; height: 100%; }
+  img, canvas { object-fit: cover; }
+  #stage[tabindex] { cursor: grab; touch-action: pan-y; }
+  :focus-visible { outline: 2px solid #ffb454; outline-offset: -3px; }
+  button { position: absolute; right: .75rem; bottom: .75rem; min-height: 2.25rem; padding: .35rem .9rem; border: 1px solid #8a857b;
+    border-radius: .4rem; background: #141210cc; color: #f2efe8; font: 1rem/1.2 system-ui, sans-serif; cursor: pointer; }
+  p { position: absolute; inset: auto 0 0; margin: 0; padding: .5rem .75rem; background: #141210cc; color: #f2efe8;
+    font: .875rem/1.3 system-ui, sans-serif; }
+  [hidden] { display: none; }`);
+
+// Posters come one after the other, however many there are on a page.
+const waiting = [];
+let asked = 0;
+function next() {
+  while (asked < most_posters && waiting.length) {
+    asked++;
+    waiting
+      .shift()()
+      .finally(() => (asked--, next()));
+  }
+}
+const inTurn = task => (waiting.push(task), next());
+
+const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
+const clamp = (least, value, most) => Math.min(most, Math.max(least, value));
+
+// A value of a link as a document has it.
+const typed = text =>
+  text === 'true' || (text !== 'false' && (text !== '' && !Number.isNaN(Number(text)) ? Number(text) : text));
+
+// "camera.r=30&spots.0.r=9" as a document.
+function documentOf(query) {
+  const out = {};
+  for (const [path, value] of query) {
+    const names = path.split('.'),
+      last = names.pop();
+    names.reduce((inside, name) => (inside[name] ??= {}), out)[last] = typed(value);
+  }
+  return out;
+}
+
+const live = []; // the oldest first
+
+class KerrHole extends HTMLElement {
+  static observedAttributes = ['preset', 'spin', 'inclination', 'scene', 'server', 'label', 'interactive'];
+  #parts = {};
+  #session = null;
+  #seen = false;
+  #again = 0; // of the posters that have been asked for: only the newest counts
+  #watch = new IntersectionObserver(entries => this.#look(entries.at(-1).isIntersecting), { rootMargin: '200px' });
+  #leave = () => this.#end();
+
+  constructor() {
+    super();
+    const root = this.attachShadow({ mode: 'open' });
+    root.adoptedStyleSheets = [sheet];
+    root.innerHTML =
+      '<div id="stage" role="img"><img alt="" hidden><canvas hidden></canvas></div><button type="button" hidden></button><p role="status" hidden></p>';
+    for (const name of ['img', 'canvas', 'button', 'p', '#stage'])
+      this.#parts[name.replace('#', '')] = root.querySelector(name);
+    const { stage, button } = this.#parts;
+    button.addEventListener('click', () => this.#begin());
+    stage.addEventListener('pointerdown', event => this.#session && this.#drag(event));
+    stage.addEventListener('keydown', event => this.#session && this.#key(event));
+  }
+
+  connectedCallback() {
+    this.#watch.observe(this);
+    addEventListener('pagehide', this.#leave);
+    this.#show();
+  }
+
+  disconnectedCallback() {
+    this.#watch.disconnect();
+    removeEventListener('pagehide', this.#leave);
+    this.#end();
+  }
+
+  attributeChangedCallback() {
+    if (!this.isConnected) return;
+    this.#end();
+    this.#parts.canvas.hidden = true;
+    this.#show();
+  }
+
+  get #words() {
+    return words[(this.closest('[lang]')?.lang || navigator.language).startsWith('it') ? 'it' : 'en'];
+  }
+
+  get #server() {
+    return new URL(this.getAttribute('server') ?? here, document.baseURI);
+  }
+
+  // What is shown, as a link has it.
+  get #query() {
+    const query = new URLSearchParams(this.getAttribute('scene') ?? '');
+    for (const [name, path] of [
+      ['preset', 'preset'],
+      ['spin', 'spacetime.spin'],
+      ['inclination', 'camera.inclination_deg'],
+    ])
+      if (this.hasAttribute(name)) query.set(path, this.getAttribute(name));
+    if (query.get('preset') === 'default') query.delete('preset');
+    return query;
+  }
+
+  get #size() {
+    const scale = Math.min(devicePixelRatio, widest / (this.clientWidth || widest));
+    return {
+      width: Math.max(64, Math.round((this.clientWidth || widest) * scale)),
+      height: Math.max(36, Math.round((this.clientHeight || (widest * 9) / 16) * scale)),
+    };
+  }
+
+  #say(text) {
+    this.#parts.p.textContent = text;
+    this.#parts.p.hidden = !text;
+  }
+
+  #show() {
+    this.#rest();
+    if (this.#seen) this.#poster();
+  }
+
+  // It is a picture, and perhaps a button.
+  #rest() {
+    const { stage, button } = this.#parts,
+      own = this.#words;
+    stage.setAttribute('role', 'img');
+    stage.removeAttribute('tabindex');
+    stage.setAttribute('aria-label', this.getAttribute('label') ?? own.hole);
+    button.textContent = own.move;
+    button.hidden = !this.hasAttribute('interactive');
+  }
+
+  #look(seen) {
+    if (seen && !this.#seen) (this.#seen = true), this.#poster();
+    if (!seen) this.#end();
+  }
+
+  #poster() {
+    const mine = ++this.#again;
+    inTurn(async () => {
+      if (mine !== this.#again || !this.isConnected) return;
+      const query = this.#query,
+        { width, height } = this.#size;
+      for (const [name, value] of Object.entries({ width, height, samples: 2 })) query.set('image.' + name, value);
+      for (let tries = 0; tries < 5 && mine === this.#again; tries++) {
+        const picture = new Image();
+        picture.crossOrigin = 'anonymous';
+        picture.src = new URL('v1/render?' + query, this.#server);
+        try {
+          await picture.decode();
+          if (mine === this.#again) this.#placed(picture);
+          return;
+        } catch {
+          await pause(retry_ms * (tries + 1));
+        }
+      }
+      if (mine === this.#again) this.#say(this.#words.wrong);
+    });
+  }
+
+  #placed(picture) {
+    picture.alt = '';
+    this.#parts.img.replaceWith(picture);
+    this.#parts.img = picture;
+    this.#say('');
+    this.dispatchEvent(new Event('load'));
+  }
+
+  async #begin() {
+    const query = this.#query,
+      preset = query.get('preset'),
+      { button, stage } = this.#parts;
+    query.delete('preset');
+    button.disabled = true;
+    while (live.length >= most_live) live[0].#end();
+    const scene = documentOf(query);
+    scene.image = { ...scene.image, ...this.#size };
+    live.push(this);
+    try {
+      const session = await this.#ask(
+        'v1/sessions' + (preset ? '?preset=' + encodeURIComponent(preset) : ''),
+        'POST',
+        scene,
+      );
+      if (!live.includes(this)) return void this.#drop(session);
+      const { inclination_deg = 80, azimuth_deg = 0 } = session.scene?.camera ?? {};
+      this.#session = {
+        ...session,
+        camera: { inclination_deg, azimuth_deg },
+        moved: performance.now(),
+        left: new AbortController(),
+      };
+      button.hidden = true;
+      stage.setAttribute('role', 'application');
+      stage.setAttribute('aria-label', this.#words.how);
+      stage.tabIndex = 0;
+      stage.focus({ preventScroll: true });
+      this.#run(this.#session);
+    } catch {
+      this.#end();
+      this.#say(this.#words.wrong);
+    }
+    button.disabled = false;
+  }
+
+  async #ask(path, method, body, { token, left } = {}) {
+    const headers = { 'Content-Type': 'application/json', ...(token && { Authorization: `Bearer ${token}` }) };
+    const answer = await fetch(new URL(path, this.#server), {
+      method,
+      headers,
+      body: JSON.stringify(body),
+      signal: left?.signal,
+    });
+    if (!answer.ok) throw new Error(answer.status);
+    return answer.json();
+  }
+
+  // The newest picture, one after the other, until the session ends.
+  async #run(session) {
+    const { canvas } = this.#parts,
+      context = canvas.getContext('2d');
+    let after = 0;
+    try {
+      while (session === this.#session) {
+        const answer = await fetch(
+          new URL(`v1/sessions/${session.id}/frame?after=${after}&lossy=85&wait_ms=5000`, this.#server),
+          { signal: session.left.signal },
+        );
+        if (!answer.ok) throw new Error(answer.status);
+        if (answer.status !== 204) {
+          after = Number(answer.headers.get('Kerrd-Frame'));
+          const picture = await createImageBitmap(await answer.blob());
+          if (session !== this.#session) return;
+          Object.assign(canvas, { width: picture.width, height: picture.height, hidden: false });
+          context.drawImage(picture, 0, 0);
+          picture.close();
+        }
+        if (performance.now() - session.moved > idle_ms) this.#end();
+      }
+    } catch {
+      if (session === this.#session) this.#end(), this.#say(this.#words.wrong);
+    }
+  }
+
+  // One patch is under way at a time; the camera goes where it was moved to meanwhile.
+  async #move(azimuth, inclination) {
+    const session = this.#session,
+      { camera } = session;
+    session.moved = performance.now();
+    camera.azimuth_deg = ((((camera.azimuth_deg + azimuth + 180) % 360) + 360) % 360) - 180;
+    camera.inclination_deg = clamp(1, camera.inclination_deg + inclination, 179);
+    session.pending = true;
+    if (session.busy) return;
+    session.busy = true;
+    while (session.pending && session === this.#session) {
+      session.pending = false;
+      await this.#ask(`v1/sessions/${session.id}`, 'PATCH', { camera: { ...camera } }, session).catch(() => {});
+    }
+    session.busy = false;
+  }
+
+  #drag(begin) {
+    const { stage } = this.#parts,
+      heard = new AbortController(),
+      per = degrees_per_width / this.clientWidth;
+    let last = begin;
+    stage.setPointerCapture(begin.pointerId);
+    const on = (name, call) => stage.addEventListener(name, call, { signal: heard.signal });
+    on('pointermove', event => {
+      if (event.pointerId !== begin.pointerId || !this.#session) return;
+      this.#move((last.clientX - event.clientX) * per, (last.clientY - event.clientY) * per);
+      last = event;
+    });
+    for (const name of ['pointerup', 'pointercancel']) on(name, () => heard.abort());
+  }
+
+  #key(event) {
+    const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    if (event.key === 'Escape') this.#end(), this.#parts.button.focus();
+    else if (turns) this.#move(...turns.map(n => n * key_deg));
+    else return;
+    event.preventDefault();
+  }
+
+  #drop({ id, token }) {
+    fetch(new URL('v1/sessions/' + id, this.#server), {
+      method: 'DELETE',
+      headers: { Authorization: `Bearer ${token}` },
+      keepalive: true,
+    }).catch(() => {});
+  }
+
+  // The last picture stays.
+  #end() {
+    const at = live.indexOf(this);
+    if (at >= 0) live.splice(at, 1);
+    if (!this.#session) return;
+    this.#session.left.abort();
+    this.#drop(this.#session);
+    this.#session = null;
+    this.#rest();
+  }
+}
+
+customElements.define('kerr-hole', KerrHole);

@@ -1,0 +1,112 @@
+// "Share": the address of the scene to send on, with what others see of it before they open it, and a poster.
+import { byId, el } from './dom.js';
+import { t, tell } from './i18n.js';
+import { linkedTime } from './scene.js';
+import { postJson } from './server.js';
+
+const asked = 'v1/share'; // addresses in its answers are relative to it
+const preview = { width: 600, height: 315 };
+const poster = '3840x2160';
+
+// As it is seen now, but for the width that only this window asks for.
+function documentOf(scene) {
+  const fitted = scene.fitted(),
+    time = linkedTime(scene.get('time'));
+  return scene.document({ ...(time && { time }), ...(fitted && { [fitted.path]: fitted.base }) });
+}
+
+// field: where it stands, if it does.
+async function copy(text, done, field) {
+  try {
+    await navigator.clipboard.writeText(text); // only where the page came over HTTPS or from this machine
+    done.textContent = t('Copied.', 'Copiato.');
+  } catch {
+    field.value = text;
+    field.select();
+    done.textContent = t('Selected: copy it with your keyboard.', 'Selezionato: copialo con la tastiera.');
+  }
+}
+
+const absolute = address => new URL(address, new URL(asked, location.href)).href;
+
+// For pages that the server lists.
+const frameOf = ({ embed, title }) =>
+  `<iframe src="${absolute(embed)}" title="${title}" style="border:0;width:100%;aspect-ratio:16/9" loading="lazy" allowfullscreen></iframe>`;
+
+// "Save picture" does it, in the panel, which tells how far it is.
+function makePoster(card) {
+  const size = byId('save-size');
+  card.close();
+  byId('take').open = true;
+  size.value = poster;
+  size.dispatchEvent(new Event('change'));
+  byId('save').click();
+  byId('save-told').scrollIntoView({ block: 'center' });
+  byId('save-cancel').focus();
+}
+
+// What others see in the place of the link.
+function previewOf({ code, title, about }) {
+  const picture = el('img', {
+    src: `v1/share/${code}/picture.png?width=${preview.width}`,
+    alt: '',
+    ...preview,
+    onerror: () => (picture.hidden = true), // the server is busy: the link is good all the same
+  });
+  return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
+}
+
+function fill(card, shared) {
+  const url = absolute(shared.url),
+    field = el('input', { id: 'sending-link', readonly: true, value: url, spellcheck: 'false' }),
+    done = el('span', { role: 'status' });
+  const copies = el('button', { type: 'button', onclick: () => copy(url, done, field) }, t('Copy', 'Copia')),
+    others =
+      navigator.share &&
+      el(
+        'button',
+        { type: 'button', onclick: () => navigator.share({ title: shared.title, url }).catch(() => {}) },
+        t('Send with…', 'Invia con…'),
+      );
+  card.append(
+    previewOf(shared),
+    el('label', { for: field.id }, t('Link', 'Collegamento')),
+    el('p', { class: 'row' }, field, copies),
+    el(
+      'p',
+      { class: 'row' },
+      others || null,
+      shared.embed &&
+        el(
+          'button',
+          { type: 'button', onclick: () => copy(frameOf(shared), done, field) },
+          t('Copy code for a page', 'Copia il codice per una pagina'),
+        ),
+      el('button', { type: 'button', onclick: () => makePoster(card) }, t('Save a poster, 4K', 'Salva un poster, 4K')),
+      done,
+    ),
+  );
+  copies.focus();
+}
+
+export async function send(scene) {
+  const card = byId('sending'),
+    told = el('p', { role: 'status' }, '…');
+  card.replaceChildren(
+    el('h2', { id: 'sending-title' }, t('Share', 'Condividi')),
+    el(
+      'form',
+      { method: 'dialog', class: 'close' },
+      el('button', { 'aria-label': t('Close', 'Chiudi'), autofocus: true }, '×'),
+    ),
+    told,
+  );
+  card.showModal();
+  try {
+    const shared = await postJson(asked, documentOf(scene));
+    told.remove();
+    fill(card, shared);
+  } catch (error) {
+    tell(told, error.message).className = 'fault';
+  }
+}

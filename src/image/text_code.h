@@ -1,0 +1,19 @@
+/* This writes a text as characters of an address: deflated (RFC 1951) and in base64url without padding (RFC 4648, 5).
+ * Pure; any thread. */
+#ifndef KD_IMAGE_TEXT_CODE_H
+#define KD_IMAGE_TEXT_CODE_H
+
+#include "base/buffer.h"
+
+/* What a code may be, and what it may unpack to: bounds that hold before anything is allocated. */
+enum { KD_TEXT_CODE_MOST = 2048, KD_TEXT_CODE_TEXT_MOST = 8192 };
+
+/* Appends the code of size bytes, and a NUL that out->size does not count. KD_ETOOBIG: text or code are longer than
+ * that. KD_ENOMEM. */
+enum kd_status kd_text_code_write(const void *text, size_t size, struct kd_buffer *out, struct kd_error *error);
+
+/* Appends the text of a code, and a NUL that out->size does not count. KD_EINVAL, KD_ETOOBIG: a sentence says what
+ * the code must be. KD_ENOMEM. */
+enum kd_status kd_text_code_read(const char *code, struct kd_buffer *out, struct kd_error *error);
+
+#endif

@@ -1,0 +1,115 @@
+#include "scene/difference.h"
+
+#include "scene/style.h"
+#include "scene/writer.h"
+
+#include <string.h>
+
+/* The fields told so far, and the scene that they have made of the base. */
+struct telling {
+    const struct kd_scene *scene;
+    struct kd_scene made;
+    char between;
+    size_t before; /* bytes of *out before the first */
+    struct kd_buffer *out, value;
+};
+
+/* A value as --set takes it: a document's, without its quotes and brackets. */
+static void strip(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++)
+        if (!strchr("[]\"", *from))
+            *to++ = *from;
+    *to = 0;
+}
+
+/* Only what differs is written as text, which would be most of the work: a link looks at 30 presets. */
+static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_field *field, size_t index)
+{
+    if (field->kind == KD_FIELD_ASSET)
+        return !strcmp(kd_field_asset(a, field, index), kd_field_asset(b, field, index));
+    if (field->kind == KD_FIELD_WORDS)
+        return !memcmp(kd_field_words(a, field, index), kd_field_words(b, field, index), sizeof(struct kd_words));
+    return kd_field_get(a, field, index) == kd_field_get(b, field, index);
+}
+
+static bool all_same(const struct kd_scene *a, const struct kd_scene *b)
+{
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
+        const struct kd_section *section = &kd_sections[i];
+        const size_t size = kd_section_size(a, section);
+        if (size != kd_section_size(b, section))
+            return false;
+        for (size_t k = 0; k < size; k++)
+            for (size_t n = 0; n < section->count; n++)
+                if (!same(a, b, &kd_fields[section->first + n], k))
+                    return false;
+    }
+    return true;
+}
+
+static enum kd_status tell(struct telling *t, const struct kd_field *field, size_t index)
+{
+    char path[KD_PATH_SIZE];
+    struct kd_writer writer = { .out = &t->value };
+    t->value.size = 0;
+    kd_field_path(field, index, path);
+    kd_write_field(&writer, t->scene, field, index);
+    if (writer.status)
+        return writer.status;
+    char *value = (char *)t->value.data;
+    strip(value);
+    enum kd_status status = kd_scene_set(&t->made, path, value, NULL);
+    if (!status && t->out->size > t->before)
+        status = kd_buffer_printf(t->out, "%c", t->between);
+    return status ? status : kd_buffer_printf(t->out, "%s=%s", path, value);
+}
+
+/* An element that the base has not is told even where nothing of it differs: its first field makes it. */
+static enum kd_status tell_fields(struct telling *t, const struct kd_section *section, size_t index)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < section->count && !status; i++) {
+        const struct kd_field *field = &kd_fields[section->first + i];
+        const bool missing = index >= kd_section_size(&t->made, section);
+        if (missing || !same(&t->made, t->scene, field, index))
+            status = tell(t, field, index);
+    }
+    return status;
+}
+
+/* The style first: it sets other fields, as a document's does. */
+static enum kd_status tell_all(struct telling *t)
+{
+    enum kd_status status = KD_OK;
+    const struct kd_field *style = kd_style_field();
+    if (style && !same(&t->made, t->scene, style, 0))
+        status = tell(t, style, 0);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+        for (size_t k = 0; k < kd_section_size(t->scene, &kd_sections[i]) && !status; k++)
+            status = tell_fields(t, &kd_sections[i], k);
+    return status;
+}
+
+enum kd_status kd_scene_difference(const struct kd_scene *base, const struct kd_scene *scene, char between,
+                                   struct kd_buffer *out)
+{
+    struct telling t = { .scene = scene, .made = *base, .between = between, .before = out->size, .out = out };
+    enum kd_status status = tell_all(&t);
+    if (!status && !all_same(&t.made, scene))
+        status = KD_EINVAL;
+    if (status)
+        out->size = t.before;
+    kd_buffer_finish(&t.value);
+    return status;
+}
+
+enum kd_status kd_scene_line(const struct kd_scene *scene, struct kd_buffer *out)
+{
+    struct kd_scene plain;
+    const size_t before = out->size;
+    kd_scene_defaults(&plain);
+    enum kd_status status = kd_scene_difference(&plain, scene, ' ', out);
+    return status || out->size > before ? status : kd_buffer_printf(out, "the default scene");
+}

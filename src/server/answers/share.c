@@ -1,0 +1,270 @@
+/* This answers /v1/share, which makes the address of a scene, and /oembed, which tells what is shown in its place. */
+#include "server/answers/share.h"
+
+#include "base/json.h"
+#include "image/text_code.h"
+#include "scene/label.h"
+#include "scene/link.h"
+#include "server/http/cors.h"
+#include "server/http/public_url.h"
+#include "server/http/reply.h"
+#include "server/render/scene_source.h"
+#include "server/render/shared.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+#define PLAIN_TITLE "Black hole"
+#define PLAIN_ABOUT "A Kerr black hole with a thin disk of gas, its light followed ray by ray"
+
+static enum kd_status tell_preset(const char *name, struct kd_shared *out)
+{
+    size_t i = 0;
+    while (name && kd_scene_preset_name(i) && strcmp(kd_scene_preset_name(i), name))
+        i++;
+    const bool known = name && kd_scene_preset_name(i);
+    enum kd_status status = kd_buffer_printf(&out->title, "%s", known ? kd_scene_preset_label(i) : PLAIN_TITLE);
+    return status ? status : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
+}
+
+/* target: the link, taken apart. */
+static enum kd_status tell_changes(const struct kd_target *target, struct kd_shared *out)
+{
+    struct kd_scene_changed *changed = calloc(target->n_pairs + 1, sizeof *changed);
+    size_t n = 0;
+    enum kd_status status;
+    KD_TRY(changed ? KD_OK : KD_ENOMEM);
+    for (size_t i = 0; i < target->n_pairs; i++)
+        if (strcmp(target->pairs[i].name, "preset"))
+            changed[n++] = (struct kd_scene_changed) { target->pairs[i].name, target->pairs[i].value };
+    if (!n)
+        goto done;
+    KD_TRY(kd_buffer_printf(&out->about, " Here with "));
+    KD_TRY(kd_scene_link_tell(changed, n, &out->about));
+    KD_TRY(kd_buffer_printf(&out->about, "."));
+done:
+    free(changed);
+    return status;
+}
+
+static enum kd_status tell_words(struct kd_shared *out, struct kd_error *error)
+{
+    struct kd_buffer raw = { 0 };
+    struct kd_target *target = calloc(1, sizeof *target);
+    enum kd_status status;
+    KD_TRY(target ? KD_OK : KD_ENOMEM);
+    KD_TRY(kd_buffer_printf(&raw, "/?%s", (const char *)out->link.data));
+    KD_TRY(kd_target_parse(target, (const char *)raw.data, error));
+    KD_TRY(tell_preset(kd_target_value(target, "preset"), out));
+    KD_TRY(tell_changes(target, out));
+done:
+    if (target)
+        kd_target_finish(target);
+    free(target);
+    kd_buffer_finish(&raw);
+    return status;
+}
+
+static enum kd_status tell_addresses(const struct kd_request *request, struct kd_shared *out)
+{
+    const char *code = (const char *)out->code.data;
+    enum kd_status status;
+    KD_TRY(kd_public_url_write(request, &out->home));
+    KD_TRY(kd_buffer_printf(&out->address, "%s/s/%s", (const char *)out->home.data, code));
+    KD_TRY(kd_buffer_printf(&out->picture, "%s/v1/share/%s/picture.png", (const char *)out->home.data, code));
+done:
+    return status;
+}
+
+enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_scene *scene, struct kd_shared *out,
+                              struct kd_error *error)
+{
+    enum kd_status status;
+    *out = (struct kd_shared) { 0 };
+    KD_TRY(kd_scene_link(scene, &out->link, error));
+    KD_TRY(kd_text_code_write(out->link.data, out->link.size, &out->code, error));
+    if (tell_words(out, error) || tell_addresses(request, out))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+done:
+    return status;
+}
+
+void kd_shared_finish(struct kd_shared *shared)
+{
+    struct kd_buffer *all[] = { &shared->link,    &shared->code, &shared->title,  &shared->about,
+                                &shared->address, &shared->home, &shared->picture };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        kd_buffer_finish(all[i]);
+}
+
+enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out)
+{
+    const char *text = (const char *)shared->link.data;
+    const char *plain = strncmp(text, "preset=", strlen("preset=")) ? "preset=default" : "";
+    return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
+}
+
+/* An address of this server: relative to the request's own, as each Location is, unless the server knows by which
+ * address it is reached. */
+static enum kd_status add_address(const struct kd_request *request, struct kd_json *json, const char *name,
+                                  const char *path, const char *rest)
+{
+    struct kd_buffer url = { 0 };
+    enum kd_status status =
+        kd_buffer_printf(&url, "%s/%s%s", request->server->public_url ? request->server->public_url : "..", path, rest);
+    if (!status)
+        kd_json_string(json, name, (const char *)url.data);
+    kd_buffer_finish(&url);
+    return status;
+}
+
+/* The address to send on: of a server with access tokens the page's own, which asks for one. And that for frames of
+ * other pages, where there are any that may have one. */
+static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
+                                    struct kd_json *json)
+{
+    const char *code = (const char *)shared->code.data;
+    struct kd_buffer fragment = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_shared_fragment(shared, &fragment));
+    KD_TRY(request->server->access ? add_address(request, json, "url", "#", (const char *)fragment.data)
+                                   : add_address(request, json, "url", "s/", code));
+    if (kd_cors_embedders(request->server->cors))
+        KD_TRY(add_address(request, json, "embed", "embed/", code));
+done:
+    kd_buffer_finish(&fragment);
+    return status;
+}
+
+static enum kd_status share_json(const struct kd_request *request, const struct kd_shared *shared,
+                                 struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    enum kd_status status = add_addresses(request, shared, &json);
+    kd_json_string(&json, "code", (const char *)shared->code.data);
+    kd_json_string(&json, "title", (const char *)shared->title.data);
+    kd_json_string(&json, "about", (const char *)shared->about.data);
+    kd_json_end(&json);
+    return status ? status : kd_json_finish_line(&json);
+}
+
+enum MHD_Result kd_handle_share(struct kd_request *request)
+{
+    struct kd_scene scene;
+    struct kd_problem problem;
+    struct kd_error error = { 0 };
+    struct kd_shared shared;
+    struct kd_buffer body = { 0 };
+    if (!kd_scene_of_request(request, &scene, &problem, &error))
+        return kd_reply_problem(request, &problem);
+    enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
+    enum MHD_Result result = status ? kd_reply_error(request, &error)
+                                    : kd_reply_json(request, share_json(request, &shared, &body), &body, JSON_TYPE);
+    kd_shared_finish(&shared);
+    return result;
+}
+
+/* The code in the address of a shared scene of this server, up to a query or a fragment behind it; NULL: it is
+ * another address, or memory ran out. For the caller to free. */
+static char *code_in(const struct kd_request *request, const char *url)
+{
+    struct kd_buffer home = { 0 };
+    const enum kd_status status = kd_public_url_write(request, &home);
+    const char *at = url;
+    const bool ours = !status && !strncmp(at, (const char *)home.data, home.size) && !strncmp(at + home.size, "/s/", 3);
+    at += ours ? home.size + 3 : 0;
+    kd_buffer_finish(&home);
+    return ours ? strndup(at, strcspn(at, "/?#")) : NULL;
+}
+
+/* The widest picture that fits what the site has room for. */
+static bool width_of(const struct kd_request *request, int32_t *width, struct kd_error *error)
+{
+    static const char *const names[] = { "maxwidth", "maxheight" };
+    uint64_t most[2];
+    for (int i = 0; i < 2; i++) {
+        const int least = i ? kd_shared_height(KD_SHARED_NARROWEST) : KD_SHARED_NARROWEST;
+        if (kd_target_whole(&request->target, names[i], KD_SHARED_WIDTH, 1000000, &most[i]) &&
+            most[i] >= (uint64_t)least)
+            continue;
+        kd_error_set(error, KD_EINVAL, "%s is \"%.40s\", allowed is %d to 1000000", names[i],
+                     kd_target_value(&request->target, names[i]), least);
+        return false;
+    }
+    *width = most[0] < KD_SHARED_WIDTH ? (int32_t)most[0] : KD_SHARED_WIDTH;
+    while (kd_shared_height(*width) > (int64_t)most[1])
+        --*width;
+    return true;
+}
+
+static enum kd_status oembed_json(const struct kd_shared *shared, int32_t width, struct kd_buffer *out)
+{
+    struct kd_buffer picture = { 0 };
+    enum kd_status status = kd_buffer_printf(&picture, "%s", (const char *)shared->picture.data);
+    struct kd_json json = kd_json_begin(out);
+    if (!status && width < KD_SHARED_WIDTH)
+        status = kd_buffer_printf(&picture, "?" KD_SHARED_WIDTH_NAME "=%d", (int)width);
+    if (!status) {
+        kd_json_object(&json, NULL);
+        kd_json_string(&json, "version", "1.0");
+        kd_json_string(&json, "type", "photo");
+        kd_json_string(&json, "title", (const char *)shared->title.data);
+        kd_json_string(&json, "provider_name", "kerrd");
+        kd_json_string(&json, "provider_url", (const char *)shared->home.data);
+        kd_json_string(&json, "url", (const char *)picture.data);
+        kd_json_number(&json, "width", width);
+        kd_json_number(&json, "height", kd_shared_height(width));
+        kd_json_end(&json);
+        status = kd_json_finish_line(&json);
+    }
+    kd_buffer_finish(&picture);
+    return status;
+}
+
+static enum MHD_Result refuse(struct kd_request *request, enum kd_problem_type type, const char *detail,
+                              const char *pointer)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = type, .detail = detail, .pointer = pointer });
+}
+
+static enum MHD_Result tell_oembed(struct kd_request *request, const char *code, int32_t width)
+{
+    struct kd_scene scene;
+    struct kd_problem problem;
+    struct kd_error error = { 0 };
+    struct kd_shared shared;
+    struct kd_buffer body = { 0 };
+    if (!kd_shared_read(code, &scene, &problem, &error))
+        return refuse(request, KD_PROBLEM_NOT_FOUND, error.message, NULL);
+    enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
+    enum MHD_Result result = status ? kd_reply_error(request, &error)
+                                    : kd_reply_json(request, oembed_json(&shared, width, &body), &body, JSON_TYPE);
+    kd_shared_finish(&shared);
+    return result;
+}
+
+/* oEmbed 1.0, https://oembed.com: of another address than that of a shared scene 404. */
+enum MHD_Result kd_handle_oembed(struct kd_request *request)
+{
+    struct kd_error error = { 0 };
+    enum MHD_Result refused;
+    int32_t width;
+    if (!kd_reply_only(request, (const char *const[]) { "url", "maxwidth", "maxheight", "format", NULL }, &refused))
+        return refused;
+    const char *url = kd_target_value(&request->target, "url"), *format = kd_target_value(&request->target, "format");
+    if (!url)
+        return refuse(request, KD_PROBLEM_INVALID_PARAMETERS,
+                      "url is missing: it must be the address of a shared scene, as /v1/share makes it", "/url");
+    if (format && strcmp(format, "json"))
+        return refuse(request, KD_PROBLEM_INVALID_PARAMETERS, "format must be json", "/format");
+    if (!width_of(request, &width, &error))
+        return refuse(request, KD_PROBLEM_INVALID_PARAMETERS, error.message, NULL);
+    char *code = code_in(request, url);
+    enum MHD_Result result =
+        code ? tell_oembed(request, code, width)
+             : refuse(request, KD_PROBLEM_NOT_FOUND, "url must be the address of a shared scene of this server", NULL);
+    free(code);
+    return result;
+}

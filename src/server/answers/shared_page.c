@@ -1,0 +1,186 @@
+/* This answers /s/CODE: a page of which other sites show title, words and picture where somebody has put a link to it
+ * (Open Graph, https://ogp.me; oEmbed). Its script leads to the page with the scene; without scripts it shows the
+ * picture and a link. */
+#include "server/answers/share.h"
+
+#include "server/http/cors.h"
+#include "server/http/reply.h"
+#include "server/render/shared.h"
+
+#include <string.h>
+
+#define HTML "text/html; charset=utf-8"
+
+/* Text as an attribute's value or an element's content. */
+static enum kd_status escape(const struct kd_buffer *text, struct kd_buffer *out)
+{
+    static const struct {
+        char character;
+        const char *reference;
+    } table[] = {
+        { '&', "&amp;" }, { '<', "&lt;" }, { '>', "&gt;" }, { '"', "&quot;" }, { '\'', "&#39;" },
+    };
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < text->size && !status; i++) {
+        size_t k = 0;
+        while (k < sizeof table / sizeof *table && table[k].character != (char)text->data[i])
+            k++;
+        status = k < sizeof table / sizeof *table ? kd_buffer_printf(out, "%s", table[k].reference)
+                                                  : kd_buffer_append(out, &text->data[i], 1);
+    }
+    return status ? status : kd_buffer_printf(out, "%s", "");
+}
+
+/* A value of a query: all but unreserved characters (RFC 3986 2.3) as escapes. */
+static enum kd_status as_value(const struct kd_buffer *text, struct kd_buffer *out)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < text->size && !status; i++)
+        status = strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~", text->data[i])
+                     ? kd_buffer_append(out, &text->data[i], 1)
+                     : kd_buffer_printf(out, "%%%02X", text->data[i]);
+    return status ? status : kd_buffer_printf(out, "%s", "");
+}
+
+enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, TEXTS };
+
+static enum kd_status write_page(const char *const t[TEXTS], struct kd_buffer *page)
+{
+    return kd_buffer_printf(
+        page,
+        "<!doctype html>\n<html lang=\"en\" prefix=\"og: https://ogp.me/ns#\">\n<head>\n"
+        "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<meta name=\"color-scheme\" content=\"dark\">\n"
+        "<title>%s – kerrd</title>\n<meta name=\"description\" content=\"%s\">\n"
+        "<link rel=\"canonical\" href=\"%s\">\n"
+        "<link rel=\"alternate\" type=\"application/json+oembed\" href=\"%s/oembed?url=%s\" title=\"%s\">\n"
+        "<meta property=\"og:type\" content=\"website\">\n<meta property=\"og:site_name\" content=\"kerrd\">\n"
+        "<meta property=\"og:title\" content=\"%s\">\n<meta property=\"og:description\" content=\"%s\">\n"
+        "<meta property=\"og:url\" content=\"%s\">\n<meta property=\"og:image\" content=\"%s\">\n"
+        "<meta property=\"og:image:type\" content=\"image/png\">\n"
+        "<meta property=\"og:image:width\" content=\"%d\">\n<meta property=\"og:image:height\" content=\"%d\">\n"
+        "<meta property=\"og:image:alt\" content=\"%s\">\n"
+        "<meta name=\"twitter:card\" content=\"summary_large_image\">\n"
+        "<link rel=\"icon\" type=\"image/svg+xml\" href=\"../web/icon.svg\">\n"
+        "<link rel=\"stylesheet\" href=\"../web/shared.css\">\n"
+        "<script type=\"module\" src=\"../web/shared.js\"></script>\n</head>\n"
+        "<body>\n<main>\n<h1>%s</h1>\n"
+        "<noscript><img src=\"../v1/share/%s/picture.png\" width=\"%d\" height=\"%d\" alt=\"%s\"></noscript>\n"
+        "<p>%s</p>\n<p><a id=\"open\" href=\"../#%s\">Open it live</a></p>\n</main>\n</body>\n</html>\n",
+        t[TITLE], t[ABOUT], t[ADDRESS], t[HOME], t[URL], t[TITLE], t[TITLE], t[ABOUT], t[ADDRESS], t[PICTURE],
+        KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT], t[TITLE], t[CODE], KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT],
+        t[ABOUT], t[OPEN]);
+}
+
+static enum kd_status make_page(const struct kd_shared *shared, struct kd_buffer *page)
+{
+    struct kd_buffer url = { 0 }, open = { 0 }, escaped[TEXTS] = { 0 };
+    const char *texts[TEXTS];
+    enum kd_status status;
+    KD_TRY(as_value(&shared->address, &url));
+    KD_TRY(kd_shared_fragment(shared, &open));
+    const struct kd_buffer *const all[TEXTS] = {
+        [TITLE] = &shared->title,
+        [ABOUT] = &shared->about,
+        [ADDRESS] = &shared->address,
+        [PICTURE] = &shared->picture,
+        [HOME] = &shared->home,
+        [CODE] = &shared->code,
+        [URL] = &url,
+        [OPEN] = &open,
+    };
+    for (int i = 0; i < TEXTS; i++) {
+        KD_TRY(escape(all[i], &escaped[i]));
+        texts[i] = (const char *)escaped[i].data;
+    }
+    KD_TRY(write_page(texts, page));
+done:
+    kd_buffer_finish(&url);
+    kd_buffer_finish(&open);
+    for (int i = 0; i < TEXTS; i++)
+        kd_buffer_finish(&escaped[i]);
+    return status;
+}
+
+static enum MHD_Result reply(struct kd_request *request, const struct kd_shared *shared)
+{
+    struct kd_buffer page = { 0 };
+    if (make_page(shared, &page)) {
+        kd_buffer_finish(&page);
+        return kd_reply_no_memory(request);
+    }
+    struct MHD_Response *response = kd_reply_text(request, &page, HTML);
+    if (response) {
+        MHD_add_response_header(response, "Content-Security-Policy",
+                                "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+        MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+        MHD_add_response_header(response, "Cache-Control", "no-cache");
+    }
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+/* The link is a scene's; of the code nothing is told as it stands. */
+static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
+{
+    struct kd_buffer texts[3] = { 0 };
+    const struct kd_buffer *const all[] = { &shared->title, &shared->link, &shared->about };
+    enum kd_status status;
+    for (int i = 0; i < 3; i++)
+        KD_TRY(escape(all[i], &texts[i]));
+    KD_TRY(kd_buffer_printf(page,
+                            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                            "<meta name=\"robots\" content=\"noindex\">\n<title>%s – kerrd</title>\n"
+                            "<link rel=\"stylesheet\" href=\"../web/embed.css\">\n"
+                            "<script type=\"module\" src=\"../web/kerr-hole.js\"></script>\n</head>\n<body>\n"
+                            "<kerr-hole scene=\"%s\" label=\"%s\" interactive></kerr-hole>\n"
+                            "<noscript><img src=\"../v1/share/%s/picture.png\" alt=\"%s\"></noscript>\n"
+                            "</body>\n</html>\n",
+                            (const char *)texts[0].data, (const char *)texts[1].data, (const char *)texts[2].data,
+                            (const char *)shared->code.data, (const char *)texts[2].data));
+done:
+    for (int i = 0; i < 3; i++)
+        kd_buffer_finish(&texts[i]);
+    return status;
+}
+
+static enum MHD_Result reply_frame(struct kd_request *request, const struct kd_shared *shared)
+{
+    struct kd_buffer page = { 0 }, policy = { 0 };
+    const char *embedders = kd_cors_embedders(request->server->cors);
+    struct MHD_Response *response = NULL;
+    if (!make_frame(shared, &page) && !kd_buffer_printf(&policy,
+                                                        "default-src 'self'; img-src 'self' blob:; base-uri 'none'; "
+                                                        "form-action 'none'; frame-ancestors %s",
+                                                        embedders ? embedders : "'none'"))
+        response = kd_reply_text(request, &page, HTML);
+    if (response) {
+        MHD_add_response_header(response, "Content-Security-Policy", (const char *)policy.data);
+        MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+        MHD_add_response_header(response, "Cache-Control", "no-cache");
+    }
+    kd_buffer_finish(&page);
+    kd_buffer_finish(&policy);
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+static enum MHD_Result answer(struct kd_request *request,
+                              enum MHD_Result (*reply_with)(struct kd_request *, const struct kd_shared *))
+{
+    struct kd_scene scene;
+    struct kd_problem problem;
+    struct kd_error error = { 0 };
+    struct kd_shared shared;
+    enum MHD_Result result;
+    if (!kd_shared_read(request->rest, &scene, &problem, &error))
+        return kd_reply_problem(request, &problem);
+    result = kd_shared_tell(request, &scene, &shared, &error) ? kd_reply_error(request, &error)
+                                                              : reply_with(request, &shared);
+    kd_shared_finish(&shared);
+    return result;
+}
+
+enum MHD_Result kd_handle_shared(struct kd_request *request) { return answer(request, reply); }
+
+/* /embed/CODE: the picture alone, for a frame of another page, live once it is touched. */
+enum MHD_Result kd_handle_embed(struct kd_request *request) { return answer(request, reply_frame); }

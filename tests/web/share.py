@@ -1,0 +1,121 @@
+"""A scene sent on from the page: share.py KERRD FOLDER (browser.py)."""
+
+import re
+import urllib.parse
+
+from browser import Browser, main
+
+import daemon
+
+
+class Share(Browser):
+    def share(self, page):
+        """The link that the card shows."""
+        page.click("#send")
+        page.wait_for_selector("#sending-link")
+        return page.input_value("#sending-link")
+
+    def seen(self, page):
+        """Waits for the picture that others will see."""
+        width = "document.querySelector('#sending img').naturalWidth"
+        self.assertTrue(daemon.eventually(lambda: page.evaluate(width) == 600))
+
+    def arrive(self, page, url):
+        """Where the page of the link leads."""
+        page.goto(url)
+        page.wait_for_url("**/#*")
+        page.wait_for_selector("#stage[data-final=true]")
+        return urllib.parse.parse_qs(urllib.parse.urlsplit(page.url).fragment)
+
+    def test_a_link_opens_the_scene(self):
+        page = self.open("lang=en&preset=gargantua&pause=1&spacetime.spin=0.5")
+        url = self.share(page)
+        self.assertTrue(url.startswith(self.base + "s/"), url)
+        self.assertLessEqual(len(url), 300)
+        self.assertIn("Here with spacetime spin 0.5 M.", page.inner_text("#sending figcaption"))
+        self.seen(page)
+        self.shot(page, "share")
+        other = self.page(self.context())
+        there = self.arrive(other, url)
+        self.assertEqual((there["preset"], there["spacetime.spin"]), (["gargantua"], ["0.5"]))
+        other.go_back()
+        self.assertEqual(other.url, "about:blank", "the page of the link is no stop on the way back")
+
+    def test_the_width_of_the_window_is_not_sent(self):
+        """A window lower than 16:9 widens the field by itself; the link has the preset's."""
+        page = self.open("lang=en&preset=edge-on&pause=1", viewport={"width": 1400, "height": 500})
+        code = self.share(page).rsplit("/", 1)[1]
+        self.assertLess(len(code), 40, "the name of the preset and no more")
+
+    def test_by_keys_alone(self):
+        page = self.open("lang=it&preset=smooth&pause=1")
+        page.focus("#send")
+        page.keyboard.press("Enter")
+        page.wait_for_selector("#sending-link")
+        self.assertEqual(page.evaluate("document.activeElement.textContent"), "Copia")
+        self.assertEqual(page.get_by_role("dialog").get_attribute("aria-labelledby"), "sending-title")
+        self.assertEqual(page.inner_text("#sending-title"), "Condividi")
+        page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        page.keyboard.press("Enter")
+        self.there(page, "Copiato.", "#sending")
+        self.assertEqual(page.evaluate("navigator.clipboard.readText()"), page.input_value("#sending-link"))
+        self.shot(page, "share-it")
+        page.keyboard.press("Escape")
+        page.wait_for_selector("#sending", state="hidden")
+        self.assertEqual(page.evaluate("document.activeElement.id"), "send")
+
+    def test_a_telephone(self):
+        page = self.open("lang=it&preset=gargantua&pause=1", viewport={"width": 360, "height": 640}, has_touch=True)
+        self.share(page)
+        card = page.locator("#sending").bounding_box()
+        self.assertGreaterEqual(card["x"], 0)
+        self.assertLessEqual(card["x"] + card["width"], 360)
+        self.assertEqual(page.evaluate("document.getElementById('sending').scrollWidth <= innerWidth"), True)
+        self.seen(page)
+        self.shot(page, "share-phone")
+
+    def test_axe(self):
+        try:
+            from axe_playwright_python.sync_playwright import Axe
+        except ImportError:
+            self.skipTest("axe-playwright-python is not installed")
+        for lang in ("en", "it"):
+            page = self.open(f"lang={lang}&preset=gargantua&pause=1")
+            self.share(page)
+            found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa", "best-practice"]})
+            self.assertEqual([v["id"] for v in found.response["violations"]], [])
+
+    def test_a_poster(self):
+        page = self.open("lang=en&preset=smooth&pause=1")
+        self.share(page)
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Save a poster, 4K").click()
+        self.assertEqual(download.value.suggested_filename, "kerrd-smooth-3840x2160.png")
+
+    def test_an_asset_is_refused_in_words(self):
+        self.expected = "422"
+        page = self.open("lang=it&preset=smooth&pause=1")
+        page.route(
+            "**/v1/share",
+            lambda route: route.fulfill(
+                status=422,
+                content_type="application/problem+json",
+                body='{"detail": "sky.image names an asset of this server, which a link does not hold; it must be null"}',
+            ),
+        )
+        page.click("#send")
+        self.there(page, "sky.image nomina un file di questo server", "#sending .fault")
+
+    def test_without_scripts(self):
+        page = self.page(self.context(java_script_enabled=False))
+        url = self.share(self.open("lang=en&preset=edge-on&pause=1"))
+        page.goto(url)
+        self.assertEqual(page.inner_text("h1"), "Edge on")
+        self.assertEqual(page.locator("img").get_attribute("width"), "1200")
+        self.assertTrue(re.fullmatch(r"\.\./#preset=edge-on", page.locator("#open").get_attribute("href")))
+        page.wait_for_load_state("load")
+        self.shot(page, "share-without-scripts")
+
+
+if __name__ == "__main__":
+    main()
