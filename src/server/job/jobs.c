@@ -341,12 +341,12 @@ void kd_job_release(struct kd_job *job)
 const char *kd_job_id(const struct kd_job *job) { return job->record.id; }
 const char *kd_job_token(const struct kd_job *job) { return job->record.token; }
 
-int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size)
+bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out)
 {
     pthread_mutex_lock(&job->all->lock);
     bool there = frame < job->frames && job->have[frame];
     pthread_mutex_unlock(&job->all->lock);
-    return there ? kd_job_store_get(job->all->store, job->record.id, frame, size) : -1;
+    return there && kd_job_store_get(job->all->store, job->record.id, frame, out);
 }
 
 void kd_job_drop(struct kd_job *job)

@@ -86,7 +86,7 @@ struct kd_jobs_counts;
 bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* Opens a finished frame as kd_job_store_get does. */
-int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);
+bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
 /* Gives what there is to see of a job of pictures, and asks for more of it to come: the frame under way as `png`,
  * drawn down to some row, else the last frame that is finished. False: nothing yet. */
 struct kd_job_sight {

@@ -475,20 +475,24 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
     return status;
 }
 
-int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, uint64_t *size)
+bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out)
 {
     char name[20];
     struct stat about;
     kd_job_folder_frame(frame, name);
     int folder = kd_job_folder_open(store->folder, id);
-    int fd = folder < 0 ? -1 : openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    out->fd = folder < 0 ? -1 : openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (folder >= 0)
         close(folder);
-    if (fd >= 0 && (fstat(fd, &about) || !S_ISREG(about.st_mode))) {
-        close(fd);
-        return -1;
+    if (out->fd < 0)
+        return false;
+    if (fstat(out->fd, &about) || !S_ISREG(about.st_mode)) {
+        close(out->fd);
+        return false;
     }
-    if (fd >= 0)
-        *size = (uint64_t)about.st_size;
-    return fd;
+    out->size = (uint64_t)about.st_size;
+    snprintf(out->mark, sizeof out->mark, "%llx-%llx-%llx", (unsigned long long)about.st_ino,
+             (unsigned long long)about.st_size,
+             1000000000ull * (unsigned long long)about.st_mtim.tv_sec + (unsigned long long)about.st_mtim.tv_nsec);
+    return true;
 }

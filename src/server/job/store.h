@@ -31,6 +31,7 @@ struct kd_job_record {
 };
 
 struct kd_job_store;
+enum { KD_JOB_MARK = 3 * 17 + 1 };
 
 /* state: NULL for a new folder in TMPDIR that goes with the store; else a folder that nobody else uses, made if it
  * is not there: KD_EIO says what is wrong with it, with its path. */
@@ -60,7 +61,14 @@ bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned mo
 
 enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsigned frame, const struct kd_buffer *png,
                                 struct kd_error *error);
-/* A descriptor to read a finished frame from, with its size; -1: it is not there. */
-int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, uint64_t *size);
+/* A file of a job, open to be read. */
+struct kd_job_file {
+    int fd; /* the caller's to close */
+    uint64_t size;
+    char mark[KD_JOB_MARK]; /* letters that other bytes under its name do not have: it is written whole, as another
+                               file each time */
+};
+/* Opens a finished frame; false: it is not there. */
+bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out);
 
 #endif

@@ -76,8 +76,11 @@ static bool open_frame(struct kd_job_whole *w, unsigned frame)
     if (w->fd >= 0)
         close(w->fd);
     w->frame = frame;
-    w->fd = kd_job_frame(w->job, frame, &w->size);
-    return w->fd >= 0;
+    struct kd_job_file file;
+    const bool there = kd_job_frame(w->job, frame, &file);
+    w->fd = there ? file.fd : -1;
+    w->size = there ? file.size : 0;
+    return there;
 }
 
 static bool size_of(void *user, unsigned frame, uint64_t *out)

@@ -18,6 +18,8 @@ static const struct {
     { "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}",
       "where it is, relative to the address that was asked", true },
     { "ETag", TEXT, "for If-None-Match", true },
+    { "Accept-Ranges", "{\"const\":\"bytes\"}", "parts of it may be asked for by Range", false },
+    { "Content-Range", TEXT, "bytes FIRST-LAST/ALL of a part; bytes */ALL where none of a range is there", true },
     { "Content-Disposition", TEXT, "the name of a file", false },
     { "Server-Timing", TEXT, "ms in the queue, of each pass, of encoding", false },
     { "Preference-Applied", TEXT, "return=minimal, where Prefer asked for it", false },
@@ -112,6 +114,7 @@ static bool is_kept(const struct kd_route *route, unsigned method)
 {
     return method != KD_DELETE && (route->status[0] == 304 || route->status[1] == 304);
 }
+static bool sends_parts(const struct kd_route *route, unsigned method) { return method == KD_GET && route->parts; }
 static bool tells_events(const struct kd_route *route, unsigned method)
 {
     return (void)method, route->answer && !strcmp(route->answer, "text/event-stream");
@@ -127,6 +130,12 @@ static const struct {
     bool (*of)(const struct kd_route *route, unsigned method);
 } asked[] = {
     { "If-None-Match", "ETag of what the client has: where it is the same the answer is 304", is_kept },
+    { "Range",
+      "bytes=FIRST-LAST, bytes=FIRST- or bytes=-LAST_ONES: the answer is this part, 206; what is anything else, and "
+      "several ranges, are answered with the whole",
+      sends_parts },
+    { "If-Range", "ETag of what the client has the other part of: where it is another one the answer is the whole",
+      sends_parts },
     { "Last-Event-ID",
       "id of the last event that the client has, behind which the stream goes on; what is no number counts as none",
       tells_events },
@@ -181,14 +190,20 @@ static const char *names_of(const struct kd_route *route, unsigned method, unsig
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status)
 {
     const char *names = names_of(route, method, status);
-    const bool made = status == 201 || status == 202,
-               kept = status == 304 || (status == 200 && route->status[1] == 304);
+    const bool made = status == 201 || status == 202, part = status == 206;
+    /* Of results of jobs, streams and tables have none, nor has a frame that is being drawn. */
+    const bool kept =
+        status == 304 || part || (status == 200 && route->status[1] == 304 && strncmp(route->path, "/v1/jobs/", 9));
     kd_json_object(json, "headers");
     refer_all(json, EVERY);
     if (made)
         refer_all(json, "Location");
     if (kept)
         refer_all(json, "ETag");
+    if (part)
+        refer_all(json, "Content-Range Content-Disposition");
+    if (part || (status == 200 && sends_parts(route, method)))
+        refer_all(json, "Accept-Ranges");
     if (names)
         refer_all(json, names);
     kd_json_end(json);
@@ -198,6 +213,7 @@ void kd_openapi_problem_headers(struct kd_json *json, unsigned status)
 {
     const char *names = status == 401                                                      ? "WWW-Authenticate"
                         : status == 405                                                    ? "Allow"
+                        : status == 416                                                    ? "Content-Range"
                         : status == 409 || status == 429 || status == 503 || status == 507 ? "Retry-After"
                                                                                            : NULL;
     kd_json_object(json, "headers");
