@@ -83,6 +83,16 @@ class Ranges(Case):
         self.until(job, "done")
         return self.at(job, "/result")
 
+    def archive(self):
+        job = self.make({"scenes": [SCENE] * 3})
+        self.until(job, "done")
+        return self.at(job, "/result")
+
+    def sweep(self):
+        job = self.make({"scene": SCENE, "axes": {"spacetime.spin": [0.1, 0.5]}})
+        self.until(job, "done")
+        return self.at(job, "/result?format=zip")
+
     def kinds(self):
         """What has a length and an ETag, with the headers by which it is asked for."""
         yield "/web/app.js", {}
@@ -90,6 +100,8 @@ class Ranges(Case):
         yield "/openapi.json", {}
         yield self.asset(), {}
         yield self.frame(), {}
+        yield self.archive(), {}
+        yield self.sweep(), {}
 
     def ask(self, target, method="GET", **headers):
         return self.daemon.request(method, target, headers={k.replace("_", "-"): v for k, v in headers.items()})

@@ -65,10 +65,10 @@ static struct MHD_Response *read_from(const struct kd_representation *r, struct 
 /* Has what the representation reads from; NULL: no memory, and that is given up. */
 static struct MHD_Response *respond(const struct kd_representation *r, struct part part)
 {
-    struct MHD_Response *response =
-        r->fd >= 0 ? MHD_create_response_from_fd_at_offset64(part.count, r->fd, part.first)
-        : r->data  ? kd_reply_static((const char *)r->data + part.first, (size_t)part.count, NULL)
-                   : read_from(r, part);
+    struct MHD_Response *response = r->fd >= 0 ? MHD_create_response_from_fd_at_offset64(part.count, r->fd, part.first)
+                                    : r->data
+                                        ? kd_reply_static((const char *)r->data + part.first, (size_t)part.count, NULL)
+                                        : read_from(r, part);
     if (!response)
         give_up(r);
     return response;
@@ -118,8 +118,8 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
     snprintf(detail, sizeof detail, "Range is %.40s, and there are %" PRIu64 " bytes: it must begin before their end",
              range, r->size);
     give_up(r);
-    return kd_reply_problem(
-        request, &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
+    return kd_reply_problem(request,
+                            &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
 }
 
 static void describe_part(struct MHD_Response *response, const struct kd_representation *r, struct part part)
@@ -164,15 +164,14 @@ enum MHD_Result kd_reply_served(struct kd_request *request, const struct kd_serv
     const bool picture = !strncmp(file->type, "image/", strlen("image/"));
     kd_buffer_finish(&encodings);
     return kd_reply_representation(
-        request, &(struct kd_representation) {
-                     .type = file->type,
-                     .etag = form->etag,
-                     /* A browser may ask for a page's icon whenever its address changes. */
-                     .cache_control = picture ? "private, max-age=86400" : "no-cache",
-                     .coding = gzip ? "gzip" : NULL,
-                     .negotiated = true,
-                     .fields = fields,
-                     .size = form->size,
-                     .fd = -1,
-                     .data = form->data });
+        request, &(struct kd_representation) { .type = file->type,
+                                               .etag = form->etag,
+                                               /* A browser may ask for a page's icon whenever its address changes. */
+                                               .cache_control = picture ? "private, max-age=86400" : "no-cache",
+                                               .coding = gzip ? "gzip" : NULL,
+                                               .negotiated = true,
+                                               .fields = fields,
+                                               .size = form->size,
+                                               .fd = -1,
+                                               .data = form->data });
 }

@@ -42,6 +42,7 @@ static void find_frames(struct kd_job *job)
             kd_log(KD_LOG_WARN, "frame %u of job %.4s... is damaged", i, job->record.id);
         close(file.fd);
     }
+    kd_job_films_find(job);
     job->all->bytes += job->bytes;
 }
 

@@ -31,7 +31,7 @@ struct kd_job_record {
 };
 
 struct kd_job_store;
-enum { KD_JOB_MARK = 3 * 17 + 1 };
+enum { KD_JOB_MARK = 65 };
 
 /* state: NULL for a new folder in TMPDIR that goes with the store; else a folder that nobody else uses, made if it
  * is not there: KD_EIO says what is wrong with it, with its path. */
@@ -65,10 +65,16 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
 struct kd_job_file {
     int fd; /* the caller's to close */
     uint64_t size;
-    char mark[KD_JOB_MARK]; /* letters that other bytes under its name do not have: it is written whole, as another
-                               file each time */
+    char mark[KD_JOB_MARK]; /* of these bytes: other ones under its name have another. Of a film it is their SHA-256 */
 };
 /* Opens a finished frame; false: it is not there. */
 bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out);
+
+/* A job's folder, for films.c, which keeps films there: a descriptor, -1 with errno. */
+int kd_job_store_folder(const struct kd_job_store *store, const char *id);
+/* Opens a file there; false: it is not there. */
+bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *out);
+/* Makes an error for a client, without a path, of what has failed with errno. */
+enum kd_status kd_job_store_failed(struct kd_error *error, const char *what);
 
 #endif

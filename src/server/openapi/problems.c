@@ -79,7 +79,8 @@ static bool makes_films(const struct kd_route *route, unsigned method)
 static bool sends_parts(const struct kd_route *route, unsigned method) { return method == KD_GET && route->parts; }
 static bool keeps_files(const struct kd_route *route, unsigned method)
 {
-    return (method == KD_POST && route->takes == KD_TAKES_JOB) || (method == KD_PUT && route->takes == KD_TAKES_ASSET);
+    return makes_films(route, method) || (method == KD_POST && route->takes == KD_TAKES_JOB) ||
+           (method == KD_PUT && route->takes == KD_TAKES_ASSET);
 }
 
 static const struct {
