@@ -1,6 +1,7 @@
 """Films of jobs, which the program ffmpeg encodes. In front of the fake renderer, and of an ffmpeg that keeps what it
 is given; with FFMPEG=real (suite `film`) of the one of this system, whose film ffprobe and ffmpeg read."""
 
+import base64
 import concurrent.futures
 import hashlib
 import json
@@ -194,6 +195,8 @@ class Kept(Films):
         tag = f'"{hashlib.sha256(first.body).hexdigest()}"'
         self.assertEqual((first.status, first.header("ETag")), (200, tag))
         self.assertEqual(first.header("Content-Length"), str(len(first.body)))
+        digest = base64.b64encode(hashlib.sha256(first.body).digest()).decode()
+        self.assertEqual(first.header("Content-Digest"), f"sha-256=:{digest}:")
         film = self.at(job, "/result?format=mp4")
         head = server.request("HEAD", film)
         self.assertEqual((head.header("Content-Length"), head.header("ETag")), (str(len(first.body)), tag))

@@ -1,5 +1,7 @@
 """Parts of what has a length and an ETag (RFC 9110 14): the same table for every kind of answer that has both."""
 
+import base64
+import hashlib
 import struct
 import subprocess
 import tempfile
@@ -194,6 +196,25 @@ class Ranges(Case):
                         self.assertEqual((answer.status, answer.header("Content-Range")), (status, None))
             for given in {"If-Match": tag}, {"If-None-Match": '"other"'}, {"If-Match": "*", "If-Range": tag}:
                 self.assertPart(self.ask(target, Range="bytes=3-8", **headers, **given), whole, 3, 8)
+
+    def test_digests(self):
+        """Of what is sent and of what it is a part of, where the ETag says them (RFC 9530), whatever is wanted."""
+        for target, headers in self.kinds():
+            for wanted in {}, {"Want-Content-Digest": "sha-256=10"}, {"Want-Content-Digest": "sha-256=0"}:
+                whole = self.ask(target, **headers, **wanted)
+                hashed = whole.header("ETag") == f'"{hashlib.sha256(whole.body).hexdigest()}"'
+                self.assertEqual(hashed, not target.startswith("/v1/jobs"), target)
+                digest = f"sha-256=:{base64.b64encode(hashlib.sha256(whole.body).digest()).decode()}:"
+                for answer, names in (
+                    (whole, {"Content-Digest", "Repr-Digest"}),
+                    (self.ask(target, "HEAD", **headers, **wanted), {"Repr-Digest"}),
+                    (self.ask(target, Range="bytes=0-9", **headers, **wanted), {"Repr-Digest"}),
+                    (self.ask(target, Range="bytes=999999999-", **headers, **wanted), set()),
+                    (self.ask(target, If_None_Match="*", **headers, **wanted), set()),
+                ):
+                    for name in "Content-Digest", "Repr-Digest":
+                        expected = digest if hashed and name in names else None
+                        self.assertEqual(answer.header(name), expected, (target, answer.status, name))
 
     def test_lines_that_say_it_twice(self):
         answer = self.daemon.raw(

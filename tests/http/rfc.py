@@ -1,5 +1,7 @@
 """What RFC 9110 and 9112 ask of an origin server: docs/rfc.md has the rows, each method of Rows is the test of one."""
 
+import base64
+import hashlib
 import pathlib
 import re
 import tempfile
@@ -404,6 +406,13 @@ class Rows(daemon.Case):
         got = self.get(f"Range: bytes={n}-", target=FILE)
         self.assertStatus(got, 416)
         self.assertEqual(self.field(got, "Content-Range"), [f"bytes */{n}"])
+
+    def digests(self):
+        whole, part = self.get(target=FILE), self.get("Range: bytes=3-8", target=FILE)
+        body = whole.partition("\r\n\r\n")[2].encode("latin-1")
+        digest = [f"sha-256=:{base64.b64encode(hashlib.sha256(body).digest()).decode()}:"]
+        self.assertEqual((self.field(whole, "Content-Digest"), self.field(whole, "Repr-Digest")), (digest, digest))
+        self.assertEqual((self.field(part, "Content-Digest"), self.field(part, "Repr-Digest")), ([], digest))
 
     def test_each_row_of_the_table(self):
         rows = re.findall(r"^\| 9.*\| `(\w+)` \|$", TABLE.read_text(), re.M)

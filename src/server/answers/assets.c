@@ -215,6 +215,7 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
     return kd_reply_representation(
         request, &(struct kd_representation) { .type = type_of(about),
                                                .etag = request->etag,
+                                               .hashed = true,
                                                .cache_control = "private, max-age=31536000, immutable",
                                                .size = about->size,
                                                .fd = -1,

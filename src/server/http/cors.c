@@ -9,12 +9,13 @@
 #define MAX_AGE_S "600" /* that a browser remembers an answer to its preflight; Chromium takes up to two hours */
 #define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
 #define EXPOSED \
-    "Accept-Ranges, Allow, Content-Disposition, Content-Encoding, Content-Range, ETag, Kerrd-Accuracy, " \
+    "Accept-Ranges, Allow, Content-Digest, Content-Disposition, Content-Encoding, Content-Range, ETag, " \
+    "Kerrd-Accuracy, " \
     "Kerrd-Approximations, Kerrd-Azimuth, " \
     "Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
     "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, " \
     "Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
-    "Preference-Applied, Retry-After, Server-Timing, WWW-Authenticate, X-Request-Id"
+    "Preference-Applied, Repr-Digest, Retry-After, Server-Timing, WWW-Authenticate, X-Request-Id"
 
 struct kd_cors {
     char **origins;

@@ -5,6 +5,8 @@
 #include "server/http/reply.h"
 
 #include <inttypes.h>
+#include <nettle/base64.h>
+#include <nettle/sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,6 +124,24 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
                             &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
 }
 
+/* As RFC 9530 has them: of the whole, and of what is sent where that is the whole. They are sent whether
+ * Want-Content-Digest and Want-Repr-Digest ask for them or not. */
+static void add_digests(struct MHD_Response *response, const struct kd_request *request,
+                        const struct kd_representation *r, struct part part)
+{
+    static const char begin[] = "sha-256=:";
+    char text[sizeof begin + BASE64_ENCODE_RAW_LENGTH(SHA256_DIGEST_SIZE) + 1];
+    uint8_t digest[SHA256_DIGEST_SIZE];
+    for (size_t i = 0; i < sizeof digest; i++)
+        sscanf(r->etag + 1 + 2 * i, "%2hhx", &digest[i]);
+    strcpy(text, begin);
+    base64_encode_raw(text + strlen(begin), sizeof digest, digest);
+    strcpy(text + sizeof text - 2, ":");
+    MHD_add_response_header(response, "Repr-Digest", text);
+    if (part.status == MHD_HTTP_OK && !request->head)
+        MHD_add_response_header(response, "Content-Digest", text);
+}
+
 static void describe_part(struct MHD_Response *response, const struct kd_representation *r, struct part part)
 {
     char range[80];
@@ -148,6 +168,8 @@ enum MHD_Result kd_reply_representation(struct kd_request *request, const struct
     MHD_add_response_header(response, "Cache-Control", r->cache_control ? r->cache_control : "private, no-cache");
     if (part.status != MHD_HTTP_NOT_MODIFIED)
         describe_part(response, r, part);
+    if (part.status != MHD_HTTP_NOT_MODIFIED && r->hashed)
+        add_digests(response, request, r, part);
     if (r->negotiated)
         MHD_add_response_header(response, "Vary", "Accept-Encoding");
     for (const char *const *field = r->fields; field && *field; field += 2)
@@ -166,6 +188,7 @@ enum MHD_Result kd_reply_served(struct kd_request *request, const struct kd_serv
     return kd_reply_representation(
         request, &(struct kd_representation) { .type = file->type,
                                                .etag = form->etag,
+                                               .hashed = true,
                                                /* A browser may ask for a page's icon whenever its address changes. */
                                                .cache_control = picture ? "private, max-age=86400" : "no-cache",
                                                .coding = gzip ? "gzip" : NULL,

@@ -9,6 +9,7 @@
 struct kd_representation {
     const char *type;
     const char *etag;          /* strong, with its quotes: other bytes have another one */
+    bool hashed;               /* the letters between these are the SHA-256 of the bytes: they are sent as digests */
     const char *cache_control; /* NULL: "private, no-cache", kept and asked for again each time */
     const char *coding;        /* Content-Encoding; NULL: none */
     bool negotiated;           /* it has a coding, or none, by Accept-Encoding */

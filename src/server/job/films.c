@@ -92,11 +92,11 @@ static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_erro
     if (!w->job->listed)
         status = kd_error_set(error, KD_EIO, "the job has been deleted");
     else if (w->film.bytes > all->params.bytes || all->bytes > all->params.bytes - w->film.bytes)
-        status = kd_error_set(error, KD_EFULL,
-                              "the film has %.1f MB, and the files of all jobs have %.1f of the %.1f MB that this "
-                              "server keeps",
-                              1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes,
-                              1e-6 * (double)all->params.bytes);
+        status =
+            kd_error_set(error, KD_EFULL,
+                         "the film has %.1f MB, and the files of all jobs have %.1f of the %.1f MB that this "
+                         "server keeps",
+                         1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes, 1e-6 * (double)all->params.bytes);
     else {
         all->bytes += w->film.bytes;
         w->job->bytes += w->film.bytes;

@@ -310,8 +310,9 @@ static enum MHD_Result send_film(struct kd_request *request, const struct kd_job
     name_it(request, job, format);
     snprintf(request->etag, sizeof request->etag, "\"%s\"", file->mark);
     return kd_reply_representation(
-        request, &(struct kd_representation) {
-                     .type = format->media_type, .etag = request->etag, .size = file->size, .fd = file->fd });
+        request,
+        &(struct kd_representation) {
+            .type = format->media_type, .etag = request->etag, .hashed = true, .size = file->size, .fd = file->fd });
 }
 
 static enum MHD_Result answer(struct kd_request *request)

@@ -20,6 +20,8 @@ static const struct {
     { "ETag", TEXT, "for If-None-Match", true },
     { "Accept-Ranges", "{\"const\":\"bytes\"}", "parts of it may be asked for by Range", false },
     { "Content-Range", TEXT, "bytes FIRST-LAST/ALL of a part; bytes */ALL where none of a range is there", true },
+    { "Repr-Digest", TEXT, "sha-256 of the whole (RFC 9530)", false },
+    { "Content-Digest", TEXT, "the same, where the whole is what is sent", false },
     { "Content-Disposition", TEXT, "the name of a file", false },
     { "Server-Timing", TEXT, "ms in the queue, of each pass, of encoding", false },
     { "Preference-Applied", TEXT, "return=minimal, where Prefer asked for it", false },
@@ -203,7 +205,9 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
     if (part)
         refer_all(json, "Content-Range Content-Disposition");
     if (part || (status == 200 && sends_parts(route, method)))
-        refer_all(json, "Accept-Ranges");
+        refer_all(json, "Accept-Ranges Repr-Digest");
+    if (status == 200 && sends_parts(route, method))
+        refer_all(json, "Content-Digest");
     if (names)
         refer_all(json, names);
     kd_json_end(json);
