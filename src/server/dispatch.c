@@ -126,6 +126,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     kd_task_destroy(request->task);
     kd_live_abandon(request);
     kd_play_abandon(request);
+    kd_once_end(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
@@ -264,7 +265,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
     struct kd_error error;
-    char text[TOO_LARGE];
+    char text[TOO_LARGE], key[KD_ONCE_TEXT];
 
     if (kd_target_parse(&request->target, request->raw, &error))
         problem =
@@ -305,7 +306,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
                                         .close = request->body_announced,
                                         .detail = "nothing here has an ETag that If-Match names" };
-    else if (!body_fault(request, text, &problem))
+    else if (!body_fault(request, text, &problem) && kd_once_read(request, &problem, key))
         return true;
     *result =
         kd_sign_in_wanted(request, &problem) ? kd_sign_in_page(request, &problem) : kd_reply_problem(request, &problem);
@@ -366,6 +367,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
         kd_bytes_give(server->bodies, request->client, *size);
         return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
     }
+    kd_once_take(request, data, *size);
     *size = 0;
     if (all - request->body_mark >= PACE) { /* it keeps up, and has as long for the next part */
         request->body_mark = all;

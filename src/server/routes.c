@@ -56,7 +56,7 @@ const struct kd_route kd_routes[] = {
       KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy", .question = true },
     { "/v1/sessions", KD_POST, kd_handle_sessions, JSON,
       "A live session of a scene: its id, and the token that changes it", KD_TAKES_SCENE, .status = { 201 },
-      .own = { "least", "patience_ms" } },
+      .once = true, .own = { "least", "patience_ms" } },
     { "/v1/sessions/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_session, JSON,
       "A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision alone; "
       "its end",
@@ -85,7 +85,7 @@ const struct kd_route kd_routes[] = {
     { "/v1/playground", KD_GET | KD_POST, kd_handle_plays, JSON,
       "What a playground may be asked for: presets, settings, fields of a body; opens one: its id, and the token that "
       "changes it",
-      KD_TAKES_PLAYGROUND, .status = { 200, 201 } },
+      KD_TAKES_PLAYGROUND, .status = { 200, 201 }, .once = true },
     { "/v1/playground/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_play, JSON,
       "How a playground stands; a change of its pace, its settings and its bodies; its end", KD_TAKES_PLAYGROUND },
     { "/v1/playground/{id}/step", KD_POST, kd_handle_play_step, JSON,
@@ -120,7 +120,7 @@ const struct kd_route kd_routes[] = {
       .also = "application/x-npz", .status = { 200, 304 }, .parts = true },
     { "/v1/jobs", KD_POST, kd_handle_jobs, JSON,
       "A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it", KD_TAKES_JOB,
-      .status = { 202 } },
+      .status = { 202 }, .once = true },
     { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON, "How far a job is; its end, with its files" },
     { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
     { "/v1/jobs/{id}/preview.png", KD_GET, kd_handle_job_preview, "image/png",

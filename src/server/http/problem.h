@@ -36,6 +36,7 @@
     X(INVALID_PLAYGROUND, 422, "invalid-playground", "The request for a playground is not valid") \
     X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken") \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders") \
+    X(KEY_REUSED, 422, "idempotency-key-reused", "The Idempotency-Key is that of another request") \
     X(QUOTA, 429, "quota", "This client has as much as one may") \
     X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address") \
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large") \

@@ -61,6 +61,7 @@ struct kd_kept;
 struct kd_measures;
 struct kd_plays;
 struct kd_render_queue;
+struct kd_request;
 struct kd_sessions;
 struct kd_thumbnails;
 
@@ -80,6 +81,7 @@ struct kd_server {
     struct kd_plays *plays;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* being fetched (job/whole.c); of the HTTP thread alone */
+    struct kd_request *once;    /* those with an Idempotency-Key that are under way; of the HTTP thread alone */
     struct kd_asset_store *assets;
     struct kd_kept *kept;
     struct kd_thumbnails *thumbnails;

@@ -305,6 +305,7 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
         job->record.created = kd_job_now_s();
         job->record.frames = job->frames;
         job->record.series = job->series;
+        job->record.once = draft->once;
         memcpy(job->record.preset, draft->preset, sizeof job->record.preset);
         snprintf(job->client, sizeof job->client, "%s", client);
         status = enter(all, job, text, length, quota, error);
@@ -329,6 +330,20 @@ struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id)
     pthread_mutex_unlock(&all->lock);
     return job;
 }
+
+struct kd_job *kd_jobs_find_once(struct kd_jobs *all, const char *key)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_job *job = *key ? all->first : NULL;
+    while (job && (job->creating || strcmp(job->record.once.key, key)))
+        job = job->link;
+    if (job)
+        job->references++;
+    pthread_mutex_unlock(&all->lock);
+    return job;
+}
+
+const struct kd_once *kd_job_once(const struct kd_job *job) { return &job->record.once; }
 
 void kd_job_release(struct kd_job *job)
 {

@@ -247,6 +247,9 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
         return false;
     if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* jobs of versions without have none */
         *out->preset = 0;
+    if (!copy_text(o, "idempotency_key", out->once.key, sizeof out->once.key) ||
+        !copy_text(o, "idempotency_request", out->once.request, sizeof out->once.request))
+        out->once = (struct kd_once) { 0 };
     double attempts = number(o, "attempts"), frames = number(o, "frames"), traced = number(o, "lens_maps_traced");
     out->attempts = attempts > 0 && attempts < 1e6 ? (unsigned)attempts : 0;
     out->frames = frames > 0 && frames <= KD_SWEEP_MOST ? (unsigned)frames : 0;
@@ -398,6 +401,10 @@ static enum kd_status record_json(const struct kd_job_record *record, struct kd_
         kd_json_number(&json, "exposure", record->exposure);
     kd_json_string(&json, "output", record->series->name);
     kd_json_string(&json, "preset", record->preset);
+    if (*record->once.key) {
+        kd_json_string(&json, "idempotency_key", record->once.key);
+        kd_json_string(&json, "idempotency_request", record->once.request);
+    }
     kd_json_string(&json, "error", record->error);
     kd_json_end(&json);
     return kd_json_finish(&json);

@@ -9,6 +9,7 @@
 
 #include "base/buffer.h"
 #include "render/output/series.h"
+#include "server/http/once.h"
 #include "server/http/secret.h"
 
 #include <stdbool.h>
@@ -26,6 +27,7 @@ struct kd_job_record {
     unsigned traced;   /* lens maps, so far */
     unsigned frames;   /* that the request asks for; 0 in records of versions that did not say */
     const struct kd_series *series; /* that they make */
+    struct kd_once once;            /* what it was asked for by */
     char preset[32];                /* that its scenes are merged over; "": none */
     char error[480];                /* of a failed job */
 };

@@ -1,6 +1,7 @@
 #include "server/openapi/headers.h"
 
 #include "base/schema.h"
+#include "server/http/once.h"
 #include "server/http/request_id.h"
 
 #include <stdio.h>
@@ -121,6 +122,7 @@ static bool tells_events(const struct kd_route *route, unsigned method)
 {
     return (void)method, route->answer && !strcmp(route->answer, "text/event-stream");
 }
+static bool is_made_once(const struct kd_route *route, unsigned method) { return method == KD_POST && route->once; }
 static bool may_say_little(const struct kd_route *route, unsigned method)
 {
     return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}");
@@ -141,6 +143,10 @@ static const struct {
     { "Last-Event-ID",
       "id of the last event that the client has, behind which the stream goes on; what is no number counts as none",
       tells_events },
+    { KD_ONCE_HEADER,
+      "a string of 1 to 128 characters, new with each request: one that is sent again with the same key and body is "
+      "answered with what the first has made, as long as that is there",
+      is_made_once },
     { "Prefer", "return=minimal (RFC 7240): the answer is the revision alone", may_say_little },
 };
 

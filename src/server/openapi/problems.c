@@ -52,7 +52,8 @@ static bool negotiates(const struct kd_route *route, unsigned method)
 static bool may_come_too_early(const struct kd_route *route, unsigned method)
 {
     static const char *const paths[] = { "/v1/jobs/{id}/result", "/v1/jobs/{id}/preview.png", NULL };
-    return route->takes == KD_TAKES_PARTICLES || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP ||
+    return (method == KD_POST && route->once) || route->takes == KD_TAKES_PARTICLES ||
+           route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP ||
            (route->takes == KD_TAKES_PLAYGROUND && method == KD_PATCH) || is_one_of(route, paths);
 }
 
