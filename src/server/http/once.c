@@ -7,7 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static void add(struct sha256_ctx *hash, const char *text) { sha256_update(hash, strlen(text) + 1, (const void *)text); }
+static void add(struct sha256_ctx *hash, const char *text)
+{
+    sha256_update(hash, strlen(text) + 1, (const void *)text);
+}
 
 static void digest(struct sha256_ctx *hash, char out[65])
 {
@@ -20,8 +23,7 @@ static void digest(struct sha256_ctx *hash, char out[65])
  * A backslash would have to be read, and is not taken. */
 static bool key_of(const char *value, char out[KD_ONCE_MOST + 1])
 {
-    const size_t all = strlen(value), quoted = all >= 2 && *value == '"' && value[all - 1] == '"',
-                 n = all - 2 * quoted;
+    const size_t all = strlen(value), quoted = all >= 2 && *value == '"' && value[all - 1] == '"', n = all - 2 * quoted;
     if (!n || n > KD_ONCE_MOST)
         return false;
     memcpy(out, value + quoted, n);

@@ -31,8 +31,7 @@ void kd_once_take(struct kd_request *request, const void *data, size_t size);
 /* What was made earlier with this key; NULL: nothing is there. KD_ONCE_REFUSED: the answer is *refused, 409 while the
  * earlier request is under way, and 422 where it was another one. */
 enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
-enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier,
-                                   enum MHD_Result *refused);
+enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
 void kd_once_end(struct kd_request *request); /* it is under way no more */
 
 #endif
