@@ -15,7 +15,8 @@
     "Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
     "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, " \
     "Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
-    "Preference-Applied, Repr-Digest, Retry-After, Server-Timing, WWW-Authenticate, X-Request-Id"
+    "Preference-Applied, RateLimit, RateLimit-Policy, Repr-Digest, Retry-After, Server-Timing, WWW-Authenticate, " \
+    "X-Request-Id"
 
 struct kd_cors {
     char **origins;

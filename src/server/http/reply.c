@@ -130,6 +130,19 @@ static bool only_asks(const struct kd_request *request)
     return request->head || !strcmp(request->method, "GET") || (request->route && request->route->question);
 }
 
+/* What this client has of its quota, as draft-ietf-httpapi-ratelimit-headers-11 has it. */
+static void add_quota(const struct kd_request *request, struct MHD_Response *response)
+{
+    char text[80];
+    if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))
+        return;
+    const struct kd_quota quota = request->server->quota(request->server, request->client);
+    snprintf(text, sizeof text, "\"device-seconds\";q=%u;w=60", quota.seconds);
+    MHD_add_response_header(response, "RateLimit-Policy", text);
+    snprintf(text, sizeof text, "\"device-seconds\";r=%u;t=%u", quota.left_s, quota.whole_in_s);
+    MHD_add_response_header(response, "RateLimit", text);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
@@ -152,6 +165,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     if (server->access) /* what a cache keeps is for the same token alone */
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
+    add_quota(request, response);
     if (*request->file && (status == MHD_HTTP_OK || status == MHD_HTTP_PARTIAL_CONTENT))
         MHD_add_response_header(response, "Content-Disposition", request->file);
     if (*request->id)

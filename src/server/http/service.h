@@ -7,6 +7,7 @@
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
+#include "server/http/allowance.h"
 #include "server/http/base_path.h"
 #include "server/http/bytes.h"
 #include "server/http/connections.h"
@@ -77,6 +78,7 @@ struct kd_server {
     struct kd_render_queue *renders;
     struct kd_turns *rays;  /* requests for them */
     struct kd_turns *turns; /* orbits, long quantities, paths of sessions, jobs being checked */
+    struct kd_quota (*quota)(const struct kd_server *server, const char *client); /* NULL: there is no limit */
     struct kd_sessions *sessions;
     struct kd_plays *plays;
     struct kd_jobs *jobs;

@@ -49,6 +49,12 @@ static const struct {
     { "Kerrd-Count", COUNT, "rows", true },
     { "Kerrd-Particles", COUNT, "how many particles there are", true },
     { "Kerrd-Generation", COUNT, "for after", true },
+    { "RateLimit-Policy", TEXT,
+      "\"device-seconds\";q=SECONDS;w=60: of the device's time that one client may use in a minute, where "
+      "kerrd serve --client-device-seconds limits it",
+      false },
+    { "RateLimit", TEXT,
+      "\"device-seconds\";r=LEFT;t=SECONDS: what is left, and in how many seconds all is there again", false },
     { "Retry-After", COUNT, "seconds, after which another try may go better", false },
     { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "how to say who asks", true },
     { "Allow", TEXT, "the methods that would do", true },
@@ -64,7 +70,8 @@ static const struct {
       false },
 };
 
-#define EVERY KD_REQUEST_ID_HEADER " Access-Control-Allow-Origin Access-Control-Expose-Headers"
+#define EVERY \
+    KD_REQUEST_ID_HEADER " RateLimit-Policy RateLimit Access-Control-Allow-Origin Access-Control-Expose-Headers"
 #define FRAME \
     "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences " \
     "Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
