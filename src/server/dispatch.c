@@ -313,6 +313,14 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     return false;
 }
 
+/* Of several lines none counts: one value is allowed. */
+static void read_trace(struct kd_request *request)
+{
+    struct kd_buffer value = kd_reply_header_list(request, "traceparent");
+    kd_trace_read((const char *)value.data, &request->trace);
+    kd_buffer_finish(&value);
+}
+
 /* The header is complete. What announces a body is refused by its header where it can be. The library closes
  * the connection after an answer at this point, so all else is answered at the next call. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
@@ -322,6 +330,7 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     enum MHD_Result result;
 
     kd_request_id_choose(MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_REQUEST_ID_HEADER), request->id);
+    read_trace(request);
     if (!request->raw) {
         return kd_reply_no_memory(request);
     }

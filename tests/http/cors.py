@@ -144,7 +144,7 @@ class Listed(Case):
 
     def test_preflights(self):
         """Each route says its own methods, and the headers that it reads."""
-        always = ["Authorization", "X-Request-Id", "Kerrd-Access"]
+        always = ["Authorization", "X-Request-Id", "traceparent", "Kerrd-Access"]
         for target, methods, more in (
             ("/v1/render", "GET, HEAD, POST", ["Content-Type", "If-None-Match"]),
             ("/v1/device", "GET, HEAD", []),
