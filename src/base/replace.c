@@ -75,23 +75,50 @@ bool kd_replace_is_temporary(const char *other, const char *name)
            strlen(other + n) == KD_TEMPORARY_TAIL && strspn(other + n + mark, letters) == KD_TEMPORARY_TAIL - mark;
 }
 
-bool kd_replace_file_at(int folder, const char *name, const void *data, size_t size)
+bool kd_replace_begin(int folder, const char *name, struct kd_replacing *out)
 {
-    char temporary[NAME_MAX + 1];
-    int fd = open_temporary(folder, name, temporary);
-    if (fd < 0)
-        return false;
-    bool good = write_all(fd, data, size) && !fsync(fd);
-    good = !close(fd) && good && !renameat(folder, temporary, folder, name);
+    out->folder = folder;
+    out->fd = open_temporary(folder, name, out->temporary);
+    return out->fd >= 0;
+}
+
+bool kd_replace_append(struct kd_replacing *file, const void *data, size_t size)
+{
+    return write_all(file->fd, data, size);
+}
+
+bool kd_replace_commit(struct kd_replacing *file, const char *name)
+{
+    bool good = !fsync(file->fd);
+    good = !close(file->fd) && good && !renameat(file->folder, file->temporary, file->folder, name);
     int cause = errno;
     if (!good)
-        unlinkat(folder, temporary, 0);
+        unlinkat(file->folder, file->temporary, 0);
     /* The new name is as good as the old one without this, but a power cut may bring the old one back. Some file
      * systems have no such call for folders. */
-    if (good && fsync(folder) && errno != EINVAL && errno != EROFS)
+    if (good && fsync(file->folder) && errno != EINVAL && errno != EROFS)
         cause = errno, good = false;
     errno = cause;
     return good;
+}
+
+void kd_replace_abandon(struct kd_replacing *file)
+{
+    int cause = errno;
+    close(file->fd);
+    unlinkat(file->folder, file->temporary, 0);
+    errno = cause;
+}
+
+bool kd_replace_file_at(int folder, const char *name, const void *data, size_t size)
+{
+    struct kd_replacing file;
+    if (!kd_replace_begin(folder, name, &file))
+        return false;
+    if (kd_replace_append(&file, data, size))
+        return kd_replace_commit(&file, name);
+    kd_replace_abandon(&file);
+    return false;
 }
 
 /* Removes what killed processes have left half written. A file that was touched a moment ago is still being written,

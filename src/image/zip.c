@@ -208,6 +208,15 @@ enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size)
     return zip->left ? KD_OK : put_descriptor(zip, e);
 }
 
+enum kd_status kd_zip_pass_over(struct kd_zip *zip)
+{
+    if (!zip->left)
+        return KD_OK;
+    zip->at += zip->left;
+    zip->left = 0;
+    return put_descriptor(zip, &zip->entries[zip->n - 1]);
+}
+
 /* Deflates; false: it does not become smaller, or there is no memory for it. *out is the caller's to free. */
 static bool deflate(const void *data, size_t size, void **out, size_t *packed)
 {

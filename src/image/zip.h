@@ -17,6 +17,9 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
  * bytes off *out. KD_ENOMEM. */
 enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size);
 enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size);
+/* Counts the bytes that the open member lacks as written, and gives none: for who wants to know how long a file will
+ * be. KD_ENOMEM. */
+enum kd_status kd_zip_pass_over(struct kd_zip *zip);
 /* Adds a whole member. KD_ENOMEM. */
 enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size);
 enum kd_status kd_zip_close(struct kd_zip *zip); /* Writes the directory. KD_ENOMEM. */

@@ -126,6 +126,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     kd_task_destroy(request->task);
     kd_live_abandon(request);
     kd_play_abandon(request);
+    kd_once_end(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
@@ -264,7 +265,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
     struct kd_error error;
-    char text[TOO_LARGE];
+    char text[TOO_LARGE], key[KD_ONCE_TEXT];
 
     if (kd_target_parse(&request->target, request->raw, &error))
         problem =
@@ -305,11 +306,19 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
                                         .close = request->body_announced,
                                         .detail = "nothing here has an ETag that If-Match names" };
-    else if (!body_fault(request, text, &problem))
+    else if (!body_fault(request, text, &problem) && kd_once_read(request, &problem, key))
         return true;
     *result =
         kd_sign_in_wanted(request, &problem) ? kd_sign_in_page(request, &problem) : kd_reply_problem(request, &problem);
     return false;
+}
+
+/* Of several lines none counts: one value is allowed. */
+static void read_trace(struct kd_request *request)
+{
+    struct kd_buffer value = kd_reply_header_list(request, "traceparent");
+    kd_trace_read((const char *)value.data, &request->trace);
+    kd_buffer_finish(&value);
 }
 
 /* The header is complete. What announces a body is refused by its header where it can be. The library closes
@@ -321,6 +330,7 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     enum MHD_Result result;
 
     kd_request_id_choose(MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_REQUEST_ID_HEADER), request->id);
+    read_trace(request);
     if (!request->raw) {
         return kd_reply_no_memory(request);
     }
@@ -366,6 +376,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
         kd_bytes_give(server->bodies, request->client, *size);
         return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
     }
+    kd_once_take(request, data, *size);
     *size = 0;
     if (all - request->body_mark >= PACE) { /* it keeps up, and has as long for the next part */
         request->body_mark = all;

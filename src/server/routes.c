@@ -4,12 +4,12 @@
 
 const struct kd_route kd_routes[] = {
     { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8",
-      "The page: a live view, its controls and what is computed", .status = { 200, 304 } },
-    { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads", .status = { 200, 304 } },
+      "The page: a live view, its controls and what is computed", .status = { 200, 304 }, .parts = true },
+    { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads", .status = { 200, 304 }, .parts = true },
     { "/web/stills/{name}", KD_GET, kd_handle_page, "*/*", "small pictures of presets, and of its first view",
-      .status = { 200, 304 } },
-    { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots",
-      .status = { 200, 304 } },
+      .status = { 200, 304 }, .parts = true },
+    { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots", .status = { 200, 304 },
+      .parts = true },
     { "/s/{code}", KD_GET, kd_handle_shared, "text/html; charset=utf-8",
       "A shared scene: what other sites show of a link to it, and the way to the page with it", KD_TAKES_LINK },
     { "/embed/{code}", KD_GET, kd_handle_embed, "text/html; charset=utf-8",
@@ -63,7 +63,7 @@ const struct kd_route kd_routes[] = {
       KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy", .question = true },
     { "/v1/sessions", KD_POST, kd_handle_sessions, JSON,
       "A live session of a scene: its id, and the token that changes it", KD_TAKES_SCENE, .status = { 201 },
-      .own = { "least", "patience_ms" } },
+      .once = true, .own = { "least", "patience_ms" } },
     { "/v1/sessions/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_session, JSON,
       "A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision alone; "
       "its end",
@@ -92,7 +92,7 @@ const struct kd_route kd_routes[] = {
     { "/v1/playground", KD_GET | KD_POST, kd_handle_plays, JSON,
       "What a playground may be asked for: presets, settings, fields of a body; opens one: its id, and the token that "
       "changes it",
-      KD_TAKES_PLAYGROUND, .status = { 200, 201 } },
+      KD_TAKES_PLAYGROUND, .status = { 200, 201 }, .once = true },
     { "/v1/playground/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_play, JSON,
       "How a playground stands; a change of its pace, its settings and its bodies; its end", KD_TAKES_PLAYGROUND },
     { "/v1/playground/{id}/step", KD_POST, kd_handle_play_step, JSON,
@@ -124,21 +124,22 @@ const struct kd_route kd_routes[] = {
       "the token that deletes it",
       KD_TAKES_ASSET, .status = { 200, 201 } },
     { "/v1/assets/{sha256}", KD_GET | KD_DELETE, kd_handle_asset, "image/png", "The bytes of an asset; its end",
-      .also = "application/x-npz", .status = { 200, 304 } },
+      .also = "application/x-npz", .status = { 200, 304 }, .parts = true },
     { "/v1/jobs", KD_POST, kd_handle_jobs, JSON,
       "A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it", KD_TAKES_JOB,
-      .status = { 202 } },
+      .status = { 202 }, .once = true },
     { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON, "How far a job is; its end, with its files" },
     { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
     { "/v1/jobs/{id}/preview.png", KD_GET, kd_handle_job_preview, "image/png",
       "The frame that is being rendered, as far as it is drawn, else the last finished one; 409 while there is "
-      "nothing" },
+      "nothing",
+      .status = { 200, 304 }, .parts = true },
     { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, NULL,
       "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they "
       "come; "
       "of a sweep asked for as a cube one array a layer, as application/fits, or with format=npz; of a light curve its "
       "rows, as application/json or text/csv",
-      .gives = KD_GIVES_RESULT },
+      .gives = KD_GIVES_RESULT, .status = { 200, 304 }, .parts = true },
     { "/v1/pixel", KD_GET | KD_POST, kd_handle_pixel, JSON,
       "What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it "
       "ends and why; with trace=steps the engine's steps along it",

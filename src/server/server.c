@@ -191,6 +191,11 @@ static struct kd_renderer_params renderer_params(const struct kd_server *server,
     return renderer;
 }
 
+static struct kd_quota quota_of(const struct kd_server *server, const char *client)
+{
+    return kd_render_queue_quota(server->renders, client);
+}
+
 static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks,
                                     struct kd_error *error)
 {
@@ -239,6 +244,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     const unsigned tasks = or_default(params->queue, 16);
     KD_TRY(make_assets(server, params, error));
     KD_TRY(start_renders(server, params, tasks, error));
+    server->quota = params->client_device_s ? quota_of : NULL;
     if (params->rest_ms)
         kd_render_queue_rest_after(server->renders, params->rest_ms);
     set_etag_tail(server);

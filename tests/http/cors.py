@@ -144,12 +144,13 @@ class Listed(Case):
 
     def test_preflights(self):
         """Each route says its own methods, and the headers that it reads."""
-        always = ["Authorization", "X-Request-Id", "Kerrd-Access"]
+        always = ["Authorization", "X-Request-Id", "traceparent", "Kerrd-Access"]
         for target, methods, more in (
             ("/v1/render", "GET, HEAD, POST", ["Content-Type", "If-None-Match"]),
             ("/v1/device", "GET, HEAD", []),
             ("/v1/presets", "GET, HEAD", ["If-None-Match"]),
-            ("/v1/sessions", "POST", ["Content-Type"]),
+            ("/v1/sessions", "POST", ["Content-Type", "Idempotency-Key"]),
+            ("/v1/jobs/0123456789abcdef/result", "GET, HEAD", ["If-None-Match", "Range", "If-Range"]),
             ("/v1/sessions/0123456789abcdef", "GET, HEAD, PATCH, DELETE", ["Content-Type", "Prefer"]),
             ("/v1/sessions/0123456789abcdef/frame", "GET, HEAD, PATCH", ["Content-Type", "Prefer"]),
             ("/v1/sessions/0123456789abcdef/path", "POST, DELETE", ["Content-Type"]),

@@ -1,6 +1,9 @@
 """Films of jobs, which the program ffmpeg encodes. In front of the fake renderer, and of an ffmpeg that keeps what it
 is given; with FFMPEG=real (suite `film`) of the one of this system, whose film ffprobe and ffmpeg read."""
 
+import base64
+import concurrent.futures
+import hashlib
 import json
 import os
 import pathlib
@@ -16,6 +19,7 @@ from job_case import SCENE, Case, scene_of
 REAL = os.environ.get("FFMPEG") == "real"
 # Its arguments, a line each, and an empty line; then what it reads. The last argument is where it writes.
 KEEPS = 'import sys, pathlib\nout = open(sys.argv[-1], "wb")\nout.write("\\n".join(sys.argv[1:]).encode() + b"\\n\\n" + sys.stdin.buffer.read())\n'
+COUNTS = 'import os\nopen(os.environ["KERRD_TEST_RUNS"], "a").write("x")\n' + KEEPS
 FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("\\x1b[31m/secret/place: Unknown encoder libx264\\x07\\nsecond line")\n'
 # Its child has its standard error, and stays when it has failed.
 LEAVES = (
@@ -31,8 +35,8 @@ class Films(Case):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def film_of(self, program, document, query="?format=mp4"):
-        """A server of its own whose ffmpeg is this program; the job, and the answer of its film."""
+    def server_of(self, program, *options):
+        """A server whose ffmpeg is this program."""
         path = self.folder / "ffmpeg"
         if program:
             path.write_text("#!/usr/bin/env python3\n" + program)
@@ -41,10 +45,15 @@ class Films(Case):
         os.environ["PATH"] = f"{self.folder}:{before}" if program or REAL else str(self.folder)
         os.environ["KERRD_TEST_PID"] = str(self.folder / "pid")
         try:
-            server = daemon.Daemon(*(() if REAL else ("--drain-ms", 10)))
+            server = daemon.Daemon(*(() if REAL else ("--drain-ms", 10)), *options)
         finally:
             os.environ["PATH"] = before
         self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
+        return server
+
+    def film_of(self, program, document, query="?format=mp4", options=()):
+        """A server of its own whose ffmpeg is this program; the job, and the answer of its film."""
+        server = self.server_of(program, *options)
         job = self.make(document, server=server)
         self.until(job, "done", server)
         return server, job, query and server.get(self.at(job, "/result" + query))
@@ -58,7 +67,8 @@ class Films(Case):
         """A server, a client that waits for a film, and the number of the process that makes none."""
         server, job, _ = self.film_of(HANGS, {"scenes": [SCENE] * 2}, None)
         client = server.connect()
-        client.sendall(f"GET {self.at(job, '/result?format=mp4')} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        self.asked = self.at(job, "/result?format=mp4")
+        client.sendall(f"GET {self.asked} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
         pid = self.folder / "pid"
         self.assertTrue(daemon.eventually(lambda: pid.exists() and pid.read_text()))
         return server, client, int(pid.read_text())
@@ -164,6 +174,143 @@ class Given(Films):
         self.ended(server)
 
 
+class Kept(Films):
+    """A film is encoded once, and kept with its job."""
+
+    FRAMES = {"scene": SCENE, "keyframes": [{"frame": 9, "scene": {"camera": {"azimuth_deg": 39}}}]}
+
+    def setUp(self):
+        super().setUp()
+        os.environ["KERRD_TEST_RUNS"] = str(self.folder / "runs")
+
+    def runs(self):
+        path = self.folder / "runs"
+        return len(path.read_text()) if path.exists() else 0
+
+    def files(self, job, state):
+        return sorted(name for name in os.listdir(state / "jobs" / job["id"]) if name.startswith("film"))
+
+    def test_it_is_encoded_once(self):
+        server, job, first = self.film_of(COUNTS, self.FRAMES)
+        tag = f'"{hashlib.sha256(first.body).hexdigest()}"'
+        self.assertEqual((first.status, first.header("ETag")), (200, tag))
+        self.assertEqual(first.header("Content-Length"), str(len(first.body)))
+        digest = base64.b64encode(hashlib.sha256(first.body).digest()).decode()
+        self.assertEqual(first.header("Content-Digest"), f"sha-256=:{digest}:")
+        film = self.at(job, "/result?format=mp4")
+        head = server.request("HEAD", film)
+        self.assertEqual((head.header("Content-Length"), head.header("ETag")), (str(len(first.body)), tag))
+        self.assertEqual(server.get(film).body, first.body)
+        part = server.get(film, Range="bytes=5-", If_Range=tag)
+        self.assertEqual((part.status, part.body), (206, first.body[5:]))
+        self.assertEqual(server.get(film, If_None_Match=tag).status, 304)
+        self.assertEqual(self.runs(), 1)
+        self.assertEqual(server.get(film + "&rate=25").status, 200)
+        self.assertEqual(server.get(film.replace("mp4", "webm")).status, 200)
+        self.assertEqual(self.runs(), 3, "another rate, and another format, are other films")
+        self.ended(server)
+
+    def test_all_who_ask_at_once_get_one(self):
+        server, job, _ = self.film_of(COUNTS, self.FRAMES, None)
+        film = self.at(job, "/result?format=mp4")
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            answers = list(pool.map(lambda _: server.get(film), range(3)))
+        self.assertEqual({answer.status for answer in answers}, {200}, answers[0].body[:200])
+        self.assertEqual((len({answer.body for answer in answers}), self.runs()), (1, 1))
+        self.ended(server)
+
+    def test_who_leaves_hands_it_on(self):
+        """Another who waits for the same film has it encoded then."""
+        server, client, number = self.hanging()
+        job = re.search(r"/v1/jobs/(\w+)/", self.asked)[1]
+        (self.folder / "ffmpeg").write_text("#!/usr/bin/env python3\n" + KEEPS)
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            other = pool.submit(server.get, f"/v1/jobs/{job}/result?format=mp4")
+            self.assertRaises(concurrent.futures.TimeoutError, other.result, 0.5)
+            daemon.vanish(client)
+            self.assertEqual(other.result(60).status, 200)
+        self.gone(number)
+        self.ended(server)
+
+    def test_curl_goes_on_with_half_of_it(self):
+        for kind in "mp4", "webm":
+            server, job, whole = self.film_of(KEEPS, self.FRAMES, "?format=" + kind)
+            path = self.folder / ("half." + kind)
+            path.write_bytes(whole.body[: len(whole.body) // 2])
+            address = f"http://127.0.0.1:{server.port}{self.at(job, '/result?format=' + kind)}"
+            subprocess.run(["curl", "-sS", "-f", "-C", "-", "-o", path, address], check=True)
+            self.assertEqual(path.read_bytes(), whole.body)
+            self.ended(server)
+
+    def test_its_bytes_count_and_go_with_the_job(self):
+        state = self.folder / "state"
+        server, job, _ = self.film_of(COUNTS, self.FRAMES, None, ("--state", state))
+        before = self.status(job, server)["bytes"]
+        film = server.get(self.at(job, "/result?format=mp4")).body
+        self.assertEqual(self.status(job, server)["bytes"], before + len(film))
+        self.assertEqual(self.files(job, state), [f"film-024-{hashlib.sha256(film).hexdigest()}.mp4"])
+        for rate in range(30, 35):
+            self.assertEqual(server.get(self.at(job, f"/result?format=mp4&rate={rate}")).status, 200)
+        self.assertEqual([name[:8] for name in self.files(job, state)], [f"film-0{rate}" for rate in range(31, 35)])
+        sizes = sum(os.stat(state / "jobs" / job["id"] / name).st_size for name in self.files(job, state))
+        self.assertEqual(self.status(job, server)["bytes"], before + sizes)
+        self.delete(job, server)
+        self.assertTrue(daemon.eventually(lambda: not (state / "jobs" / job["id"]).exists()))
+        self.ended(server)
+
+    def test_a_restart_finds_it(self):
+        state = self.folder / "state"
+        server, job, first = self.film_of(COUNTS, self.FRAMES, options=("--state", state))
+        bytes_ = self.status(job, server)["bytes"]
+        server.process.kill()
+        server.wait()
+        server = self.server_of(COUNTS, "--state", state)
+        self.assertEqual(self.status(job, server)["bytes"], bytes_)
+        again = server.get(self.at(job, "/result?format=mp4"), Range="bytes=9-", If_Range=first.header("ETag"))
+        self.assertEqual((again.status, again.body, self.runs()), (206, first.body[9:], 1))
+        self.ended(server)
+
+    def test_a_kill_leaves_no_half_of_it(self):
+        """While ffmpeg works, and while what it has made is copied."""
+        state = self.folder / "state"
+        server, job, _ = self.film_of(HANGS, self.FRAMES, None, ("--state", state))
+        client = server.connect()
+        client.sendall(f"GET {self.at(job, '/result?format=mp4')} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        self.assertTrue(daemon.eventually((self.folder / "pid").exists))
+        server.process.kill()
+        server.wait()
+        client.close()
+        half = state / "jobs" / job["id"] / "film-024.mp4.kerrd-aB3dE6"
+        half.write_bytes(b"half")
+        others = state / "jobs" / job["id"] / "film-024.mp4.backup"
+        others.write_bytes(b"mine")
+        server = self.server_of(COUNTS, "--state", state)
+        self.assertEqual((half.exists(), others.exists()), (False, True))
+        self.assertEqual(server.get(self.at(job, "/result?format=mp4")).status, 200)
+        self.assertEqual(len(self.files(job, state)), 2)
+        self.ended(server)
+
+    def test_one_for_which_there_is_no_room(self):
+        server, job, answer = self.film_of(KEEPS, self.FRAMES, options=("--jobs-kib", 64))
+        self.assertProblem(answer, 507, "disk-full")
+        self.assertRegex(
+            answer.json()["detail"], r"^the film has [0-9.]+ MB, and the files of all jobs have [0-9.]+ of"
+        )
+        self.assertEqual(server.get(self.at(job, "/result?format=png&frame=0")).status, 200)
+        self.ended(server)
+
+    def test_nothing_is_left_open(self):
+        server, job, _ = self.film_of(FAILS, self.FRAMES)
+        files = server.open_files()
+        for _ in range(5):
+            self.assertProblem(server.get(self.at(job, "/result?format=mp4")), 500, "internal")
+        (self.folder / "ffmpeg").write_text("#!/usr/bin/env python3\n" + KEEPS)
+        for _ in range(5):
+            self.assertEqual(server.get(self.at(job, "/result?format=mp4")).status, 200)
+        self.assertTrue(daemon.eventually(lambda: server.open_files() <= files))
+        self.ended(server)
+
+
 class Read(Films):
     @classmethod
     def setUpClass(cls):
@@ -257,5 +404,7 @@ if __name__ == "__main__":
     if REAL and not all(map(shutil.which, ("ffmpeg", "ffprobe"))):
         print("skipped: there is no ffmpeg; scripts/matrix film installs it")
         raise SystemExit(77)
-    del globals()["Given" if REAL else "Read"], Films
+    for other in ("Given", "Kept") if REAL else ("Read",):
+        del globals()[other]
+    del Films
     daemon.main()

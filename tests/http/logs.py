@@ -55,6 +55,45 @@ class Logs(unittest.TestCase):
             (other["route"], other["status"], other["id"]), ("none", 404, self.later.header("X-Request-Id"))
         )
 
+    def test_the_trace_that_a_request_is_part_of(self):
+        """By traceparent (W3C Trace Context 3.2.2)."""
+        trace, parent = "4bf92f3577b34da6a3ce929d0e0e4736", "00f067aa0ba902b7"
+        values = {
+            f"00-{trace}-{parent}-01": True,
+            f"00-{trace}-{parent}-00": True,
+            f"00-{trace}-{parent}-ff": True,
+            f"01-{trace}-{parent}-01": True,
+            f"cc-{trace}-{parent}-01-what-the-future-will-be-like": True,
+            f"cc-{trace}-{parent}-01.what": False,
+            f"00-{trace}-{parent}-01-more": False,
+            f"00-{trace}-{parent}-01-": False,
+            f"ff-{trace}-{parent}-01": False,
+            f"00-{trace.upper()}-{parent}-01": False,
+            f"00-{trace}-{parent.upper()}-01": False,
+            f"00-{'0' * 32}-{parent}-01": False,
+            f"00-{trace}-{'0' * 16}-01": False,
+            f"00-{trace[1:]}-{parent}-01": False,
+            f"00-{trace}0-{parent}-01": False,
+            f"00-{trace}-{parent}-1": False,
+            f"00-{trace}-{parent}": False,
+            f"0-{trace}-{parent}-01": False,
+            f"00-{trace}-{parent}-zz": False,
+            f"00-{trace}-{parent}-01,00-{trace}-{parent}-01": False,
+            "": False,
+            "x" * 5000: False,
+        }
+
+        def asks(server):
+            for value in values:
+                self.assertEqual(server.get("/v1/presets", traceparent=value).status, 200)
+            server.get("/v1/presets")
+
+        lines = self.lines(asks)
+        for line, (value, good) in zip(lines, [*values.items(), (None, False)], strict=True):
+            with self.subTest(value):
+                self.assertEqual(line.get("trace_id"), trace if good else None)
+                self.assertEqual(line.get("parent_id"), parent if good else None)
+
     def test_bytes_are_those_of_the_answer(self):
         """Of several answers on one connection, each its own; header and all."""
 

@@ -1,5 +1,7 @@
 """What RFC 9110 and 9112 ask of an origin server: docs/rfc.md has the rows, each method of Rows is the test of one."""
 
+import base64
+import hashlib
 import pathlib
 import re
 import tempfile
@@ -10,6 +12,7 @@ TABLE = pathlib.Path(__file__).resolve().parents[2] / "docs/rfc.md"
 HOST = "Host: localhost"
 JSON = "Content-Type: application/json"
 PRESETS = "/v1/presets"
+FILE = "/web/app.js"
 
 
 class Rows(daemon.Case):
@@ -366,6 +369,50 @@ class Rows(daemon.Case):
             got = self.ask(f"{method} {target}", HOST)
             self.assertStatus(got, 405)
             self.assertEqual(len(self.field(got, "Allow")), 1)
+
+    def if_range(self):
+        tag = self.field(self.get(target=FILE), "ETag")[0]
+        self.assertStatus(self.get("Range: bytes=0-9", f"If-Range: {tag}", target=FILE), 206)
+        for value in "W/" + tag, '"x"', "Fri, 01 Jan 2100 00:00:00 GMT", "Sat, 01 Jan 2000 00:00:00 GMT":
+            self.assertStatus(self.get("Range: bytes=0-9", "If-Range: " + value, target=FILE), 200)
+
+    def order_of_preconditions(self):
+        tag = self.field(self.get(target=FILE), "ETag")[0]
+        for status, *lines in (
+            (412, 'If-Match: "x"', f"If-None-Match: {tag}", f"If-Range: {tag}"),
+            (304, f"If-Match: {tag}", f"If-None-Match: {tag}", 'If-Range: "x"'),
+            (200, f"If-Match: {tag}", 'If-None-Match: "x"', 'If-Range: "x"'),
+            (206, f"If-Match: {tag}", 'If-None-Match: "x"', f"If-Range: {tag}"),
+        ):
+            self.assertStatus(self.get("Range: bytes=0-9", *lines, target=FILE), status)
+
+    def ranges_to_ignore(self):
+        for value in "lines=0-9", "bytes=9-0", "bytes=x-9", "bytes", "bytes=0-1,4-5":
+            self.assertStatus(self.get("Range: " + value, target=FILE), 200)
+        self.assertStatus(self.ask(f"HEAD {FILE}", HOST, "Range: bytes=0-9"), 200)
+        self.assertStatus(self.plan("Range: bytes=0-9", "Content-Length: 2"), 200)
+
+    def parts(self):
+        whole, part = self.get(target=FILE), self.get("Range: bytes=3-8", target=FILE)
+        self.assertStatus(part, 206)
+        body = whole.partition("\r\n\r\n")[2]
+        self.assertEqual(part.partition("\r\n\r\n")[2], body[3:9])
+        self.assertEqual(self.field(part, "Content-Range"), [f"bytes 3-8/{len(body)}"])
+        for name in "ETag", "Vary", "Cache-Control":
+            self.assertEqual(self.field(part, name), self.field(whole, name), name)
+
+    def beyond_the_end(self):
+        n = self.field(self.get(target=FILE), "Content-Length")[0]
+        got = self.get(f"Range: bytes={n}-", target=FILE)
+        self.assertStatus(got, 416)
+        self.assertEqual(self.field(got, "Content-Range"), [f"bytes */{n}"])
+
+    def digests(self):
+        whole, part = self.get(target=FILE), self.get("Range: bytes=3-8", target=FILE)
+        body = whole.partition("\r\n\r\n")[2].encode("latin-1")
+        digest = [f"sha-256=:{base64.b64encode(hashlib.sha256(body).digest()).decode()}:"]
+        self.assertEqual((self.field(whole, "Content-Digest"), self.field(whole, "Repr-Digest")), (digest, digest))
+        self.assertEqual((self.field(part, "Content-Digest"), self.field(part, "Repr-Digest")), ([], digest))
 
     def test_each_row_of_the_table(self):
         rows = re.findall(r"^\| 9.*\| `(\w+)` \|$", TABLE.read_text(), re.M)

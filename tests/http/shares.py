@@ -276,6 +276,25 @@ class Allowance(Case):
             self.ask("127.0.0.1", "GET", RENDER + "&time=1500", headers={"If-None-Match": tag}).status, 304
         )
 
+    def test_it_is_told(self):
+        """By RateLimit (draft-ietf-httpapi-ratelimit-headers-11), to each client what is its own."""
+        own, other = "127.0.0.6", "127.0.0.7"
+
+        def told(source, target="/v1/presets"):
+            answer = self.ask(source, "GET", target)
+            self.assertEqual(answer.header("RateLimit-Policy"), '"device-seconds";q=1;w=60')
+            left, whole = re.fullmatch(r'"device-seconds";r=(\d+);t=(\d+)', answer.header("RateLimit")).groups()
+            return int(left), int(whole)
+
+        self.assertEqual(told(own), (1, 0))
+        self.assertEqual(self.ask(own, "GET", RENDER + "&time=1500").status, 200)
+        left, whole = told(own)
+        self.assertEqual(left, 0)
+        self.assertTrue(60 < whole <= 120, whole)
+        self.assertEqual(told(other), (1, 0))
+        self.assertGreaterEqual(told(own, RENDER)[1], int(self.ask(own, "GET", RENDER).header("Retry-After")))
+        self.assertIsNone(self.ask(own, "GET", "/healthz").header("RateLimit"))
+
     def test_what_is_accepted_counts_by_its_estimate(self):
         self.begin(LONG % 60000, "127.0.0.3")
         self.daemon.reaches("renders_unfinished", 1)

@@ -589,6 +589,54 @@ class Stranger(http.server.BaseHTTPRequestHandler):
         pass
 
 
+class Loses(http.server.BaseHTTPRequestHandler):
+    """Passes requests on to the server `to`, and drops the first answer to a POST of each path."""
+
+    def pass_on(self):
+        body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
+        self.server.asked.append((self.command, self.path, self.headers["Idempotency-Key"]))
+        connection = http.client.HTTPConnection(self.server.to.host, self.server.to.port, timeout=60)
+        sent = {name: value for name, value in self.headers.items() if name.lower() not in ("host", "connection")}
+        connection.request(self.command, self.path, body, {**sent, "Connection": "close"})
+        answer = connection.getresponse()
+        got = answer.read()
+        connection.close()
+        self.close_connection = True
+        if self.command == "POST" and [path for _, path, _ in self.server.asked].count(self.path) == 1:
+            return
+        self.send_response(answer.status)
+        self.send_header("Content-Length", str(len(got)))
+        self.end_headers()
+        self.wfile.write(got)
+
+    do_POST = do_GET = do_DELETE = pass_on
+
+    def log_message(self, *_):
+        pass
+
+
+class Broken(Case):
+    """What a connection that broke may have carried is sent again where that makes nothing twice."""
+
+    def test_a_lost_answer(self):
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Loses)
+        server.to, server.asked = httpx.URL(self.hole.url), []
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        with kerrd.Client(f"http://127.0.0.1:{server.server_port}/", trust_env=False) as client:
+            with client.job({"scene": {"image": SIZE}}) as job, client.session({"image": SIZE}) as session:
+                made = {"/v1/jobs": job.id, "/v1/sessions": session.id}
+                for path, name in made.items():
+                    keys = [key for method, asked, key in server.asked if (method, asked) == ("POST", path)]
+                    self.assertEqual((len(keys), len(set(keys))), (2, 1), path)
+                    self.assertRegex(keys[0], r'^"[0-9a-f-]{36}"$')
+                    self.assertIn(name, self.raw("GET", f"{path}/{name}")[1].decode())
+                self.assertEqual(self.raw("GET", "/metrics")[1].count(b"\nkerrd_sessions 1\n"), 1)
+            with self.assertRaises(kerrd.Unreachable):
+                client.plan({"image": SIZE})
+
+
 class Absent(unittest.TestCase):
     """One sentence for who is not there."""
 

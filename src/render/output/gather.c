@@ -110,6 +110,11 @@ static enum kd_status advance(struct files *f, bool *over)
         f->at = 0;
         return kd_zip_begin(f->zip, name, f->size);
     }
+    if (f->source->counted) {
+        *f->source->counted += f->size;
+        f->at = f->size;
+        return kd_zip_pass_over(f->zip);
+    }
     size_t n = f->size - f->at < sizeof f->piece ? (size_t)(f->size - f->at) : sizeof f->piece;
     if (!f->source->read(f->source->user, f->next - 1, f->at, f->piece, n))
         return KD_EIO;
@@ -138,6 +143,7 @@ static void close_files(void *state)
 const struct kd_gather_format kd_gather_zip = {
     .name = "zip",
     .media_type = "application/zip",
+    .counts = true,
     .open = open_files,
     .next = next_file,
     .close = close_files,

@@ -21,7 +21,8 @@ struct kd_gather_source {
     const struct kd_sweep *sweep;  /* whose scenes they are; NULL: of none, for a ZIP alone */
     const struct kd_format *frame; /* what they are */
     unsigned n;
-    unsigned rate; /* frames a second, of a film */
+    unsigned rate;     /* frames a second, of a film */
+    uint64_t *counted; /* what `counts` counts bytes of frames in, instead of giving them; NULL: it gives them */
     bool (*size)(void *user, unsigned frame, uint64_t *out);
     bool (*read)(void *user, unsigned frame, uint64_t at, void *to, size_t size); /* all of these bytes, or false */
 };
@@ -32,7 +33,8 @@ struct kd_gather_format {
     const struct kd_format *of;                             /* of frames of this format; NULL: of any */
     size_t (*holds)(const struct kd_gather_source *source); /* bytes held while it is made, much of which is done before
                                                                its first piece; NULL: it is made as it is taken */
-    bool waits; /* where it gives nothing it waits for another program: to be asked again some milliseconds later */
+    bool counts; /* it can say how long it will be: what it gives, and source->counted, together */
+    bool waits;  /* where it gives nothing it waits for another program: to be asked again some milliseconds later */
     enum kd_status (*open)(const struct kd_gather_source *source, void **state, struct kd_error *error);
     enum kd_status (*next)(void *state, struct kd_buffer *out, bool *over, struct kd_error *error);
     void (*close)(void *state);

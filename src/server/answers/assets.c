@@ -3,6 +3,7 @@
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
+#include "server/http/representation.h"
 #include "server/http/request.h"
 #include "server/render/queue.h"
 #include "server/render/task.h"
@@ -186,15 +187,11 @@ struct sending {
     struct kd_asset *asset;
 };
 
-static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
+static ssize_t read_bytes(void *cls, uint64_t position, char *to, size_t size)
 {
     const struct sending *s = cls;
-    const struct kd_asset_about *about = kd_asset_about(s->asset);
-    size_t left = position < about->size ? about->size - (size_t)position : 0, n = left < size ? left : size;
-    if (!n)
-        return MHD_CONTENT_READER_END_OF_STREAM;
-    memcpy(to, about->data + position, n);
-    return (ssize_t)n;
+    memcpy(to, kd_asset_about(s->asset)->data + position, size);
+    return (ssize_t)size;
 }
 
 static void release(void *cls)
@@ -208,26 +205,23 @@ static void release(void *cls)
 static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *asset)
 {
     const struct kd_asset_about *about = kd_asset_about(asset);
-    struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
-    bool same = kd_etag_listed((const char *)known.data, request->etag);
-    kd_buffer_finish(&known);
     struct sending *s = malloc(sizeof *s);
     if (!s) {
         kd_asset_release(request->server->assets, asset);
         return kd_reply_no_memory(request);
     }
     *s = (struct sending) { request->server->assets, asset };
-    request->reply_bytes = about->size;
     kd_reply_file(request, KD_INLINE, "kerrd-asset-%.8s.%s", about->hash, about->nodes[0] ? "npz" : "png");
-    struct MHD_Response *response = MHD_create_response_from_callback(about->size, 256 << 10, produce, s, release);
-    if (!response) {
-        release(s);
-        return kd_reply_no_memory(request);
-    }
-    MHD_add_response_header(response, "Content-Type", type_of(about));
-    MHD_add_response_header(response, "ETag", request->etag);
-    MHD_add_response_header(response, "Cache-Control", "private, max-age=31536000, immutable");
-    return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
+    return kd_reply_representation(
+        request, &(struct kd_representation) { .type = type_of(about),
+                                               .etag = request->etag,
+                                               .hashed = true,
+                                               .cache_control = "private, max-age=31536000, immutable",
+                                               .size = about->size,
+                                               .fd = -1,
+                                               .read = read_bytes,
+                                               .release = release,
+                                               .cls = s });
 }
 
 /* A request that removes one, on a worker: the files are gone when it is answered. */

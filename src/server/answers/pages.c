@@ -1,5 +1,5 @@
-#include "server/http/served.h"
 #include "server/http/reply.h"
+#include "server/http/representation.h"
 #include "server/http/route.h"
 
 #include <stdio.h>
@@ -50,6 +50,12 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);
 }
 
+/* blob: is how a picture whose headers were read gets into an <img>. */
+static const char *const guarded[] = { "Content-Security-Policy",
+                                       "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action "
+                                       "'self'; frame-ancestors 'none'",
+                                       "Referrer-Policy", "no-referrer", NULL };
+
 /* "/" and what lies below "/web/". A page is small and may change with the next version of the program: it is asked
  * for again each time, and 304 says that it has not. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
@@ -63,16 +69,5 @@ enum MHD_Result kd_handle_page(struct kd_request *request)
         find(strcmp(request->route->path, "/") ? request->target.path + strlen("/web/") : "index.html");
     if (!file)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND });
-    bool same;
-    struct MHD_Response *response = kd_reply_served(request, file, &same);
-    if (!response)
-        return kd_reply_no_memory(request);
-    if (document(file)) {
-        /* blob: is how a picture whose headers were read gets into an <img>. */
-        MHD_add_response_header(response, "Content-Security-Policy",
-                                "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'self'; "
-                                "frame-ancestors 'none'");
-        MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
-    }
-    return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
+    return kd_reply_served(request, file, document(file) ? guarded : NULL);
 }

@@ -1,6 +1,7 @@
 /* The server reports on itself: health, device, and the documents that are kept. */
 #include "server/openapi/kept.h"
 #include "server/http/reply.h"
+#include "server/http/representation.h"
 #include "server/http/request.h"
 #include "server/render/queue.h"
 #include "scene/scene.h"
@@ -42,11 +43,8 @@ enum MHD_Result kd_handle_kept(struct kd_request *request)
         document = kd_kept_find(request->server->kept, preset);
     struct kd_scene scene;
     struct kd_error error = { 0 };
-    bool same;
-    if (document) {
-        struct MHD_Response *response = kd_reply_served(request, document, &same);
-        return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
-    }
+    if (document)
+        return kd_reply_served(request, document, NULL);
     kd_scene_preset(&scene, request->rest, &error); /* it says which there are */
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
 }

@@ -62,6 +62,14 @@ double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, 
     return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* until there is a millisecond */
 }
 
+struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)
+{
+    const double left_ms = fmin(kd_allowance_left_ms(all, client, now_ms) - owed_ms, most_ms(all)),
+                 whole_in_s = 1e-3 * (most_ms(all) - left_ms) * MINUTE_S / all->seconds;
+    return (struct kd_quota) { all->seconds, left_ms > 0 ? (unsigned)(1e-3 * left_ms) : 0,
+                               (unsigned)ceil(fmin(whole_in_s, 1e6)) };
+}
+
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms)
 {
     return kd_allowance_left_ms(all, client, now_ms) > (patient ? most_ms(all) / 2 : 0);

@@ -27,6 +27,10 @@ double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, 
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
 /* In how many ms there is something in the bucket once so much more has been taken out of it; 0: there is now. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
+/* For people: what a client may use in a minute, what is left of that once so much more has been taken out, and when
+ * all is there again; in seconds. Where there is a limit. */
+struct kd_quota { unsigned seconds, left_s, whole_in_s; };
+struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
 /* Whether work that waits may go on. patient: nobody sits before it, and it leaves half of the bucket to what
  * somebody asks for. */
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms);

@@ -9,11 +9,14 @@
 #define MAX_AGE_S "600" /* that a browser remembers an answer to its preflight; Chromium takes up to two hours */
 #define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
 #define EXPOSED \
-    "Allow, Content-Disposition, Content-Encoding, ETag, Kerrd-Accuracy, Kerrd-Approximations, Kerrd-Azimuth, " \
+    "Accept-Ranges, Allow, Content-Digest, Content-Disposition, Content-Encoding, Content-Range, ETag, " \
+    "Kerrd-Accuracy, " \
+    "Kerrd-Approximations, Kerrd-Azimuth, " \
     "Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
     "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, " \
     "Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
-    "Preference-Applied, Retry-After, Server-Timing, WWW-Authenticate, X-Request-Id"
+    "Preference-Applied, RateLimit, RateLimit-Policy, Repr-Digest, Retry-After, Server-Timing, WWW-Authenticate, " \
+    "X-Request-Id"
 
 struct kd_cors {
     char **origins;
@@ -152,14 +155,15 @@ static void allowed_headers(const struct kd_route *route, char *out, size_t size
     const bool body = route->methods & (KD_POST | KD_PATCH | KD_PUT),
                kept = route->status[0] == 304 || route->status[1] == 304;
     const bool events = route->answer && !strcmp(route->answer, "text/event-stream");
-    snprintf(out, size, "Authorization, X-Request-Id, " KD_ACCESS_HEADER "%s%s%s%s", body ? ", Content-Type" : "",
-             kept ? ", If-None-Match" : "", events ? ", Last-Event-ID" : "",
-             route->methods & KD_PATCH ? ", Prefer" : "");
+    snprintf(out, size, "Authorization, X-Request-Id, traceparent, " KD_ACCESS_HEADER "%s%s%s%s%s%s",
+             body ? ", Content-Type" : "", kept ? ", If-None-Match" : "", route->parts ? ", Range, If-Range" : "",
+             events ? ", Last-Event-ID" : "", route->methods & KD_PATCH ? ", Prefer" : "",
+             route->once ? ", " KD_ONCE_HEADER : "");
 }
 
 enum MHD_Result kd_cors_preflight(struct kd_request *request)
 {
-    char headers[120];
+    char headers[160];
     struct kd_problem nowhere;
     if (!kd_cors_origin(request))
         return kd_reply_problem(

@@ -49,7 +49,7 @@ def form(name, data):
     lines.append(f"static const unsigned char {name}[] = {{")
     lines.extend("    " + ",".join(str(b) for b in data[k : k + 32]) + "," for k in range(0, len(data), 32))
     lines.extend(["};", ""])
-    return f'{{ "\\"{hashlib.sha256(data).hexdigest()[:32]}\\"", {name}, sizeof {name} }}'
+    return f'{{ "\\"{hashlib.sha256(data).hexdigest()}\\"", {name}, sizeof {name} }}'
 
 
 short = shortened([f for f in files if f.suffix in (".js", ".css") and f.parent == folder]) if minifier else {}

@@ -27,6 +27,7 @@
     X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long") \
     X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here") \
     X(MISDIRECTED, 421, "misdirected", "This host name is not served here") \
+    X(RANGE, 416, "range-not-satisfiable", "The range is beyond the end") \
     X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid") \
     X(INVALID_RAYS, 422, "invalid-rays", "The request for rays is not valid") \
     X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid") \
@@ -35,6 +36,7 @@
     X(INVALID_PLAYGROUND, 422, "invalid-playground", "The request for a playground is not valid") \
     X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken") \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders") \
+    X(KEY_REUSED, 422, "idempotency-key-reused", "The Idempotency-Key is that of another request") \
     X(QUOTA, 429, "quota", "This client has as much as one may") \
     X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address") \
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large") \
@@ -57,13 +59,14 @@ enum kd_problem_type {
 
 struct kd_problem {
     enum kd_problem_type type;
-    const char *detail;     /* one sentence for this occurrence */
-    const char *pointer;    /* RFC 6901, into the scene; NULL or "" for none */
-    const char *offered;    /* 406, 415: the media types that would do */
-    const char *allow;      /* 405: the methods that would do */
-    const char *request_id; /* NULL or "" for none */
-    unsigned retry_after;   /* seconds; 0: no such header */
-    bool close;             /* the rest of what this client sends cannot be trusted or is not wanted */
+    const char *detail;        /* one sentence for this occurrence */
+    const char *pointer;       /* RFC 6901, into the scene; NULL or "" for none */
+    const char *offered;       /* 406, 415: the media types that would do */
+    const char *allow;         /* 405: the methods that would do */
+    const char *content_range; /* 416: how many bytes there are */
+    const char *request_id;    /* NULL or "" for none */
+    unsigned retry_after;      /* seconds; 0: no such header */
+    bool close;                /* the rest of what this client sends cannot be trusted or is not wanted */
 };
 
 /* How a library status becomes a problem. pointer and detail point into *error. */

@@ -50,29 +50,6 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     return response;
 }
 
-struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd_served *file, bool *same)
-{
-    struct kd_buffer encodings = kd_reply_header_list(request, "Accept-Encoding");
-    struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
-    bool gzip = file->gzip.data && kd_accepts_coding((const char *)encodings.data, "gzip");
-    const struct kd_served_form *form = gzip ? &file->gzip : &file->plain;
-    *same = kd_etag_listed((const char *)known.data, form->etag);
-    kd_buffer_finish(&encodings);
-    kd_buffer_finish(&known);
-
-    struct MHD_Response *response = kd_reply_static(form->data, form->size, file->type);
-    if (!response)
-        return NULL;
-    if (gzip && !*same)
-        MHD_add_response_header(response, "Content-Encoding", "gzip");
-    MHD_add_response_header(response, "ETag", form->etag);
-    MHD_add_response_header(response, "Vary", "Accept-Encoding");
-    /* A browser may ask for a page's icon whenever its address changes. */
-    MHD_add_response_header(response, "Cache-Control",
-                            strncmp(file->type, "image/", strlen("image/")) ? "no-cache" : "private, max-age=86400");
-    return response;
-}
-
 static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
 {
     (void)cls, (void)position, (void)to, (void)size;
@@ -153,6 +130,19 @@ static bool only_asks(const struct kd_request *request)
     return request->head || !strcmp(request->method, "GET") || (request->route && request->route->question);
 }
 
+/* What this client has of its quota, as draft-ietf-httpapi-ratelimit-headers-11 has it. */
+static void add_quota(const struct kd_request *request, struct MHD_Response *response)
+{
+    char text[80];
+    if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))
+        return;
+    const struct kd_quota quota = request->server->quota(request->server, request->client);
+    snprintf(text, sizeof text, "\"device-seconds\";q=%u;w=60", quota.seconds);
+    MHD_add_response_header(response, "RateLimit-Policy", text);
+    snprintf(text, sizeof text, "\"device-seconds\";r=%u;t=%u", quota.left_s, quota.whole_in_s);
+    MHD_add_response_header(response, "RateLimit", text);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
@@ -175,7 +165,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     if (server->access) /* what a cache keeps is for the same token alone */
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
-    if (*request->file && status == MHD_HTTP_OK)
+    add_quota(request, response);
+    if (*request->file && (status == MHD_HTTP_OK || status == MHD_HTTP_PARTIAL_CONTENT))
         MHD_add_response_header(response, "Content-Disposition", request->file);
     if (*request->id)
         MHD_add_response_header(response, KD_REQUEST_ID_HEADER, request->id);
@@ -207,6 +198,8 @@ enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_prob
 {
     if (problem->allow)
         MHD_add_response_header(response, "Allow", problem->allow);
+    if (problem->content_range)
+        MHD_add_response_header(response, "Content-Range", problem->content_range);
     if (kd_problem_status(problem->type) == MHD_HTTP_UNAUTHORIZED)
         MHD_add_response_header(response, "WWW-Authenticate", "Bearer");
     if (problem->retry_after) {

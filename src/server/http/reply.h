@@ -5,7 +5,6 @@
 #define KD_SERVER_HTTP_REPLY_H
 
 #include "server/http/negotiate.h"
-#include "server/http/served.h"
 #include "server/http/problem.h"
 #include "server/http/request.h"
 
@@ -16,9 +15,6 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
 /* A response with bytes that outlive it; type NULL: there are none. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
-/* A response with a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has
- * it, and 304 sends the header alone. */
-struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd_served *file, bool *same);
 /* A response for HEAD and 304, where the length of what a GET would give is not known. Closes the connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 

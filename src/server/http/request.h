@@ -5,10 +5,14 @@
 #include "server/http/access.h"
 #include "server/http/client.h"
 #include "server/http/guard.h"
+#include "server/http/once.h"
 #include "server/http/request_id.h"
 #include "server/http/route.h"
 #include "server/http/service.h"
 #include "server/http/target.h"
+#include "server/http/trace.h"
+
+#include <nettle/sha2.h>
 
 #define KD_NPY_TYPE "application/x-npy"
 #define KD_PATCH_TYPE "application/merge-patch+json"
@@ -19,6 +23,7 @@ struct kd_request {
     struct kd_connection *connection;
     char client[KD_CLIENT];         /* who it is from */
     char id[KD_REQUEST_ID_MAX + 1]; /* once its header is there */
+    struct kd_trace trace;          /* that it is part of */
     char *raw;                      /* the target as received; of one in absolute form what stands behind its host */
     char *authority;                /* that host; NULL: the target is in another form */
     struct kd_target target;
@@ -29,6 +34,9 @@ struct kd_request {
     bool spent;                       /* its Authorization holds that token, and so no other */
     const char *method, *rest;        /* rest: the rest of the path, behind a route that ends in "/" */
     bool head, begun, body_announced, close;
+    struct kd_once once;          /* its Idempotency-Key */
+    struct sha256_ctx taken;      /* of what it asks for, while that comes, if it has one */
+    struct kd_request *once_next; /* that has one and is under way */
     struct kd_buffer body;
     size_t body_mark;                /* bytes of it when its deadline was last set */
     const struct kd_format *format;  /* that the picture asked for has; NULL: none is asked for, or it may have any */

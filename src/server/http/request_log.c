@@ -56,6 +56,8 @@ static void write_members(const struct kd_request *request, double ms, bool cut_
 {
     const struct kd_log_member members[] = {
         { "id", *request->id ? request->id : NULL, NAN },
+        { "trace_id", *request->trace.trace_id ? request->trace.trace_id : NULL, NAN },
+        { "parent_id", *request->trace.parent_id ? request->trace.parent_id : NULL, NAN },
         { "method", request->method ? request->method : "-", 0 },
         { "route", kd_measures_route(request->matched), 0 },
         { "status", NULL, request->status },

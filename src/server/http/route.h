@@ -58,6 +58,8 @@ struct kd_route {
     const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
     bool question;      /* its POST leaves nothing at the server, so that the role view may send it (access.h) */
     bool open;          /* answered without an access token, too */
+    bool once;          /* its POST takes Idempotency-Key (once.h) */
+    bool parts;         /* its GET may answer with a part, 206 (representation.h) */
     unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
     const char
         *own[2]; /* parameters of the query that are no fields of the scene, beside which they stand; NULL: none */

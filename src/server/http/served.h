@@ -8,7 +8,7 @@
 struct kd_served {
     const char *name, *type; /* path below clients/web; media type */
     struct kd_served_form {
-        const char *etag; /* of the bytes, with its quotes */
+        const char *etag; /* the SHA-256 of the bytes, with its quotes */
         const unsigned char *data;
         size_t size;
     } plain, gzip; /* gzip of nothing: it would be no shorter */

@@ -7,6 +7,7 @@
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
+#include "server/http/allowance.h"
 #include "server/http/base_path.h"
 #include "server/http/bytes.h"
 #include "server/http/connections.h"
@@ -61,6 +62,7 @@ struct kd_kept;
 struct kd_measures;
 struct kd_plays;
 struct kd_render_queue;
+struct kd_request;
 struct kd_sessions;
 struct kd_thumbnails;
 
@@ -77,10 +79,12 @@ struct kd_server {
     struct kd_render_queue *renders;
     struct kd_turns *rays;  /* requests for them */
     struct kd_turns *turns; /* orbits, long quantities, paths of sessions, jobs being checked */
+    struct kd_quota (*quota)(const struct kd_server *server, const char *client); /* NULL: there is no limit */
     struct kd_sessions *sessions;
     struct kd_plays *plays;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* being fetched (job/whole.c); of the HTTP thread alone */
+    struct kd_request *once;    /* those with an Idempotency-Key that are under way; of the HTTP thread alone */
     struct kd_asset_store *assets;
     struct kd_kept *kept;
     struct kd_thumbnails *thumbnails;

@@ -32,6 +32,43 @@ int kd_job_folder_open(int jobs, const char *name)
     return openat(jobs, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
+static const char *const films[] = { "mp4", "webm" };
+
+void kd_job_folder_film(const struct kd_job_film_name *film, char name[KD_JOB_FILM_NAME])
+{
+    snprintf(name, KD_JOB_FILM_NAME, "film-%03u-%s.%s", film->rate, film->hash, film->format);
+}
+
+void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_FILM_NAME])
+{
+    snprintf(name, KD_JOB_FILM_NAME, "film-%03u.%s", rate, format);
+}
+
+bool kd_job_folder_read_film(const char *name, struct kd_job_film_name *out)
+{
+    char again[KD_JOB_FILM_NAME];
+    *out = (struct kd_job_film_name) { 0 };
+    if (sscanf(name, "film-%3u-%64[0-9a-f].%4s", &out->rate, out->hash, out->format) != 3 || strlen(out->hash) != 64)
+        return false;
+    kd_job_folder_film(out, again);
+    return !strcmp(again, name) && (!strcmp(out->format, films[0]) || !strcmp(out->format, films[1]));
+}
+
+/* One that is kept, or the beginning of one. */
+static bool is_film(const char *name)
+{
+    struct kd_job_film_name film;
+    char beginning[KD_JOB_FILM_NAME];
+    if (kd_job_folder_read_film(name, &film))
+        return true;
+    for (size_t i = 0; i < sizeof films / sizeof *films && sscanf(name, "film-%3u.", &film.rate) == 1; i++) {
+        kd_job_folder_new_film(films[i], film.rate, beginning);
+        if (kd_replace_is_temporary(name, beginning))
+            return true;
+    }
+    return false;
+}
+
 /* A file that kerrd writes into a job's folder, or the beginning of one. */
 static bool is_ours(const char *name)
 {
@@ -39,6 +76,8 @@ static bool is_ours(const char *name)
     for (size_t i = 0; i < sizeof documents / sizeof *documents; i++)
         if (!strcmp(name, documents[i]) || kd_replace_is_temporary(name, documents[i]))
             return true;
+    if (is_film(name))
+        return true;
     char frame[11];
     if (strspn(name, DIGITS) != 6 || strncmp(name + 6, ".png", 4))
         return false;

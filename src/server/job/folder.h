@@ -16,6 +16,17 @@ bool kd_job_folder_is_new(const char *name); /* ID.new */
 
 void kd_job_folder_frame(unsigned frame, char name[20]); /* "000000.png" */
 
+/* A film of a job: "film-024-HASH.mp4" with its frames a second and the SHA-256 of its bytes. */
+enum { KD_JOB_FILM_NAME = 5 + 3 + 1 + 64 + 1 + 4 + 1 };
+struct kd_job_film_name {
+    unsigned rate;
+    char hash[65], format[5];
+};
+void kd_job_folder_film(const struct kd_job_film_name *film, char name[KD_JOB_FILM_NAME]);
+bool kd_job_folder_read_film(const char *name, struct kd_job_film_name *out); /* false: it is the name of none */
+/* What it is called until its hash is known, "film-024.mp4". */
+void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_FILM_NAME]);
+
 /* A descriptor; -1 with errno, ELOOP or ENOTDIR where it is no folder. */
 int kd_job_folder_open(int jobs, const char *name);
 

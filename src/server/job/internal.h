@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_JOB_INTERNAL_H
 #define KD_SERVER_JOB_INTERNAL_H
 
+#include "server/job/films.h"
 #include "server/job/jobs.h"
 #include "job/exposure.h"
 #include "render/plan/sweep_order.h"
@@ -64,8 +65,11 @@ struct kd_job {
     bool begun_here;                 /* this server has begun a frame of it, or moved its bodies, */
     bool struck;                     /* and one attempt of the record is for that */
     unsigned finished_here;
-    unsigned encoding; /* frames that are drawn, and not yet in their files */
-    uint64_t bytes;
+    struct kd_job_kept_film films[KD_JOB_FILMS]; /* oldest first */
+    unsigned n_films;
+    bool filming;           /* one is being encoded (films.c) */
+    unsigned encoding;      /* frames that are drawn, and not yet in their files */
+    uint64_t bytes;         /* of frames and films */
     unsigned revision;      /* of what its status says */
     char client[KD_CLIENT]; /* "": nobody knows any more */
     bool listed;

@@ -305,6 +305,7 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
         job->record.created = kd_job_now_s();
         job->record.frames = job->frames;
         job->record.series = job->series;
+        job->record.once = draft->once;
         memcpy(job->record.preset, draft->preset, sizeof job->record.preset);
         snprintf(job->client, sizeof job->client, "%s", client);
         status = enter(all, job, text, length, quota, error);
@@ -330,6 +331,20 @@ struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id)
     return job;
 }
 
+struct kd_job *kd_jobs_find_once(struct kd_jobs *all, const char *key)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_job *job = *key ? all->first : NULL;
+    while (job && (job->creating || strcmp(job->record.once.key, key)))
+        job = job->link;
+    if (job)
+        job->references++;
+    pthread_mutex_unlock(&all->lock);
+    return job;
+}
+
+const struct kd_once *kd_job_once(const struct kd_job *job) { return &job->record.once; }
+
 void kd_job_release(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
@@ -341,12 +356,12 @@ void kd_job_release(struct kd_job *job)
 const char *kd_job_id(const struct kd_job *job) { return job->record.id; }
 const char *kd_job_token(const struct kd_job *job) { return job->record.token; }
 
-int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size)
+bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out)
 {
     pthread_mutex_lock(&job->all->lock);
     bool there = frame < job->frames && job->have[frame];
     pthread_mutex_unlock(&job->all->lock);
-    return there ? kd_job_store_get(job->all->store, job->record.id, frame, size) : -1;
+    return there && kd_job_store_get(job->all->store, job->record.id, frame, out);
 }
 
 void kd_job_drop(struct kd_job *job)

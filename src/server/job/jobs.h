@@ -45,6 +45,7 @@ void kd_jobs_destroy(struct kd_jobs *all);
 struct kd_job_draft {
     struct kd_job_spec spec;
     struct kd_cost cost; /* of the frames that have been looked at: cost.frames of spec.frames */
+    struct kd_once once; /* what asks for it */
     char preset[32];     /* as the spec was parsed with */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);
@@ -58,6 +59,9 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
                             const char *client, bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* a reference, or NULL */
+/* The same by the key of what has asked for it; "" finds none. */
+struct kd_job *kd_jobs_find_once(struct kd_jobs *all, const char *key);
+const struct kd_once *kd_job_once(const struct kd_job *job);
 void kd_job_release(struct kd_job *job);
 double kd_jobs_remaining_s(struct kd_jobs *all); /* until there is room for one more, estimated */
 
@@ -86,7 +90,7 @@ struct kd_jobs_counts;
 bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* Opens a finished frame as kd_job_store_get does. */
-int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);
+bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
 /* Gives what there is to see of a job of pictures, and asks for more of it to come: the frame under way as `png`,
  * drawn down to some row, else the last frame that is finished. False: nothing yet. */
 struct kd_job_sight {

@@ -5,6 +5,7 @@
 #include "server/job/table.h"
 #include "server/job/whole.h"
 #include "server/http/reply.h"
+#include "server/http/representation.h"
 #include "server/job/jobs.h"
 #include "server/render/task.h"
 
@@ -57,15 +58,23 @@ static bool body(struct frames *f)
     return !kd_buffer_append(&f->out, part, (size_t)n);
 }
 
+static bool open_next(struct frames *f)
+{
+    struct kd_job_file file;
+    if (!kd_job_frame(f->watcher.job, f->watcher.next, &file))
+        return false;
+    f->fd = file.fd;
+    f->left = file.size;
+    return true;
+}
+
 /* More bytes, or f->over, or *wait for resumption. False: it cannot go on. */
 static bool advance(struct frames *f, bool *wait)
 {
     if (f->fd >= 0)
         return body(f);
     switch (kd_job_await(&f->watcher)) {
-    case KD_JOB_NEWS:
-        f->fd = kd_job_frame(f->watcher.job, f->watcher.next, &f->left);
-        return f->fd >= 0 && f->left <= UINT32_MAX && head(f);
+    case KD_JOB_NEWS: return open_next(f) && f->left <= UINT32_MAX && head(f);
     case KD_JOB_LATER: *wait = true; return true;
     case KD_JOB_LATE: return true; /* it has no deadline */
     case KD_JOB_OVER: break;
@@ -133,20 +142,16 @@ enum MHD_Result kd_job_not_ready(struct kd_request *request, struct kd_job *job,
 static enum MHD_Result send_frame(struct kd_request *request, struct kd_job *job, unsigned frame,
                                   const struct kd_job_status *status)
 {
-    uint64_t size;
-    int fd = kd_job_frame(job, frame, &size);
-    if (fd < 0)
+    struct kd_job_file file;
+    if (!kd_job_frame(job, frame, &file))
         return kd_job_not_ready(request, job, status);
     kd_job_release(job);
     kd_reply_file(request, KD_INLINE, "%06u.%s", frame, status->series->frame->name);
-    struct MHD_Response *response = MHD_create_response_from_fd64(size, fd);
-    if (!response) {
-        close(fd);
-        return kd_reply_no_memory(request);
-    }
-    MHD_add_response_header(response, "Content-Type", status->series->frame->media_type);
-    request->reply_bytes = size;
-    return kd_reply_send(request, MHD_HTTP_OK, response);
+    snprintf(request->etag, sizeof request->etag, "\"%s\"", file.mark);
+    return kd_reply_representation(request, &(struct kd_representation) { .type = status->series->frame->media_type,
+                                                                          .etag = request->etag,
+                                                                          .size = file.size,
+                                                                          .fd = file.fd });
 }
 
 enum MHD_Result kd_job_bad(struct kd_request *request, struct kd_job *job, const char *detail)

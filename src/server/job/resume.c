@@ -32,16 +32,17 @@ static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
 static void find_frames(struct kd_job *job)
 {
     for (unsigned i = 0; i < job->frames; i++) {
-        uint64_t size = 0;
-        int fd = kd_job_store_get(job->all->store, job->record.id, i, &size);
-        job->have[i] = fd >= 0 && is_whole(fd, size, job->record.series);
+        struct kd_job_file file;
+        if (!kd_job_store_get(job->all->store, job->record.id, i, &file))
+            continue;
+        job->have[i] = is_whole(file.fd, file.size, job->record.series);
         job->finished += job->have[i];
-        job->bytes += job->have[i] ? size : 0;
-        if (fd >= 0 && !job->have[i])
+        job->bytes += job->have[i] ? file.size : 0;
+        if (!job->have[i])
             kd_log(KD_LOG_WARN, "frame %u of job %.4s... is damaged", i, job->record.id);
-        if (fd >= 0)
-            close(fd);
+        close(file.fd);
     }
+    kd_job_films_find(job);
     job->all->bytes += job->bytes;
 }
 

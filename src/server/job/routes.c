@@ -151,9 +151,21 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (d->task.status)
         return refuse(request, &d->task.error, d->task.quota);
     enum MHD_Result result = answer(request, d->job, true);
-    if (request->status != MHD_HTTP_ACCEPTED) /* nobody has been told of it */
+    if (request->status != MHD_HTTP_ACCEPTED && !*request->once.key) /* nobody has been told of it, nor asks again */
         kd_job_drop(d->job);
     return result;
+}
+
+/* Whether the answer is that to an earlier request with this key, or why there is none. */
+static bool made_before(struct kd_request *request, enum MHD_Result *result)
+{
+    struct kd_job *job = kd_jobs_find_once(request->server->jobs, request->once.key);
+    const enum kd_once_verdict verdict = kd_once_begin(request, job ? kd_job_once(job) : NULL, result);
+    if (verdict == KD_ONCE_AGAIN)
+        *result = answer(request, job, true);
+    if (job)
+        kd_job_release(job);
+    return verdict != KD_ONCE_FIRST;
 }
 
 enum MHD_Result kd_handle_jobs(struct kd_request *request)
@@ -166,9 +178,12 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
         return deliver(request);
     if (kd_scene_query_check(&request->target, false, request->route->own, &error))
         return refuse(request, &error, false);
+    if (made_before(request, &refused))
+        return refused;
     struct draft *d = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!d)
         return refused;
+    d->draft.once = request->once;
     snprintf(d->draft.preset, sizeof d->draft.preset, "%s", preset ? preset : "");
     return kd_task_submit(&d->task);
 }

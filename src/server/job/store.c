@@ -31,9 +31,8 @@ struct kd_job_store {
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* Makes an error for a client, without a path, which the log has. Failures that may go away by themselves are
- * KD_EFULL and KD_ENOMEM, not KD_EIO. */
-static enum kd_status failed(struct kd_error *error, const char *what)
+/* The log has the path. Failures that may go away by themselves are KD_EFULL and KD_ENOMEM, not KD_EIO. */
+enum kd_status kd_job_store_failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
     bool full = cause == ENOSPC || cause == EDQUOT || cause == EFBIG,
@@ -104,7 +103,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         if (snprintf(path, sizeof path, "%s/" TEMPORARY "XXXXXX", parent) >= (int)sizeof path)
             return kd_error_set(error, KD_EINVAL, "the path in TMPDIR is too long");
         if (!mkdtemp(path))
-            return failed(error, "a folder for jobs cannot be made");
+            return kd_job_store_failed(error, "a folder for jobs cannot be made");
         store->folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
         store->lock = store->folder < 0 ? -1 : take_lock(store->folder, O_CREAT);
         if (store->lock >= 0)
@@ -118,7 +117,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         store->folder = -1;
         errno = cause;
         if (cause != EWOULDBLOCK && cause != ENOENT) /* else another start has just tidied it away */
-            return failed(error, "a folder for jobs cannot be made");
+            return kd_job_store_failed(error, "a folder for jobs cannot be made");
     }
     store->parent = strdup(parent);
     store->name = strdup(strrchr(path, '/') + 1);
@@ -248,6 +247,9 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
         return false;
     if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* jobs of versions without have none */
         *out->preset = 0;
+    if (!copy_text(o, "idempotency_key", out->once.key, sizeof out->once.key) ||
+        !copy_text(o, "idempotency_request", out->once.request, sizeof out->once.request))
+        out->once = (struct kd_once) { 0 };
     double attempts = number(o, "attempts"), frames = number(o, "frames"), traced = number(o, "lens_maps_traced");
     out->attempts = attempts > 0 && attempts < 1e6 ? (unsigned)attempts : 0;
     out->frames = frames > 0 && frames <= KD_SWEEP_MOST ? (unsigned)frames : 0;
@@ -364,7 +366,7 @@ enum kd_status kd_job_store_load(struct kd_job_store *store,
     int fd = openat(store->folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *d = fd < 0 ? NULL : fdopendir(fd);
     if (!d) {
-        enum kd_status status = failed(error, "the jobs of the state folder cannot be read");
+        enum kd_status status = kd_job_store_failed(error, "the jobs of the state folder cannot be read");
         if (fd >= 0)
             close(fd);
         return status;
@@ -399,6 +401,10 @@ static enum kd_status record_json(const struct kd_job_record *record, struct kd_
         kd_json_number(&json, "exposure", record->exposure);
     kd_json_string(&json, "output", record->series->name);
     kd_json_string(&json, "preset", record->preset);
+    if (*record->once.key) {
+        kd_json_string(&json, "idempotency_key", record->once.key);
+        kd_json_string(&json, "idempotency_request", record->once.request);
+    }
     kd_json_string(&json, "error", record->error);
     kd_json_end(&json);
     return kd_json_finish(&json);
@@ -410,7 +416,7 @@ static enum kd_status write_record(int folder, const struct kd_job_record *recor
     enum kd_status status =
         record_json(record, &text) ? kd_error_set(error, KD_ENOMEM, "out of memory for a job") : KD_OK;
     if (!status && !kd_replace_file_at(folder, "job.json", text.data, text.size))
-        status = failed(error, "the job cannot be kept");
+        status = kd_job_store_failed(error, "the job cannot be kept");
     kd_buffer_finish(&text);
     return status;
 }
@@ -420,7 +426,7 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
 {
     int folder = kd_job_folder_open(store->folder, record->id);
     if (folder < 0)
-        return failed(error, "the job cannot be kept");
+        return kd_job_store_failed(error, "the job cannot be kept");
     enum kd_status status = write_record(folder, record, error);
     close(folder);
     return status;
@@ -435,12 +441,12 @@ enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_j
     int folder = mkdirat(store->folder, name, 0700) ? -1 : kd_job_folder_open(store->folder, name);
     enum kd_status status;
     if (folder < 0)
-        KD_TRY(failed(error, "the job cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the job cannot be kept"));
     KD_TRY(write_record(folder, record, error));
     if (!kd_replace_file_at(folder, "request.json", request, size))
-        KD_TRY(failed(error, "the job cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the job cannot be kept"));
     if (renameat(store->folder, name, store->folder, record->id) || fsync(store->folder))
-        KD_TRY(failed(error, "the job cannot be kept"));
+        KD_TRY(kd_job_store_failed(error, "the job cannot be kept"));
 done:
     if (folder >= 0)
         close(folder);
@@ -456,7 +462,7 @@ enum kd_status kd_job_store_request(const struct kd_job_store *store, const char
 {
     int folder = kd_job_folder_open(store->folder, id);
     bool good = folder >= 0 && kd_read_file(folder, "request.json", O_NOFOLLOW, KD_JOB_FILM_MAX, out);
-    enum kd_status status = good ? KD_OK : failed(error, "the request of a job cannot be read");
+    enum kd_status status = good ? KD_OK : kd_job_store_failed(error, "the request of a job cannot be read");
     if (folder >= 0)
         close(folder);
     return status;
@@ -469,26 +475,43 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
     kd_job_folder_frame(frame, name);
     int folder = kd_job_folder_open(store->folder, id);
     bool good = folder >= 0 && kd_replace_file_at(folder, name, png->data, png->size);
-    enum kd_status status = good ? KD_OK : failed(error, "a frame cannot be kept");
+    enum kd_status status = good ? KD_OK : kd_job_store_failed(error, "a frame cannot be kept");
     if (folder >= 0)
         close(folder);
     return status;
 }
 
-int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, uint64_t *size)
+int kd_job_store_folder(const struct kd_job_store *store, const char *id)
+{
+    return kd_job_folder_open(store->folder, id);
+}
+
+bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *out)
+{
+    struct stat about;
+    out->fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (out->fd < 0)
+        return false;
+    if (fstat(out->fd, &about) || !S_ISREG(about.st_mode)) {
+        close(out->fd);
+        out->fd = -1;
+        return false;
+    }
+    out->size = (uint64_t)about.st_size;
+    /* It is written whole, as another file each time. */
+    snprintf(out->mark, sizeof out->mark, "%llx-%llx-%llx", (unsigned long long)about.st_ino,
+             (unsigned long long)about.st_size,
+             1000000000ull * (unsigned long long)about.st_mtim.tv_sec + (unsigned long long)about.st_mtim.tv_nsec);
+    return true;
+}
+
+bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out)
 {
     char name[20];
-    struct stat about;
     kd_job_folder_frame(frame, name);
     int folder = kd_job_folder_open(store->folder, id);
-    int fd = folder < 0 ? -1 : openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const bool there = folder >= 0 && kd_job_store_open_file(folder, name, out);
     if (folder >= 0)
         close(folder);
-    if (fd >= 0 && (fstat(fd, &about) || !S_ISREG(about.st_mode))) {
-        close(fd);
-        return -1;
-    }
-    if (fd >= 0)
-        *size = (uint64_t)about.st_size;
-    return fd;
+    return there;
 }

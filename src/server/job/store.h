@@ -9,6 +9,7 @@
 
 #include "base/buffer.h"
 #include "render/output/series.h"
+#include "server/http/once.h"
 #include "server/http/secret.h"
 
 #include <stdbool.h>
@@ -26,11 +27,13 @@ struct kd_job_record {
     unsigned traced;   /* lens maps, so far */
     unsigned frames;   /* that the request asks for; 0 in records of versions that did not say */
     const struct kd_series *series; /* that they make */
+    struct kd_once once;            /* what it was asked for by */
     char preset[32];                /* that its scenes are merged over; "": none */
     char error[480];                /* of a failed job */
 };
 
 struct kd_job_store;
+enum { KD_JOB_MARK = 65 };
 
 /* state: NULL for a new folder in TMPDIR that goes with the store; else a folder that nobody else uses, made if it
  * is not there: KD_EIO says what is wrong with it, with its path. */
@@ -60,7 +63,20 @@ bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned mo
 
 enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsigned frame, const struct kd_buffer *png,
                                 struct kd_error *error);
-/* A descriptor to read a finished frame from, with its size; -1: it is not there. */
-int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, uint64_t *size);
+/* A file of a job, open to be read. */
+struct kd_job_file {
+    int fd; /* the caller's to close */
+    uint64_t size;
+    char mark[KD_JOB_MARK]; /* of these bytes: other ones under its name have another. Of a film it is their SHA-256 */
+};
+/* Opens a finished frame; false: it is not there. */
+bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out);
+
+/* A job's folder, for films.c, which keeps films there: a descriptor, -1 with errno. */
+int kd_job_store_folder(const struct kd_job_store *store, const char *id);
+/* Opens a file there; false: it is not there. */
+bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *out);
+/* Makes an error for a client, without a path, of what has failed with errno. */
+enum kd_status kd_job_store_failed(struct kd_error *error, const char *what);
 
 #endif

@@ -30,11 +30,11 @@ static void finish(struct kd_task *task)
 
 static bool read_row(struct kd_job *job, unsigned frame, void *out, size_t row)
 {
-    uint64_t size;
-    int fd = kd_job_frame(job, frame, &size);
-    bool whole = fd >= 0 && size == row && read(fd, out, row) == (ssize_t)row;
-    if (fd >= 0)
-        close(fd);
+    struct kd_job_file file;
+    if (!kd_job_frame(job, frame, &file))
+        return false;
+    const bool whole = file.size == row && read(file.fd, out, row) == (ssize_t)row;
+    close(file.fd);
     return whole;
 }
 

@@ -3,9 +3,13 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/http/reply.h"
+#include "server/http/representation.h"
+#include "server/job/films.h"
 #include "server/job/routes.h"
 #include "server/render/task.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -24,6 +28,7 @@ struct kd_job_whole {
     struct kd_gather gather;
     struct kd_buffer out; /* made and not yet taken, from `at` on */
     size_t at;
+    uint64_t given; /* or dropped, of one whose bytes are asked for from a position on */
     bool over;
     int fd; /* of the file that was read last, -1: none */
     unsigned frame;
@@ -76,8 +81,11 @@ static bool open_frame(struct kd_job_whole *w, unsigned frame)
     if (w->fd >= 0)
         close(w->fd);
     w->frame = frame;
-    w->fd = kd_job_frame(w->job, frame, &w->size);
-    return w->fd >= 0;
+    struct kd_job_file file;
+    const bool there = kd_job_frame(w->job, frame, &file);
+    w->fd = there ? file.fd : -1;
+    w->size = there ? file.size : 0;
+    return there;
 }
 
 static bool size_of(void *user, unsigned frame, uint64_t *out)
@@ -112,27 +120,50 @@ static void release(void *cls)
     free(w);
 }
 
+/* More of it into w->out, which has been taken. */
+static bool go_on(struct kd_job_whole *w)
+{
+    struct kd_error error = { 0 };
+    w->out.size = w->at = 0;
+    if (w->over || !kd_gather_next(&w->gather, &w->out, &w->over, &error))
+        return true;
+    kd_log(KD_LOG_ERROR, "job %.4s...: %s", kd_job_id(w->job), error.message);
+    return false;
+}
+
 /* 0 while nothing has come yet: libmicrohttpd asks again once it has looked after others. */
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct kd_job_whole *w = cls;
-    struct kd_error error = { 0 };
     (void)position;
-    if (w->at == w->out.size) {
-        w->out.size = w->at = 0;
-        if (!w->over && kd_gather_next(&w->gather, &w->out, &w->over, &error)) {
-            kd_log(KD_LOG_ERROR, "job %.4s...: %s", kd_job_id(w->job), error.message);
-            return MHD_CONTENT_READER_END_WITH_ERROR;
-        }
-    }
+    if (w->at == w->out.size && !go_on(w))
+        return MHD_CONTENT_READER_END_WITH_ERROR;
     return kd_job_hand_over(&w->out, &w->at, to, size, w->over ? MHD_CONTENT_READER_END_OF_STREAM : 0);
 }
 
-/* What is looked through before its first byte. */
+/* The same from a position on: what is before it is made, for the directory of a ZIP has checksums of all, and
+ * dropped. */
+static ssize_t produce_from(void *cls, uint64_t position, char *to, size_t size)
+{
+    struct kd_job_whole *w = cls;
+    if (w->at == w->out.size && (w->over || !go_on(w)))
+        return MHD_CONTENT_READER_END_WITH_ERROR;
+    const uint64_t left = w->out.size - w->at, before = position - w->given;
+    const size_t dropped = (size_t)(before < left ? before : left);
+    w->at += dropped;
+    const ssize_t n = kd_job_hand_over(&w->out, &w->at, to, size, 0);
+    w->given += dropped + (uint64_t)n;
+    return n;
+}
+
+/* What workers do before its first byte. */
 struct looked {
     struct kd_task task;        /* first */
     struct kd_job_whole *whole; /* NULL: the answer has it */
     const struct kd_gather_format *format;
+    uint64_t length; /* of one that counts */
+    struct kd_job_film_writer writer;
+    struct kd_job_file film; /* fd -1: it is not open yet */
 };
 
 static void finish(struct kd_task *task)
@@ -140,33 +171,148 @@ static void finish(struct kd_task *task)
     struct looked *l = (struct looked *)task;
     if (l->whole)
         release(l->whole);
+    if (l->film.fd >= 0)
+        close(l->film.fd);
 }
 
-#define LATER_MS 10.0 /* until another program, which makes it, is looked after again */
+#define LATER_MS 10.0  /* until another program, which makes it, is looked after again */
+#define OTHERS_MS 50.0 /* until it is looked whether another request has encoded the film */
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_turn_end park(struct kd_task *task, double ms)
+{
+    task->turns.due_ms = kd_clock_ms() + ms;
+    return KD_TURN_PARK;
+}
+
+/* Looks through a cube, until its first bytes are there. */
+static enum kd_turn_end look(struct kd_task *task, double until_ms)
 {
     struct kd_job_whole *w = ((struct looked *)task)->whole;
     struct kd_error error = { 0 };
     enum kd_status status;
-    if (w->gather.format->waits && atomic_load(&w->server->phase) >= KD_REFUSING)
-        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server stops: a film can be asked for again when it is back"));
     do {
         KD_TRY(kd_gather_next(&w->gather, &w->out, &w->over, &error));
         if (w->out.size || w->over)
             return KD_TURN_LAST;
-    } while (!w->gather.format->waits && kd_clock_ms() < until_ms);
-    task->turns.due_ms = kd_clock_ms() + LATER_MS;
-    return w->gather.format->waits ? KD_TURN_PARK : KD_TURN_MORE;
+    } while (kd_clock_ms() < until_ms);
+    return KD_TURN_MORE;
 done:
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
 }
 
+/* Goes through an archive without its frames' bytes. */
+static enum kd_turn_end count(struct kd_task *task, double until_ms)
+{
+    struct looked *l = (struct looked *)task;
+    struct kd_job_whole *w = l->whole;
+    struct kd_error error = { 0 };
+    enum kd_status status;
+    if (!w->gather.state) {
+        w->source.counted = &l->length;
+        KD_TRY(kd_gather_open(l->format, &w->source, &w->gather, &error));
+    }
+    while (!w->over && kd_clock_ms() < until_ms) {
+        w->out.size = 0;
+        KD_TRY(kd_gather_next(&w->gather, &w->out, &w->over, &error));
+        l->length += w->out.size;
+    }
+    if (!w->over)
+        return KD_TURN_MORE;
+    w->out.size = 0;
+    w->over = false;
+    w->source.counted = NULL;
+    kd_gather_close(&w->gather);
+    KD_TRY(kd_gather_open(l->format, &w->source, &w->gather, &error));
+    return KD_TURN_LAST;
+done:
+    kd_task_fail(task, status, &error);
+    return KD_TURN_LAST;
+}
+
+static bool open_film(struct looked *l)
+{
+    return kd_job_film_open(l->whole->job, l->format->name, l->whole->source.rate, &l->film);
+}
+
+/* Encodes a film that is not kept yet, or waits for who does, and opens it. */
+static enum kd_turn_end encode(struct kd_task *task, double until_ms)
+{
+    struct looked *l = (struct looked *)task;
+    struct kd_job_whole *w = l->whole;
+    struct kd_error error = { 0 };
+    enum kd_status status;
+    if (atomic_load(&w->server->phase) >= KD_REFUSING)
+        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server stops: a film can be asked for again when it is back"));
+    if (!l->writer.claimed && open_film(l))
+        return KD_TURN_LAST;
+    if (!l->writer.claimed && !kd_job_film_claim(&l->writer, w->job, l->format->name, w->source.rate))
+        return park(task, OTHERS_MS);
+    while (!w->over && kd_clock_ms() < until_ms) {
+        w->out.size = 0;
+        KD_TRY(kd_gather_next(&w->gather, &w->out, &w->over, &error));
+        if (!w->out.size && !w->over)
+            return park(task, LATER_MS);
+        KD_TRY(kd_job_film_append(&l->writer, w->out.data, w->out.size, &error));
+    }
+    if (!w->over)
+        return KD_TURN_MORE;
+    KD_TRY(kd_job_film_keep(&l->writer, &error));
+    if (!open_film(l))
+        KD_TRY(kd_error_set(&error, KD_EIO, "the film cannot be read"));
+    return KD_TURN_LAST;
+done:
+    kd_task_fail(task, status, &error);
+    return KD_TURN_LAST;
+}
+
+/* On a worker, which may wait for the disk. */
+static void end_film(struct kd_task *task)
+{
+    struct looked *l = (struct looked *)task;
+    if (l->writer.job)
+        kd_job_film_end(&l->writer);
+}
+
+static void name_it(struct kd_request *request, const struct kd_job *job, const struct kd_gather_format *format)
+{
+    kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
+}
+
 static enum MHD_Result stream(struct kd_request *request, struct kd_job_whole *w, const struct kd_gather_format *format)
 {
-    kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(w->job), format->name);
+    name_it(request, w->job, format);
     return kd_job_stream(request, format->media_type, produce, w, release);
+}
+
+/* The same frames give the same archive, by one version of the program, and frames that are made again end the job
+ * anew. */
+static enum MHD_Result send_archive(struct kd_request *request, struct looked *l, const struct kd_job_status *status)
+{
+    struct kd_job_whole *w = l->whole;
+    l->whole = NULL;
+    name_it(request, w->job, l->format);
+    snprintf(request->etag, sizeof request->etag, "\"%s-%.0f-%" PRIu64 "-%s\"", kd_job_id(w->job), 1e3 * status->ended,
+             l->length, KD_VERSION);
+    return kd_reply_representation(request, &(struct kd_representation) { .type = l->format->media_type,
+                                                                          .etag = request->etag,
+                                                                          .size = l->length,
+                                                                          .fd = -1,
+                                                                          .read = produce_from,
+                                                                          .release = release,
+                                                                          .cls = w });
+}
+
+/* Takes the file over. */
+static enum MHD_Result send_film(struct kd_request *request, const struct kd_job *job,
+                                 const struct kd_gather_format *format, const struct kd_job_file *file)
+{
+    name_it(request, job, format);
+    snprintf(request->etag, sizeof request->etag, "\"%s\"", file->mark);
+    return kd_reply_representation(
+        request,
+        &(struct kd_representation) {
+            .type = format->media_type, .etag = request->etag, .hashed = true, .size = file->size, .fd = file->fd });
 }
 
 static enum MHD_Result answer(struct kd_request *request)
@@ -184,6 +330,13 @@ static enum MHD_Result answer(struct kd_request *request)
         kd_log(KD_LOG_ERROR, "job %.4s...: %s", kd_job_id(w->job), l->task.error.message);
         return kd_reply_error(request, &l->task.error);
     }
+    if (l->format->counts)
+        return send_archive(request, l, &status);
+    if (l->format->waits) {
+        const struct kd_job_file film = l->film;
+        l->film.fd = -1;
+        return send_film(request, w->job, l->format, &film);
+    }
     l->whole = NULL;
     return stream(request, w, l->format);
 }
@@ -192,15 +345,19 @@ static enum MHD_Result answer(struct kd_request *request)
 static enum MHD_Result look_through(struct kd_request *request, struct kd_job_whole *w,
                                     const struct kd_gather_format *format)
 {
-    static const struct kd_task_kind kind = { "cubes", sizeof(struct looked), work, finish, .answer = answer };
+    static const struct kd_task_kind cubes = { "cubes", sizeof(struct looked), look, finish, .answer = answer },
+                                     archives = { "archives", sizeof(struct looked), count, finish, .answer = answer },
+                                     films = { "films", sizeof(struct looked), encode, finish, end_film, answer };
     enum MHD_Result refused;
-    struct looked *l = kd_task_begin(request, request->server->turns, &kind, &refused);
+    const struct kd_task_kind *kind = format->counts ? &archives : format->waits ? &films : &cubes;
+    struct looked *l = kd_task_begin(request, request->server->turns, kind, &refused);
     if (!l) {
         release(w);
         return refused;
     }
     l->whole = w;
     l->format = format;
+    l->film.fd = -1;
     return kd_task_submit(&l->task);
 }
 
@@ -215,18 +372,25 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
                                        .rate = rate,
                                        .size = size_of,
                                        .read = read_frame };
-    const size_t held = format->holds && !request->head ? format->holds(&source) : 0;
+    const bool head = request->head && !format->counts; /* else workers count how long it is */
+    struct kd_job_file film;
+    if (format->waits && kd_job_film_open(job, format->name, rate, &film)) {
+        const enum MHD_Result result = send_film(request, job, format, &film);
+        kd_job_release(job);
+        return result;
+    }
+    const size_t held = format->holds && !head ? format->holds(&source) : 0;
     if (held && !admit(request, held, &refused)) {
         kd_job_release(job);
         return refused;
     }
-    struct kd_job_whole *w = request->head ? NULL : calloc(1, sizeof *w);
+    struct kd_job_whole *w = head ? NULL : calloc(1, sizeof *w);
     if (!w) {
         if (held)
             kd_bytes_give(request->server->replies, request->client, held);
-        kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
+        name_it(request, job, format);
         kd_job_release(job);
-        return request->head
+        return head
                    ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
                    : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
@@ -235,8 +399,8 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
     memcpy(w->client, request->client, sizeof w->client);
     if (held)
         enter(w, held);
-    if (!kd_gather_open(format, &w->source, &w->gather, &error))
-        return format->holds ? look_through(request, w, format) : stream(request, w, format);
+    if (format->counts || !kd_gather_open(format, &w->source, &w->gather, &error))
+        return format->holds || format->counts ? look_through(request, w, format) : stream(request, w, format);
     release(w);
     return kd_reply_error(request, &error);
 }

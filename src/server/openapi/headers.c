@@ -1,6 +1,7 @@
 #include "server/openapi/headers.h"
 
 #include "base/schema.h"
+#include "server/http/once.h"
 #include "server/http/request_id.h"
 
 #include <stdio.h>
@@ -18,6 +19,10 @@ static const struct {
     { "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}",
       "where it is, relative to the address that was asked", true },
     { "ETag", TEXT, "for If-None-Match", true },
+    { "Accept-Ranges", "{\"const\":\"bytes\"}", "parts of it may be asked for by Range", false },
+    { "Content-Range", TEXT, "bytes FIRST-LAST/ALL of a part; bytes */ALL where none of a range is there", true },
+    { "Repr-Digest", TEXT, "sha-256 of the whole (RFC 9530)", false },
+    { "Content-Digest", TEXT, "the same, where the whole is what is sent", false },
     { "Content-Disposition", TEXT, "the name of a file", false },
     { "Server-Timing", TEXT, "ms in the queue, of each pass, of encoding", false },
     { "Preference-Applied", TEXT, "return=minimal, where Prefer asked for it", false },
@@ -44,6 +49,12 @@ static const struct {
     { "Kerrd-Count", COUNT, "rows", true },
     { "Kerrd-Particles", COUNT, "how many particles there are", true },
     { "Kerrd-Generation", COUNT, "for after", true },
+    { "RateLimit-Policy", TEXT,
+      "\"device-seconds\";q=SECONDS;w=60: of the device's time that one client may use in a minute, where "
+      "kerrd serve --client-device-seconds limits it",
+      false },
+    { "RateLimit", TEXT,
+      "\"device-seconds\";r=LEFT;t=SECONDS: what is left, and in how many seconds all is there again", false },
     { "Retry-After", COUNT, "seconds, after which another try may go better", false },
     { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "how to say who asks", true },
     { "Allow", TEXT, "the methods that would do", true },
@@ -59,7 +70,8 @@ static const struct {
       false },
 };
 
-#define EVERY KD_REQUEST_ID_HEADER " Access-Control-Allow-Origin Access-Control-Expose-Headers"
+#define EVERY \
+    KD_REQUEST_ID_HEADER " RateLimit-Policy RateLimit Access-Control-Allow-Origin Access-Control-Expose-Headers"
 #define FRAME \
     "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences " \
     "Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
@@ -114,10 +126,12 @@ static bool is_kept(const struct kd_route *route, unsigned method)
 {
     return method != KD_DELETE && (route->status[0] == 304 || route->status[1] == 304);
 }
+static bool sends_parts(const struct kd_route *route, unsigned method) { return method == KD_GET && route->parts; }
 static bool tells_events(const struct kd_route *route, unsigned method)
 {
     return (void)method, route->answer && !strcmp(route->answer, "text/event-stream");
 }
+static bool is_made_once(const struct kd_route *route, unsigned method) { return method == KD_POST && route->once; }
 static bool may_say_little(const struct kd_route *route, unsigned method)
 {
     return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}");
@@ -129,9 +143,19 @@ static const struct {
     bool (*of)(const struct kd_route *route, unsigned method);
 } asked[] = {
     { "If-None-Match", "ETag of what the client has: where it is the same the answer is 304", is_kept },
+    { "Range",
+      "bytes=FIRST-LAST, bytes=FIRST- or bytes=-LAST_ONES: the answer is this part, 206; what is anything else, and "
+      "several ranges, are answered with the whole",
+      sends_parts },
+    { "If-Range", "ETag of what the client has the other part of: where it is another one the answer is the whole",
+      sends_parts },
     { "Last-Event-ID",
       "id of the last event that the client has, behind which the stream goes on; what is no number counts as none",
       tells_events },
+    { KD_ONCE_HEADER,
+      "a string of 1 to 128 characters, new with each request: one that is sent again with the same key and body is "
+      "answered with what the first has made, as long as that is there",
+      is_made_once },
     { "Prefer", "return=minimal (RFC 7240): the answer is the revision alone", may_say_little },
 };
 
@@ -183,14 +207,22 @@ static const char *names_of(const struct kd_route *route, unsigned method, unsig
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status)
 {
     const char *names = names_of(route, method, status);
-    const bool made = status == 201 || status == 202,
-               kept = status == 304 || (status == 200 && route->status[1] == 304);
+    const bool made = status == 201 || status == 202, part = status == 206;
+    /* Of results of jobs, streams and tables have none, nor has a frame that is being drawn. */
+    const bool kept =
+        status == 304 || part || (status == 200 && route->status[1] == 304 && strncmp(route->path, "/v1/jobs/", 9));
     kd_json_object(json, "headers");
     refer_all(json, EVERY);
     if (made)
         refer_all(json, "Location");
     if (kept)
         refer_all(json, "ETag");
+    if (part)
+        refer_all(json, "Content-Range Content-Disposition");
+    if (part || (status == 200 && sends_parts(route, method)))
+        refer_all(json, "Accept-Ranges Repr-Digest");
+    if (status == 200 && sends_parts(route, method))
+        refer_all(json, "Content-Digest");
     if (names)
         refer_all(json, names);
     kd_json_end(json);
@@ -200,6 +232,7 @@ void kd_openapi_problem_headers(struct kd_json *json, unsigned status)
 {
     const char *names = status == 401                                                      ? "WWW-Authenticate"
                         : status == 405                                                    ? "Allow"
+                        : status == 416                                                    ? "Content-Range"
                         : status == 409 || status == 429 || status == 503 || status == 507 ? "Retry-After"
                                                                                            : NULL;
     kd_json_object(json, "headers");

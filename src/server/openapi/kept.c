@@ -1,13 +1,13 @@
 #include "server/openapi/kept.h"
 
 #include "base/buffer.h"
-#include "base/hash.h"
 #include "base/json.h"
 #include "image/gzip.h"
 #include "quantity/quantity.h"
 #include "render/explain/approximations.h"
 #include "scene/label.h"
 #include "scene/scene.h"
+#include "scene/sha256.h"
 #include "server/openapi/openapi.h"
 
 #include <stdint.h>
@@ -15,9 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { TAG = 64 + 2 + 1 };
+
 struct document {
     struct kd_served served; /* points into what follows */
-    char path[80], etags[2][24];
+    char path[80], etags[2][TAG];
     struct kd_buffer plain, gzip;
 };
 
@@ -55,10 +57,11 @@ static const struct {
 };
 #define N_MAKERS (sizeof makers / sizeof *makers)
 
-/* Two versions of a document must differ, nobody forges one. */
-static void tag(const struct kd_buffer *bytes, char out[24])
+static void tag(const struct kd_buffer *bytes, char out[TAG])
 {
-    snprintf(out, 24, "\"%016llx\"", (unsigned long long)kd_hash(KD_HASH_BEGIN, bytes->data, bytes->size));
+    char hash[65];
+    kd_sha256(bytes->data, bytes->size, hash);
+    snprintf(out, TAG, "\"%s\"", hash);
 }
 
 static enum kd_status finish(struct document *d, const char *type)

@@ -53,7 +53,8 @@ static bool negotiates(const struct kd_route *route, unsigned method)
 static bool may_come_too_early(const struct kd_route *route, unsigned method)
 {
     static const char *const paths[] = { "/v1/jobs/{id}/result", "/v1/jobs/{id}/preview.png", NULL };
-    return route->takes == KD_TAKES_PARTICLES || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP ||
+    return (method == KD_POST && route->once) || route->takes == KD_TAKES_PARTICLES ||
+           route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP ||
            (route->takes == KD_TAKES_PLAYGROUND && method == KD_PATCH) || is_one_of(route, paths);
 }
 
@@ -78,25 +79,38 @@ static bool makes_films(const struct kd_route *route, unsigned method)
 {
     return (void)method, route->gives == KD_GIVES_RESULT;
 }
+static bool sends_parts(const struct kd_route *route, unsigned method) { return method == KD_GET && route->parts; }
 static bool keeps_files(const struct kd_route *route, unsigned method)
 {
-    return (method == KD_POST && route->takes == KD_TAKES_JOB) || (method == KD_PUT && route->takes == KD_TAKES_ASSET);
+    return makes_films(route, method) || (method == KD_POST && route->takes == KD_TAKES_JOB) ||
+           (method == KD_PUT && route->takes == KD_TAKES_ASSET);
 }
 
 static const struct {
     unsigned status;
     bool (*of)(const struct kd_route *route, unsigned method);
 } rows[] = {
-    { 400, always },      { 401, closed },
-    { 403, forbids },     { 404, is_found_by_name },
-    { 405, never },       { 406, negotiates },
-    { 408, always },      { 409, may_come_too_early },
-    { 412, always },      { 413, always },
-    { 414, always },      { 415, has_body },
-    { 421, always },      { 422, checks_what_it_is_given },
-    { 429, always },      { 431, always },
-    { 500, closed },      { 501, makes_films },
-    { 503, always },      { 505, always },
+    { 400, always },
+    { 401, closed },
+    { 403, forbids },
+    { 404, is_found_by_name },
+    { 405, never },
+    { 406, negotiates },
+    { 408, always },
+    { 409, may_come_too_early },
+    { 412, always },
+    { 413, always },
+    { 414, always },
+    { 415, has_body },
+    { 416, sends_parts },
+    { 421, always },
+    { 422, checks_what_it_is_given },
+    { 429, always },
+    { 431, always },
+    { 500, closed },
+    { 501, makes_films },
+    { 503, always },
+    { 505, always },
     { 507, keeps_files },
 };
 

@@ -83,6 +83,16 @@ static void add_led_on(struct kd_json *json, const struct kd_route *route, unsig
     kd_json_end(json);
 }
 
+static void add_part(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    static const char bytes[] = "{\"type\":\"string\",\"format\":\"binary\"}";
+    begin_response(json, route, method, 206, "The part that Range asks for");
+    kd_json_object(json, "content");
+    kd_openapi_media(json, "*/*", bytes, strlen(bytes));
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
 void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     kd_json_object(json, "responses");
@@ -103,6 +113,8 @@ void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, un
             add_answer(json, route, method);
         kd_json_end(json);
     }
+    if (method == KD_GET && route->parts)
+        add_part(json, route, method);
     add_led_on(json, route, method);
     kd_openapi_problems(json, route, method);
     kd_json_end(json);

@@ -17,6 +17,7 @@ struct kd_play {
     struct kd_play *next;
     unsigned references;
     size_t bytes, crowd_bytes; /* crowd_bytes: of what its picture shows, while there is one */
+    struct kd_once once;       /* what it was asked for by */
     bool listed, stepping;
     const char *why; /* it has ended */
     struct kd_play_pace pace;

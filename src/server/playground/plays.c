@@ -190,6 +190,26 @@ struct kd_play *kd_plays_find(struct kd_plays *all, const char *id)
     return play;
 }
 
+void kd_play_promise(struct kd_play *play, const struct kd_once *once)
+{
+    pthread_mutex_lock(&play->all->lock);
+    play->once = *once;
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+struct kd_play *kd_plays_find_once(struct kd_plays *all, const char *key)
+{
+    char id[KD_SECRET_ID] = "";
+    pthread_mutex_lock(&all->lock);
+    for (const struct kd_play *play = all->first; play && *key; play = play->next)
+        if (!strcmp(play->once.key, key))
+            memcpy(id, play->id, sizeof id);
+    pthread_mutex_unlock(&all->lock);
+    return *id ? kd_plays_find(all, id) : NULL;
+}
+
+const struct kd_once *kd_play_once(const struct kd_play *play) { return &play->once; }
+
 void kd_play_release(struct kd_play *play)
 {
     if (!play)

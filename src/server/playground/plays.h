@@ -13,6 +13,7 @@
 
 #include "playground/playground.h"
 #include "server/http/counts.h"
+#include "server/http/once.h"
 #include "server/http/turns.h"
 
 #include <microhttpd.h>
@@ -54,6 +55,10 @@ enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, con
 /* The play of this id: a reference, or NULL. It counts as asked for. */
 struct kd_play *kd_plays_find(struct kd_plays *all, const char *id);
 void kd_play_release(struct kd_play *play); /* accepts NULL */
+/* By what it was asked for; "" finds none. */
+void kd_play_promise(struct kd_play *play, const struct kd_once *once);
+struct kd_play *kd_plays_find_once(struct kd_plays *all, const char *key);
+const struct kd_once *kd_play_once(const struct kd_play *play); /* HTTP thread only, of one that was found so */
 const char *kd_play_id(const struct kd_play *play);
 const char *kd_play_token(const struct kd_play *play);
 bool kd_play_owned(const struct kd_play *play, const char *token); /* in constant time; token may be NULL */

@@ -19,7 +19,7 @@
 #define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
 
-enum what { OPEN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
+enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 
 struct play_task {
     struct kd_task task; /* first */
@@ -54,7 +54,7 @@ static void finish(struct kd_task *task)
     struct play_task *t = (struct play_task *)task;
     if (t->steps)
         kd_play_stepped(t->play);
-    if (t->what == OPEN && t->play && !t->told)
+    if (t->what == OPEN && t->play && !t->told && !*task->request->once.key)
         kd_play_end(t->play, "failed");
     kd_play_release(t->play);
     kd_buffer_finish(&t->out);
@@ -99,6 +99,7 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
         KD_TRY(kd_plays_takes(server->plays, &scene, error));
     struct kd_playground *opened = p;
     KD_TRY(kd_plays_open(server->plays, &p, &pace, &scene, t->task.request->client, &t->task.quota, &t->play, error));
+    kd_play_promise(t->play, &t->task.request->once);
     status = tell(t, opened, &(struct kd_play_told) { .token = true, .before = UINT32_MAX }, error);
     kd_play_give(t->play, opened);
 done:
@@ -215,7 +216,7 @@ static enum kd_status write_file(struct play_task *t, struct kd_playground *p, s
                                              : kd_series_csv(&p->series, now, &t->out);
         break;
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
-    default: status = tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX }, error);
+    default: status = tell(t, p, &(struct kd_play_told) { .token = t->what == AGAIN, .before = UINT32_MAX }, error);
     }
     return status ? kd_error_set(error, status, "out of memory for the answer") : KD_OK;
 }
@@ -271,11 +272,12 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (!t->out.size)
         return kd_play_ended(request);
     struct MHD_Response *response = kd_reply_text(request, &t->out, t->type);
-    if (t->what == OPEN)
+    const bool opened = t->what == OPEN || t->what == AGAIN;
+    if (opened)
         kd_reply_location(request, response, kd_play_id(t->play));
     if (response && t->what == SNAPSHOT)
         kd_reply_file(request, KD_ATTACHMENT, "playground.json");
-    const enum MHD_Result result = kd_reply_send(request, t->what == OPEN ? MHD_HTTP_CREATED : MHD_HTTP_OK, response);
+    const enum MHD_Result result = kd_reply_send(request, opened ? MHD_HTTP_CREATED : MHD_HTTP_OK, response);
     t->told = request->status == MHD_HTTP_CREATED;
     return result;
 }
@@ -305,6 +307,17 @@ static enum MHD_Result forbid(struct kd_request *request)
                                .detail = "changing a playground takes its token: Authorization: Bearer TOKEN" });
 }
 
+static enum MHD_Result begin_opening(struct kd_request *request)
+{
+    enum MHD_Result refused;
+    struct kd_play *play = kd_plays_find_once(request->server->plays, request->once.key);
+    const enum kd_once_verdict verdict = kd_once_begin(request, play ? kd_play_once(play) : NULL, &refused);
+    if (verdict == KD_ONCE_AGAIN)
+        return begin(request, play, AGAIN, JSON_TYPE);
+    kd_play_release(play);
+    return verdict == KD_ONCE_REFUSED ? refused : begin(request, NULL, OPEN, JSON_TYPE);
+}
+
 enum MHD_Result kd_handle_plays(struct kd_request *request)
 {
     struct kd_buffer json = { 0 };
@@ -312,7 +325,7 @@ enum MHD_Result kd_handle_plays(struct kd_request *request)
         const enum kd_status status = kd_play_catalogue_json(&json);
         return kd_reply_json(request, status, &json, JSON_TYPE);
     }
-    return request->task ? deliver(request) : begin(request, NULL, OPEN, JSON_TYPE);
+    return request->task ? deliver(request) : begin_opening(request);
 }
 
 static enum MHD_Result end(struct kd_request *request, struct kd_play *play)

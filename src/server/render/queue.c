@@ -232,6 +232,15 @@ enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char 
     return KD_EBUSY;
 }
 
+struct kd_quota kd_render_queue_quota(struct kd_render_queue *queue, const char *client)
+{
+    pthread_mutex_lock(&queue->lock);
+    const struct kd_quota quota =
+        kd_allowance_quota(&queue->allowance, client, awaited_ms(queue, client), kd_clock_ms());
+    pthread_mutex_unlock(&queue->lock);
+    return quota;
+}
+
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota,
                                      struct kd_error *error)
 {

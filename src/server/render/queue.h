@@ -34,6 +34,7 @@
 #include "render/frame/compilation.h"
 #include "render/output/format.h"
 #include "render/render.h"
+#include "server/http/allowance.h"
 #include "server/http/shares.h"
 
 #include <limits.h>
@@ -152,6 +153,8 @@ double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 /* Whether this client may begin something new: KD_OK, or KD_EBUSY with when it may, where its work has used, or is
  * estimated to use, as much of the device's time as one may (http/allowance.h). Any thread. */
 enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
+/* The same as numbers, where there is a limit. Any thread. */
+struct kd_quota kd_render_queue_quota(struct kd_render_queue *queue, const char *client);
 /* Whether one more of this client fits: KD_EBUSY, KD_EDEVICE, or KD_OK. *quota: it has as many waiting as one client
  * may, or cannot afford it. The submitting thread. */
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota,

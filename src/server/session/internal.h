@@ -17,6 +17,7 @@ struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
+    struct kd_once once;       /* what it was asked for by */
     struct kd_scene scene;     /* as at since_ms */
     struct kd_timeline path;   /* what it goes along since then instead, if it has keys; */
     struct kd_scene on_path;   /* the latest valid scene of which */

@@ -166,6 +166,21 @@ done:
     return status;
 }
 
+/* Whether the answer is that to an earlier request with this key, or why there is none. */
+static bool made_before(struct kd_request *request, enum MHD_Result *result)
+{
+    struct kd_session_state state;
+    struct kd_session *session = kd_sessions_find_once(request->server->sessions, request->once.key);
+    const enum kd_once_verdict verdict = kd_once_begin(request, session ? kd_session_once(session) : NULL, result);
+    if (verdict == KD_ONCE_AGAIN) {
+        kd_session_state(session, &state);
+        *result = answer_created(request, session, &state);
+    }
+    if (session)
+        kd_session_release(session);
+    return verdict != KD_ONCE_FIRST;
+}
+
 enum MHD_Result kd_handle_sessions(struct kd_request *request)
 {
     struct kd_server *server = request->server;
@@ -179,6 +194,8 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     bool said;
     if (read_pace(request, &pace, &said, &error))
         return kd_reply_error(request, &error);
+    if (made_before(request, &result))
+        return result;
     const struct kd_planned *planned = kd_planned_of(request, &result);
     if (!planned)
         return result;
@@ -196,9 +213,10 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
         kd_problem_limit(&problem, &error, quota, 10);
         return kd_reply_problem(request, &problem);
     }
+    kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    if (request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
+    if (request->status != MHD_HTTP_CREATED && !*request->once.key) /* nobody has been told of it, nor asks again */
         kd_session_end(session);
     kd_session_release(session);
     return result;

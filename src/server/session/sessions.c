@@ -173,6 +173,26 @@ struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id)
     return s;
 }
 
+void kd_session_promise(struct kd_session *s, const struct kd_once *once)
+{
+    pthread_mutex_lock(&s->all->lock);
+    s->once = *once;
+    pthread_mutex_unlock(&s->all->lock);
+}
+
+struct kd_session *kd_sessions_find_once(struct kd_sessions *all, const char *key)
+{
+    char id[KD_SECRET_ID] = "";
+    pthread_mutex_lock(&all->lock);
+    for (const struct kd_session *s = all->first; s && *key; s = s->next)
+        if (!strcmp(s->once.key, key))
+            memcpy(id, s->id, sizeof id);
+    pthread_mutex_unlock(&all->lock);
+    return *id ? kd_sessions_find(all, id) : NULL;
+}
+
+const struct kd_once *kd_session_once(const struct kd_session *s) { return &s->once; }
+
 void kd_session_release(struct kd_session *s)
 {
     struct kd_sessions *all = s->all;

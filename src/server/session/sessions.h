@@ -11,6 +11,7 @@
 #include "scene/crowd.h"
 #include "scene/timeline.h"
 #include "server/http/counts.h"
+#include "server/http/once.h"
 
 #include <microhttpd.h>
 
@@ -63,6 +64,10 @@ struct kd_session *kd_session_share(struct kd_session *session); /* another refe
 /* Finds the session of this id: a reference, or NULL. The session counts as asked for. */
 struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
 void kd_session_release(struct kd_session *session);
+/* By what it was asked for, which the HTTP thread says and asks. "" finds none. */
+void kd_session_promise(struct kd_session *session, const struct kd_once *once);
+struct kd_session *kd_sessions_find_once(struct kd_sessions *all, const char *key);
+const struct kd_once *kd_session_once(const struct kd_session *session);
 
 const char *kd_session_id(const struct kd_session *session);
 /* The words of "varies" (session/routes.c); NULL behind the last. */

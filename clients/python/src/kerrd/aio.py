@@ -21,13 +21,14 @@ from .result import Sweep
 
 T = TypeVar("T")
 FRAME_WAIT_MS = 25_000
+AGAIN_S = 1  # until what a broken connection carried is sent again
 
 
 class AsyncClient:
     """A server by its address, such as "http://127.0.0.1:8080/", spoken to by one event loop.
 
     patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is
-    raised. timeout: seconds without a byte. access: an access token, of a server that has a token file. trust_env:
+    raised; a job or a session whose connection breaks is asked for again as long, and made once. timeout: seconds without a byte. access: an access token, of a server that has a token file. trust_env:
     whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
     """
 
@@ -67,13 +68,18 @@ class AsyncClient:
 
     async def _run(self, call: Call[T]) -> T:
         until = monotonic() + self.patience
+        broken = False
         while True:
             try:
                 got = await self._http.request(
                     call.method, call.path, params=dict(call.params), headers=dict(call.headers), content=call.body
                 )
             except httpx.TransportError as error:
-                raise Unreachable(self.url, str(error) or type(error).__name__) from error
+                broken = broken or calls.may_be_sent_again(call, error)
+                if not broken or monotonic() + AGAIN_S > until:
+                    raise Unreachable(self.url, str(error) or type(error).__name__) from error
+                await asyncio.sleep(AGAIN_S)
+                continue
             answer = Answer(got.status_code, got.headers, got.content)
             wait = calls.retry_after(answer)
             if wait is None or monotonic() + wait > until:

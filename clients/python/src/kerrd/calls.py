@@ -7,12 +7,14 @@ import copy
 import dataclasses
 import io
 import json
+import uuid
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
+import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -26,6 +28,7 @@ T_co = TypeVar("T_co", covariant=True)
 JSON = "application/json"
 NPY = "application/x-npy"
 NPZ = "application/x-npz"
+ONCE = "Idempotency-Key"
 
 
 @dataclass(frozen=True)
@@ -50,9 +53,16 @@ class Call(Generic[T_co]):
 
 
 def retry_after(answer: Answer) -> float | None:
-    """Seconds to wait before a busy server is asked again; None: it is not busy, or does not say."""
+    """Seconds to wait before a busy server, or one that is still at the same request, is asked again; None: it is not
+    busy, or does not say."""
     said = answer.headers.get("retry-after", "")
-    return float(said) if answer.status in (429, 503, 507) and said.replace(".", "", 1).isdigit() else None
+    return float(said) if answer.status in (409, 429, 503, 507) and said.replace(".", "", 1).isdigit() else None
+
+
+def may_be_sent_again(call: Call[Any], error: httpx.TransportError) -> bool:
+    """Whether a connection that broke may have carried the request, and sending it again makes nothing twice."""
+    broken = httpx.ReadError, httpx.WriteError, httpx.RemoteProtocolError
+    return ONCE in call.headers and isinstance(error, broken)
 
 
 def checked(answer: Answer, url: str) -> Answer:
@@ -173,8 +183,11 @@ def post(
     params: Mapping[str, str] | None = None,
     token: str | None = None,
     method: str = "POST",
+    once: bool = False,
 ) -> Call[T]:
-    headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token)}
+    """once: it may be sent again, and makes one thing at most (docs/http.md)."""
+    key = {ONCE: f'"{uuid.uuid4()}"'} if once else {}
+    headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token), **key}
     return Call(
         method, path, read, params or {}, headers, json.dumps(finite(plain(document)), allow_nan=False).encode()
     )
@@ -298,7 +311,11 @@ def put_asset(data: bytes, kind: str) -> Call[answers.Asset]:
 
 def open_session(scene: Document, preset: str | None, least: float | None) -> Call[dict[str, Any]]:
     return post(
-        "/v1/sessions", scene, _json, params={**over(preset), **({"least": str(least)} if least is not None else {})}
+        "/v1/sessions",
+        scene,
+        _json,
+        params={**over(preset), **({"least": str(least)} if least is not None else {})},
+        once=True,
     )
 
 
@@ -320,7 +337,7 @@ def close(kind: str, name: str, token: str) -> Call[None]:
 
 
 def open_job(document: Document, preset: str | None) -> Call[dict[str, Any]]:
-    return post("/v1/jobs", document, _json, params=over(preset))
+    return post("/v1/jobs", document, _json, params=over(preset), once=True)
 
 
 def job(name: str) -> Call[answers.Job]:

@@ -1,0 +1,37 @@
+/* Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): a POST that is sent again with the same key makes
+ * nothing again. What has been made keeps the promise with it: for as long as it is there, a job after a restart too,
+ * the same request of the same client is answered with it. HTTP thread only.
+ *
+ * Handlers of routes that are marked `once` call kd_once_begin before they make anything, with the promise of what
+ * was made with the request's key, and give request->once to what they make. */
+#ifndef KD_SERVER_HTTP_ONCE_H
+#define KD_SERVER_HTTP_ONCE_H
+
+#include "server/http/problem.h"
+
+#include <microhttpd.h>
+
+#define KD_ONCE_HEADER "Idempotency-Key"
+#define KD_ONCE_MOST 128 /* characters of a key */
+enum { KD_ONCE_TEXT = 300 };
+
+struct kd_request;
+
+/* SHA-256s; "": there is no key. */
+struct kd_once {
+    char key[65];     /* of the client, the route and the key */
+    char request[65]; /* of the target and the body */
+};
+
+/* Reads the header, before the body comes; a request without it has no key. False: it is no key, which text says. */
+bool kd_once_read(struct kd_request *request, struct kd_problem *problem, char text[KD_ONCE_TEXT]);
+/* Takes the next part of the body into account. */
+void kd_once_take(struct kd_request *request, const void *data, size_t size);
+
+/* What was made earlier with this key; NULL: nothing is there. KD_ONCE_REFUSED: the answer is *refused, 409 while the
+ * earlier request is under way, and 422 where it was another one. */
+enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
+enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
+void kd_once_end(struct kd_request *request); /* it is under way no more */
+
+#endif

@@ -1,0 +1,15 @@
+/* This reads the header traceparent (W3C Trace Context, 3.2), by which a line in the log is found from the trace that
+ * its request is part of. Pure; any thread. */
+#ifndef KD_SERVER_HTTP_TRACE_H
+#define KD_SERVER_HTTP_TRACE_H
+
+#include <stdbool.h>
+
+struct kd_trace {
+    char trace_id[33], parent_id[17]; /* "": the request is part of none */
+};
+
+/* Leaves *out empty, and gives false, where the value is not as the standard has it; NULL is none. */
+bool kd_trace_read(const char *value, struct kd_trace *out);
+
+#endif

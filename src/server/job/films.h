@@ -1,0 +1,47 @@
+/* Films of a job's frames, kept in its folder: each is encoded once, and gone with the job. Its bytes count as those
+ * of the frames do. Any thread.
+ *
+ * Who wants one opens it; where it is not there, one at a time claims the job, writes the film and gives the claim
+ * back, whatever has become of it. Others look again a little later. */
+#ifndef KD_SERVER_JOB_FILMS_H
+#define KD_SERVER_JOB_FILMS_H
+
+#include "base/replace.h"
+#include "server/job/folder.h"
+#include "server/job/store.h"
+
+#include <nettle/sha2.h>
+
+struct kd_job;
+
+enum { KD_JOB_FILMS = 4 }; /* of a job; one more takes the place of the oldest */
+struct kd_job_kept_film {
+    struct kd_job_film_name name;
+    uint64_t bytes;
+};
+
+/* Opens the film of a format, by its name, at a rate of frames a second; its mark is its SHA-256. False: there is
+ * none. */
+bool kd_job_film_open(struct kd_job *job, const char *format, unsigned rate, struct kd_job_file *out);
+
+/* A film that is being written. */
+struct kd_job_film_writer {
+    struct kd_job *job;
+    bool claimed, begun;
+    int folder;
+    struct kd_replacing file;
+    struct sha256_ctx hash;
+    struct kd_job_kept_film film;
+};
+/* False: it is there, or another one is being written. */
+bool kd_job_film_claim(struct kd_job_film_writer *w, struct kd_job *job, const char *format, unsigned rate);
+enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data, size_t size, struct kd_error *error);
+/* From now on it can be opened. KD_EFULL: the files of all jobs would be more bytes than may be. */
+enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
+/* Removes what is not kept, and gives the claim back if there is one. */
+void kd_job_film_end(struct kd_job_film_writer *w);
+
+/* Finds those of before a restart. Before any other thread has the job. */
+void kd_job_films_find(struct kd_job *job);
+
+#endif
