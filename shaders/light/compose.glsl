@@ -1,4 +1,4 @@
-/* This adds up light along one ray, front to back, of whatever emitters the scene has. Knows the list and no names:
+/* Adds up light along one ray, front to back, of whatever emitters the scene has. Knows the list and no names:
  * kernels feed it samples, of crossings from a lens map (transfer.comp) or of places along the path. */
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL

@@ -1,4 +1,4 @@
-/* This finds the first body that a ray meets (emit/bodies.glsl), and composes its light with what lies before it:
+/* Finds the first body that a ray meets (emit/bodies.glsl), and composes its light with what lies before it:
  * crossings of the lens map, and volumes that are gone through by the march.
  *
  * The ray is followed by the steps of ray/escape.glsl. With n the direction from the hole, azimuths by Boyer and

@@ -1,4 +1,4 @@
-/* This writes down what each emitter gives one ray, on its way through the kernel that makes the picture:
+/* Writes down what each emitter gives one ray, on its way through the kernel that makes the picture:
  * transfer.comp compiled with KD_TELL writes records to binding 3 instead of light; otherwise nothing is left of
  * this. The first number is how many records there were, those that have no room included; behind it both sums have
  * places of their own, in this order, so that no number of others takes theirs. A record is KD_TELL_RECORD numbers,

@@ -1,4 +1,4 @@
-/* This integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch
+/* Integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch
  * of its path by Gauss and Legendre's rule with seven places (Abramowitz & Stegun 25.4.29): three near each end and
  * the middle. */
 #ifndef KD_ARC_DRAG_GLSL

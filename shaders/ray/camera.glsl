@@ -1,6 +1,6 @@
-/* This holds the camera and the rows at hand, and leads from a ray's place in the picture to its constants of
- * motion. Needs KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the
- * rows, for kernels with push constants of their own, which read `cam` themselves. */
+/* The camera, the rows of this dispatch, and the constants of motion of a ray from its place in the picture. Needs
+ * KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the rows, for kernels
+ * with push constants of their own, which read `cam` themselves. */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
 

@@ -1,4 +1,4 @@
-/* This follows a ray to its end: from a known point of its path to infinity or to the horizon, with the direction as
+/* Follows a ray to its end: from a known point of its path to infinity or to the horizon, with the direction as
  * a unit vector n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
  *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
  * Needs camera.glsl and the specialisation constants STEPS and INGOING. */

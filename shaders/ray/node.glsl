@@ -1,5 +1,5 @@
-/* This leaves a ray that a kernel has followed as whoever comes next takes it: the node of a sampled map
- * (ray/cells.glsl), or a ray of the map. Needs ray/place.glsl and ray/open.glsl. */
+/* Stores a traced ray in the form that the next pass reads: a node of a sampled map (ray/cells.glsl), or a ray of the
+ * map. Needs ray/place.glsl and ray/open.glsl. */
 #ifndef KD_NODE_GLSL
 #define KD_NODE_GLSL
 

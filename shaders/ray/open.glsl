@@ -1,4 +1,4 @@
-/* This keeps the rays that a kernel leaves open, for the host to follow them again (src/render/frame/settle.c).
+/* The list of open rays, which the kernel could not decide and the host traces again (src/render/frame/settle.c).
  * Binding 1. */
 #ifndef KD_OPEN_GLSL
 #define KD_OPEN_GLSL

@@ -1,4 +1,4 @@
-/* This takes a step of the ray with all that a crossing is judged by: w, u, and the variation v of w with the
+/* Takes a step of the ray with all that a crossing is judged by: w, u, and the variation v of w with the
  * strength of its start,
  *   w'' = A w + 3K w^2 - 2D w^3,   u'' = A u - 2 e u^3,   v'' = (A + 6K w - 6D w^2) v,   v(0) = 0, v'(0) = 1. */
 #ifndef KD_PATH_STEP_GLSL

@@ -1,4 +1,4 @@
-/* This finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
+/* Finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
  * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: kernels that trace have one for places.
  *
  * CRITICAL = KD_RAYS_BY_PLACE: rays are those of a stage of a list of places (ray/places.glsl): nodes, whose map is

@@ -1,4 +1,4 @@
-/* This says where the planes of a lens map lie. Needs the specialisation constants QUANTITIES and ORDERS. */
+/* Layout of the planes of a lens map. Needs the specialisation constants QUANTITIES and ORDERS. */
 #ifndef KD_PLANES_GLSL
 #define KD_PLANES_GLSL
 

@@ -1,4 +1,4 @@
-/* This gives the azimuth that the polar motion contributes, psi = integral of L/(1 - u^2) dtau, in closed form.
+/* Gives the azimuth that the polar motion contributes, psi = integral of L/(1 - u^2) dtau, in closed form.
  *
  * The integrand peaks as 1/sin^2(theta) near the axis. With u^2 = U+ cos^2 x, y = b + e u^2 and c = b + e one has
  * c (1 - U+) = L^2, so that

@@ -1,4 +1,4 @@
-/* This follows the radial motion w'' = A w + 3K w^2 - 2D w^3 a step at a time, and the azimuth by which the hole
+/* Follows the radial motion w'' = A w + 3K w^2 - 2D w^3 a step at a time, and the azimuth by which the hole
  * drags a ray. */
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL

@@ -1,4 +1,4 @@
-/* This writes down what a kernel does, step by step, for `kerrd rays --trace`: compiled with KD_TRACE it writes a
+/* Writes down what a kernel does, step by step, for `kerrd rays --trace`: compiled with KD_TRACE it writes a
  * record of each step of its one ray to binding 2; otherwise nothing is left of this. Numbers: how many records
  * there were, the constants of the motion, then the records: stage, step, four numbers, their derivatives, chi.
  * Records that have no room are counted only. */

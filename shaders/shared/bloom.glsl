@@ -1,4 +1,4 @@
-/* This finds the light that a lens spreads to a point of the picture; bloom_*.comp and post.comp share it.
+/* Finds the light that a lens spreads to a point of the picture; bloom_*.comp and post.comp share it.
  *
  * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the
  * edge the grid is its own mirror image: what would leave the picture stays at its edge. A picture that goes all

@@ -1,4 +1,4 @@
-/* How the C library keeps the memory of a process that runs for long and whose threads take and give back large
+/* Settings of the C library's allocator for a process that runs for long and whose threads allocate and free large
  * blocks all the time. */
 #ifndef KD_BASE_ALLOCATOR_H
 #define KD_BASE_ALLOCATOR_H

@@ -1,9 +1,8 @@
-/* A buffer holds bytes and grows as they come. Owned by whoever initialised it; not thread-safe.
+/* A growing byte buffer. Owned by whoever initialised it; not thread-safe.
  *
  *     struct kd_buffer b = { 0 };
  *     if (kd_buffer_append(&b, data, n)) ... KD_ENOMEM ...
- *     kd_buffer_finish(&b);
- */
+ *     kd_buffer_finish(&b); */
 #ifndef KD_BASE_BUFFER_H
 #define KD_BASE_BUFFER_H
 

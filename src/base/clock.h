@@ -1,4 +1,4 @@
-/* This reads the monotonic clock, in milliseconds. */
+/* The monotonic clock, in milliseconds. */
 #ifndef KD_BASE_CLOCK_H
 #define KD_BASE_CLOCK_H
 

@@ -1,4 +1,4 @@
-/* This counts processor cores. Any thread. */
+/* The number of processor cores. Any thread. */
 #ifndef KD_BASE_CORES_H
 #define KD_BASE_CORES_H
 

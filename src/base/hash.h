@@ -1,5 +1,4 @@
-/* This tells bytes apart: FNV-1a of 64 bits (Fowler, Noll & Vo 1991), against damage and between versions, not
- * against malice. Pure. */
+/* FNV-1a, 64 bits (Fowler, Noll & Vo 1991): detects damage and different versions, not forgery. Pure. */
 #ifndef KD_BASE_HASH_H
 #define KD_BASE_HASH_H
 

@@ -1,4 +1,4 @@
-/* This writes JSON documents, which are checked once at the end. One thread a document.
+/* Writes JSON documents, which are checked once at the end. One thread a document.
  *
  *     struct kd_json json = kd_json_begin(out);
  *     kd_json_object(&json, NULL);

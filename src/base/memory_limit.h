@@ -1,9 +1,8 @@
-/* This finds how much memory this process may take without being killed for it. Linux. Any thread.
+/* How much memory this process may use before the kernel kills it. Linux. Any thread.
  *
- * The least of what the machine says is available (MemAvailable in proc_meminfo(5)) and what each control group
- * above the process has left of its memory.max, or memory.limit_in_bytes in version 1 of control groups
- * (Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst of Linux). Of what a group uses, file pages that
- * nobody has touched of late do not count: the kernel drops them first. */
+ * It is the minimum of MemAvailable (proc_meminfo(5)) and what each control group above the process has left of its
+ * memory.max, or memory.limit_in_bytes in version 1 (Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst
+ * of Linux). Inactive file pages do not count as used: the kernel drops them first. */
 #ifndef KD_BASE_MEMORY_LIMIT_H
 #define KD_BASE_MEMORY_LIMIT_H
 

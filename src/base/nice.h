@@ -1,4 +1,4 @@
-/* This makes a thread yield to others of the machine. */
+/* Lowers the priority of a thread. */
 #ifndef KD_BASE_NICE_H
 #define KD_BASE_NICE_H
 

@@ -1,7 +1,6 @@
-/* This gives long computations points of preemption. A function that may compute for longer than some milliseconds
- * calls kd_pause every few thousand operations; a thread that shares its processor among requests (server/http/turns.h)
- * then lets others go first. Everywhere else it does nothing. A caller of such functions may hold no lock that others
- * need meanwhile. Any thread. */
+/* Preemption points in long computations. A function that may compute for longer than some milliseconds calls kd_pause
+ * every few thousand operations. On a thread that serves several requests (server/http/turns.h) that lets others run
+ * first; everywhere else it does nothing. The caller must not hold a lock that others need meanwhile. Any thread. */
 #ifndef KD_BASE_PAUSE_H
 #define KD_BASE_PAUSE_H
 

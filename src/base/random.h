@@ -1,4 +1,4 @@
-/* These random numbers come from a counter: splitmix64 (Steele, Lea & Flood 2014). Pure. */
+/* Counter-based random numbers: splitmix64 (Steele, Lea & Flood 2014). Pure. */
 #ifndef KD_BASE_RANDOM_H
 #define KD_BASE_RANDOM_H
 

@@ -1,4 +1,4 @@
-/* This reads a file as a whole. Any thread. */
+/* Reads a whole file. Any thread. */
 #ifndef KD_BASE_READ_H
 #define KD_BASE_READ_H
 

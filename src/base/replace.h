@@ -1,4 +1,4 @@
-/* This writes a file as a whole. Any thread. */
+/* Writes a whole file atomically. Any thread. */
 #ifndef KD_BASE_REPLACE_H
 #define KD_BASE_REPLACE_H
 

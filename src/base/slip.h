@@ -1,4 +1,4 @@
-/* These functions guess what was meant by a name that does not exist. Pure; any thread. */
+/* Spelling suggestions: finds the known name that an unknown one was probably meant to be. Pure; any thread. */
 #ifndef KD_BASE_SLIP_H
 #define KD_BASE_SLIP_H
 

@@ -1,5 +1,5 @@
-/* This looks at text from outside: whether it is UTF-8 (RFC 3629: shortest form, no surrogates, nothing past
- * U+10FFFF), and makes it fit to be shown; and what PNG chunks need of Latin-1. Any thread. */
+/* Checks that text from outside is UTF-8 (RFC 3629: shortest form, no surrogates, nothing beyond U+10FFFF), makes it
+ * printable, and converts it to Latin-1 for PNG chunks. Any thread. */
 #ifndef KD_BASE_UTF8_H
 #define KD_BASE_UTF8_H
 

@@ -1,6 +1,6 @@
-/* How long this process's threads had to wait for a core: load by others makes work on the host's cores slower, and
- * this tells by how much. Linux's /proc/self/task/N/schedstat has it (its Documentation/scheduler/sched-stats.rst).
- * Any thread. */
+/* Processor pressure: how long this process's threads have waited for a core, from /proc/self/task/N/schedstat
+ * (Documentation/scheduler/sched-stats.rst of Linux). Other load makes the host's work slower by about that much. Any
+ * thread. */
 #ifndef KD_BASE_WAITING_H
 #define KD_BASE_WAITING_H
 

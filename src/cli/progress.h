@@ -1,4 +1,4 @@
-/* This draws a progress bar on stderr, and stops a render on Ctrl-C. Main thread only.
+/* Draws a progress bar on stderr, and stops a render on Ctrl-C. Main thread only.
  *
  * The bar appears when stderr is a terminal and the render has lasted half a second; a quick render
  * prints nothing. */

@@ -1,4 +1,4 @@
-/* This sends a picture by kitty's graphics protocol. */
+/* Sends a picture by kitty's graphics protocol. */
 #include "cli/show.h"
 
 #include "playground/base64.h"

@@ -1,4 +1,4 @@
-/* This sends a picture as sixel, which libsixel makes. */
+/* Sends a picture as sixel, which libsixel makes. */
 #include "cli/show.h"
 
 #include "image/png.h"

@@ -1,4 +1,4 @@
-/* This asks the terminal what pictures it can show, and how large it is. Main thread only. */
+/* Asks the terminal what pictures it can show, and how large it is. Main thread only. */
 #ifndef KD_CLI_TERMINAL_H
 #define KD_CLI_TERMINAL_H
 

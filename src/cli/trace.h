@@ -1,4 +1,4 @@
-/* This writes the steps of one ray as text, with the case of its roots, why it ends, and its path. Any thread. */
+/* Writes the steps of one ray as text, with the case of its roots, why it ends, and its path. Any thread. */
 #ifndef KD_CLI_TRACE_H
 #define KD_CLI_TRACE_H
 

@@ -1,4 +1,4 @@
-/* This draws on a finished picture: rectangles, letters, and panels that are darkened behind them. Pure functions,
+/* Draws on a finished picture: rectangles, letters, and panels that are darkened behind them. Pure functions,
  * any thread. */
 #ifndef KD_IMAGE_CANVAS_H
 #define KD_IMAGE_CANVAS_H

@@ -1,4 +1,4 @@
-/* This makes deflate streams (RFC 1951) in pieces, by libraries that are several times faster than zlib. Pieces that
+/* Makes deflate streams (RFC 1951) in pieces, by libraries that are several times faster than zlib. Pieces that
  * were made apart, each by a struct kd_deflate of its own if need be, are a stream when they stand one after another,
  * as pigz makes them: each but the last ends with an empty stored block, which ends with a byte. A piece refers to none
  * before it: of 512 KiB that costs less than 1 % (docs/decisions/0004-live-png.md).

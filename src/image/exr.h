@@ -1,4 +1,4 @@
-/* This writes OpenEXR files of named channels of 32-bit numbers, by OpenEXR's C core: one part, scan lines, ZIP. Any
+/* Writes OpenEXR files of named channels of 32-bit numbers, by OpenEXR's C core: one part, scan lines, ZIP. Any
  * thread. */
 #ifndef KD_IMAGE_EXR_H
 #define KD_IMAGE_EXR_H

@@ -1,4 +1,4 @@
-/* This writes FITS files (FITS Standard 4.0, Pence et al. 2010, A&A 524, A42): arrays of 32-bit numbers with header
+/* Writes FITS files (FITS Standard 4.0, Pence et al. 2010, A&A 524, A42): arrays of 32-bit numbers with header
  * cards, texts longer than a card by CONTINUE, and the checksums of the standard's appendix J. Any thread.
  *
  *     struct kd_buffer cards = { 0 };

@@ -1,4 +1,4 @@
-/* This puts a gzip stream (RFC 1952) in place of what is in a buffer. Any thread. */
+/* Replaces the contents of a buffer by a gzip stream of them (RFC 1952). Any thread. */
 #ifndef KD_IMAGE_GZIP_H
 #define KD_IMAGE_GZIP_H
 

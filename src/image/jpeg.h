@@ -1,4 +1,4 @@
-/* This writes JPEG: 8-bit RGB pictures that move, where bytes count more than the last bit of a pixel. What is kept
+/* Writes JPEG: 8-bit RGB pictures that move, where bytes count more than the last bit of a pixel. What is kept
  * is PNG. Any thread.
  *
  * Sampling of colour, by measurement (docs/decisions/0004-live-png.md): below KD_JPEG_FULL_COLOUR at half width and

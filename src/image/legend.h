@@ -1,4 +1,4 @@
-/* This draws a colour bar in the lower left corner of a picture: title, ticks and numbers on a darkened panel. Pure
+/* Draws a colour bar in the lower left corner of a picture: title, ticks and numbers on a darkened panel. Pure
  * functions, any thread. */
 #ifndef KD_IMAGE_LEGEND_H
 #define KD_IMAGE_LEGEND_H

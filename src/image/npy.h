@@ -1,4 +1,4 @@
-/* This writes NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
+/* Writes NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
  *
  * Numbers are floats of 8 and 4 bytes, whole numbers of 4, and bytes; an element is one number or a record of named
  * ones, some of them short arrays themselves. Whatever else NumPy can store is refused by name. */

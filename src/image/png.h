@@ -1,4 +1,4 @@
-/* This reads and writes PNG files: 8- or 16-bit RGB, sRGB, with text chunks. Any thread. libpng reads them and writes
+/* Reads and writes PNG files: 8- or 16-bit RGB, sRGB, with text chunks. Any thread. libpng reads them and writes
  * all but the pixels, which are encoded on as many cores as are idle (png_strips.h).
  *
  * Pixels are rows from the top, three channels, no padding; 16-bit samples are uint16_t of this machine. */

@@ -1,4 +1,4 @@
-/* This writes PNG of a live view: 8-bit RGB frames, one after another, fast rather than small. Files, with text and
+/* Writes PNG of a live view: 8-bit RGB frames, one after another, fast rather than small. Files, with text and
  * 16 bits, are image/png.h.
  *
  *     struct kd_png_live *live;

@@ -1,4 +1,4 @@
-/* This makes the IDAT chunks of a PNG of its pixels: filtered, and one zlib stream (PNG specification, third edition,
+/* Makes the IDAT chunks of a PNG of its pixels: filtered, and one zlib stream (PNG specification, third edition,
  * W3C 2025, sections 9 to 11). Strips of some 512 KiB are filtered and deflated apart, on as many cores as are idle,
  * and each is an IDAT chunk; a picture below 4 MiB (1 MiB by ISA-L) is one strip. For png.c and png_live.c. */
 #ifndef KD_IMAGE_PNG_STRIPS_H

@@ -1,4 +1,4 @@
-/* This draws how large a picture is on the sky, in its upper right corner, as radio astronomers do: a bar of a round
+/* Draws how large a picture is on the sky, in its upper right corner, as radio astronomers do: a bar of a round
  * length, and the beam, a disk as wide as its full width at half maximum. Pure functions, any thread. */
 #ifndef KD_IMAGE_SKY_SCALE_H
 #define KD_IMAGE_SKY_SCALE_H

@@ -1,4 +1,4 @@
-/* This writes a text as characters of an address: deflated (RFC 1951) and in base64url without padding (RFC 4648, 5).
+/* Writes a text as characters of an address: deflated (RFC 1951) and in base64url without padding (RFC 4648, 5).
  * Pure; any thread. */
 #ifndef KD_IMAGE_TEXT_CODE_H
 #define KD_IMAGE_TEXT_CODE_H

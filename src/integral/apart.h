@@ -1,5 +1,5 @@
-/* This says in JSON Schema which members of a request of integrals do not go together; check.c, request.c and
- * scene.c refuse the same. */
+/* Exclusive members of a request for integrals, in JSON Schema. check.c, request.c and scene.c refuse the same
+ * combinations. */
 #ifndef KD_INTEGRAL_APART_H
 #define KD_INTEGRAL_APART_H
 

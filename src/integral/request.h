@@ -1,4 +1,4 @@
-/* This reads what is asked of the integrals over a thin disk, or over pictures of a scene: a JSON document, or
+/* Reads what is asked of the integrals over a thin disk, or over pictures of a scene: a JSON document, or
  * fields by name. The table of fields (fields.c) is the source of the reader, the options of the command line and
  * the schemas of openapi.json. Any thread.
  *

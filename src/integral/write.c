@@ -1,4 +1,4 @@
-/* This writes answers as JSON, CSV and NPY, and the schema of the first. */
+/* Writes answers as JSON, CSV and NPY, and the schema of the first. */
 #include "base/decimal.h"
 #include "base/pause.h"
 #include "base/schema.h"

@@ -1,6 +1,6 @@
-/* This finds the one exposure of frames whose style.exposure is "auto", before the first of them is drawn: small
- * pictures of some of them are rendered, and the middle one of their exposures is that of all. A frame then says it
- * as a number, so that its scene gives the same picture again.
+/* One exposure for all frames of a job whose style.exposure is "auto". Before the first frame, small pictures of some
+ * frames are rendered; the median of their exposures becomes that of all. Each frame's scene then has it as a number,
+ * so that it renders the same picture again.
  *
  *     n = kd_job_exposure_frames(spec, frames);
  *     for (i < n) kd_job_exposure_plan(spec, frames[i], ...), and render it: stops[i] is the exposure of the picture

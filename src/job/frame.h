@@ -1,4 +1,4 @@
-/* This plans a frame of a job. Pure; any thread. */
+/* Plans one frame of a job. Pure; any thread. */
 #ifndef KD_JOB_FRAME_H
 #define KD_JOB_FRAME_H
 

@@ -1,4 +1,4 @@
-/* This writes orbits as text and bytes. Pure; any thread.
+/* Writes orbits as text and bytes. Pure; any thread.
  *
  * A document has a head (what is known before the first step), the series and a result (what integrating it showed):
  *

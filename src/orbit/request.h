@@ -1,4 +1,4 @@
-/* This reads from outside what is asked of the orbit integrator: a JSON document, or fields by name. Any thread.
+/* Reads from outside what is asked of the orbit integrator: a JSON document, or fields by name. Any thread.
  *
  *     {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}, "duration": {"periods": 10}, "samples":
  *       1000,

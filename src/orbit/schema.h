@@ -1,4 +1,4 @@
-/* This writes the JSON Schema of requests for orbits, from the table of their fields, and of their answers. Any
+/* Writes the JSON Schema of requests for orbits, from the table of their fields, and of their answers. Any
  * thread. */
 #ifndef KD_ORBIT_SCHEMA_H
 #define KD_ORBIT_SCHEMA_H

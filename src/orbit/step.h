@@ -1,4 +1,4 @@
-/* This chooses how long a step may be. Private to src/orbit. */
+/* Chooses how long a step may be. Private to src/orbit. */
 #ifndef KD_ORBIT_STEP_H
 #define KD_ORBIT_STEP_H
 

@@ -1,4 +1,4 @@
-/* This computes Carlson's symmetric elliptic integrals by duplication. Double precision, pure functions, any thread,
+/* Computes Carlson's symmetric elliptic integrals by duplication. Double precision, pure functions, any thread,
  * no units.
  *
  *   R_F(x,y,z)   = 1/2 Int_0^inf dt / sqrt((t+x)(t+y)(t+z))

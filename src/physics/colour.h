@@ -1,4 +1,4 @@
-/* This gives the colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette.
+/* Gives the colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette.
  * Double precision, pure, any thread. */
 #ifndef KD_PHYSICS_COLOUR_H
 #define KD_PHYSICS_COLOUR_H

@@ -1,4 +1,4 @@
-/* This computes Legendre's elliptic integrals and Jacobi's elliptic functions, in the parameter m = k^2. Double
+/* Computes Legendre's elliptic integrals and Jacobi's elliptic functions, in the parameter m = k^2. Double
  * precision, pure functions, any thread, no units.
  *
  *   F(phi|m)    = Int_0^phi dx / sqrt(1 - m sin^2 x)

@@ -1,4 +1,4 @@
-/* This embeds the equatorial plane of Kerr at a moment of t in flat space, as a surface of revolution: Flamm's
+/* Embeds the equatorial plane of Kerr at a moment of t in flat space, as a surface of revolution: Flamm's
  * paraboloid (L. Flamm 1916, Phys. Z. 17, 448) and its like for a != 0. Double precision, pure, any thread. G = c =
  * M = 1; r at or outside the horizon.
  *

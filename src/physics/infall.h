@@ -1,4 +1,4 @@
-/* This reads the clock and the way of what falls freely into Kerr, by quadrature of Sigma/(Sigma r') and the like.
+/* Reads the clock and the way of what falls freely into Kerr, by quadrature of Sigma/(Sigma r') and the like.
  * Double precision, pure, any thread. G = c = M = 1. */
 #ifndef KD_PHYSICS_INFALL_H
 #define KD_PHYSICS_INFALL_H

@@ -1,4 +1,4 @@
-/* This says how a hole bends a ray that escapes, in two angles that are smooth functions of the ray: however often
+/* Says how a hole bends a ray that escapes, in two angles that are smooth functions of the ray: however often
  * it goes round, across the axis, along the equator. So they can be interpolated from a few rays, which the
  * direction of escape itself cannot. Double precision; pure; any thread.
  *

@@ -1,4 +1,4 @@
-/* This follows light in Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when,
+/* Follows light in Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when,
  * and where it came from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M = 1),
  * angles in radians. No integrator is involved and nothing is shared with the shaders: this is what they are judged
  * by.

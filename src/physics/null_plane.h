@@ -1,4 +1,4 @@
-/* This says at which radius a ray meets the equatorial plane of Kerr for the n-th time, wherever outside the inner
+/* Says at which radius a ray meets the equatorial plane of Kerr for the n-th time, wherever outside the inner
  * horizon it is seen, and whatever energy at infinity it has: also within the horizon, and light of negative energy
  * in the ergosphere. Double precision; pure functions, any thread. Units G = c = M = 1. No azimuth and no time are
  * asked for, so nothing of it knows the horizon.

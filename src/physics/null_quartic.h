@@ -1,4 +1,4 @@
-/* This finds the roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure
+/* Finds the roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure
  * functions, any thread.
  *
  *   R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) = r^4 + A r^2 + 2 K r + C

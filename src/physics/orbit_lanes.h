@@ -1,4 +1,4 @@
-/* This follows eight paths side by side, for lists of orbits: it gives the numbers of eight scalar paths to the last
+/* Follows eight paths side by side, for lists of orbits: it gives the numbers of eight scalar paths to the last
  * bit, several times as fast, since one path waits for its own sums most of the time. Any thread. */
 #ifndef KD_PHYSICS_ORBIT_LANES_H
 #define KD_PHYSICS_ORBIT_LANES_H

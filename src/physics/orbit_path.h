@@ -1,4 +1,4 @@
-/* This integrates timelike geodesics of Kerr. Double precision, any thread; a path belongs to one thread at a time.
+/* Integrates timelike geodesics of Kerr. Double precision, any thread; a path belongs to one thread at a time.
  *
  * In Mino time, with b = 1 - E^2, w = 1/r and y = cos(theta)/sqrt(z), -1 <= y <= 1 (orbit.h),
  *

@@ -1,4 +1,4 @@
-/* This finds where a place near the hole is seen: the ray that leads from an observer back to it. Double precision;
+/* Finds where a place near the hole is seen: the ray that leads from an observer back to it. Double precision;
  * pure functions, any thread. Units G = c = M = 1, angles in radians.
  *
  * The ray is searched for by Newton's method in two angles: what is to vanish is the part of (nearest place of the

@@ -1,4 +1,4 @@
-/* This finds the real roots of a real polynomial in an interval. Double precision, pure functions, any thread. */
+/* Finds the real roots of a real polynomial in an interval. Double precision, pure functions, any thread. */
 #ifndef KD_PHYSICS_POLYNOMIAL_H
 #define KD_PHYSICS_POLYNOMIAL_H
 

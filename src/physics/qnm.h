@@ -1,4 +1,4 @@
-/* This finds the quasi-normal modes of Kerr: the gravitational ones (spin weight s = -2), fields ~ exp(i m phi - i
+/* Finds the quasi-normal modes of Kerr: the gravitational ones (spin weight s = -2), fields ~ exp(i m phi - i
  * omega t). Double precision, pure functions, any thread. Units G = c = M = 1.
  *
  *   Teukolsky's equation 1973, ApJ 185, 635, with no wave from the horizon and none from infinity, separates into

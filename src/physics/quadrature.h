@@ -1,4 +1,4 @@
-/* This integrates over (0, 1) by the double exponential rule (H. Takahasi & M. Mori 1974, Publ. RIMS 9, 721). Double
+/* Integrates over (0, 1) by the double exponential rule (H. Takahasi & M. Mori 1974, Publ. RIMS 9, 721). Double
  * precision, pure, any thread.
  *
  * The integrand gets x and y = 1 - x, each with full relative precision next to its end, where it may have any

@@ -1,4 +1,4 @@
-/* This finds the lensed image of a ring for an observer at infinity: at which (alpha, beta) the point of the
+/* Finds the lensed image of a ring for an observer at infinity: at which (alpha, beta) the point of the
  * equatorial plane at (r, phi) is seen. From a finite radius: ring_view.h. Double precision; pure functions, any
  * thread. G = c = M = 1; conventions of physics/null_geodesic.h.
  *

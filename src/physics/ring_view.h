@@ -1,4 +1,4 @@
-/* This finds the image of a ring in the equatorial plane on the sky of an observer at a finite radius, who may be
+/* Finds the image of a ring in the equatorial plane on the sky of an observer at a finite radius, who may be
  * within it, near the hole or beyond the horizon. Double precision; pure functions, any thread. Units G = c = M = 1.
  *
  * Directions are told in the frame of rain (observer.c), which is regular everywhere outside the inner horizon: off

@@ -1,4 +1,4 @@
-/* This finds a root of a function of one variable in an interval that brackets it. Double precision, pure, any
+/* Finds a root of a function of one variable in an interval that brackets it. Double precision, pure, any
  * thread. */
 #ifndef KD_PHYSICS_ROOT_H
 #define KD_PHYSICS_ROOT_H

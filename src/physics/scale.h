@@ -1,5 +1,5 @@
-/* This leads from M to metres, seconds and angles on the sky, for real holes. Double precision, pure, any thread.
- * Masses in solar masses (IAU 2015 nominal), distances in parsecs; physics/constants.h. */
+/* Converts M to metres, seconds and angles on the sky, for real holes. Double precision, pure, any thread. Masses in
+ * solar masses (IAU 2015 nominal), distances in parsecs; physics/constants.h. */
 #ifndef KD_PHYSICS_SCALE_H
 #define KD_PHYSICS_SCALE_H
 

@@ -1,6 +1,6 @@
-/* This tells how far light is polarised that comes out of a deep atmosphere of free electrons, whose source lies far
- * below (Milne's problem for Thomson scattering), by the angle at which it comes out. S. Chandrasekhar, Radiative
- * Transfer (1960), sections 67 and 68, table XXIV. Pure functions, any thread. */
+/* The polarisation of light from a deep atmosphere of free electrons whose source lies far below (Milne's problem for
+ * Thomson scattering), by the angle at which it emerges. S. Chandrasekhar, Radiative Transfer (1960), sections 67 and
+ * 68, table XXIV. Pure functions, any thread. */
 #ifndef KD_PHYSICS_SCATTERING_H
 #define KD_PHYSICS_SCATTERING_H
 

@@ -1,4 +1,4 @@
-/* This computes how bodies pull one another: all pairs, softened, in double precision. One thread a
+/* Computes how bodies pull one another: all pairs, softened, in double precision. One thread a
  * kd_playground_mutual.
  *
  * Plummer's softening: the pull of a mass m at distance d is m d/(d^2 + e^2)^(3/2), its potential -m/(d^2 +

@@ -1,4 +1,4 @@
-/* This makes one sub-step of all bodies: kick, drift, kick. */
+/* Makes one sub-step of all bodies: kick, drift, kick. */
 #include "playground/hole.h"
 #include "playground/playground.h"
 #include "playground/wave.h"

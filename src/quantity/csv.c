@@ -1,4 +1,4 @@
-/* This writes an answer as comma-separated values. */
+/* Writes an answer as comma-separated values. */
 #include "quantity/text.h"
 
 #include "base/decimal.h"

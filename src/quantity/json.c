@@ -1,4 +1,4 @@
-/* This writes an answer as JSON, and the list of quantities. */
+/* Writes an answer as JSON, and the list of quantities. */
 #include "quantity/text.h"
 
 #include "base/decimal.h"

@@ -1,4 +1,4 @@
-/* This writes docs/physics-quantities.md, from the tables. */
+/* Writes docs/physics-quantities.md, from the tables. */
 #include "quantity/sound.h"
 #include "quantity/text.h"
 

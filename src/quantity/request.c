@@ -1,4 +1,4 @@
-/* This reads what is asked for: a parameter's value or range from text. */
+/* Reads what is asked for: a parameter's value or range from text. */
 #include "quantity/quantity.h"
 
 #include "base/decimal.h"

@@ -1,4 +1,4 @@
-/* This makes a quasi-normal mode heard: e^(-t/tau) cos(2 pi f t) for the mass of the hole, as a WAV file of 16 bits,
+/* Makes a quasi-normal mode heard: e^(-t/tau) cos(2 pi f t) for the mass of the hole, as a WAV file of 16 bits,
  * 48 kHz, one channel, from full scale until less than half a step is left, and silence up to a quarter of a second.
  * Transposing by shift_octaves s makes all of it 2^s times as fast; `stretch` then makes it fade that many times as
  * slowly, at the same pitch. The comment in the file says both, with the frequencies and times before and after. Any

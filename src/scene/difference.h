@@ -1,4 +1,4 @@
-/* This tells one scene by what differs from another one, as --set and queries take it. Pure, any thread. */
+/* Describes one scene by its difference from another, in the form of --set and of queries. Pure, any thread. */
 #ifndef KD_SCENE_DIFFERENCE_H
 #define KD_SCENE_DIFFERENCE_H
 

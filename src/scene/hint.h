@@ -1,4 +1,4 @@
-/* This guesses what someone may have meant by a name that does not exist. Any thread. */
+/* Guesses what someone may have meant by a name that does not exist. Any thread. */
 #ifndef KD_SCENE_HINT_H
 #define KD_SCENE_HINT_H
 

@@ -1,4 +1,4 @@
-/* This writes docs/scene.md, from the table. */
+/* Writes docs/scene.md, from the table. */
 #include "scene/presets.h"
 #include "scene/rules.h"
 #include "scene/style.h"

@@ -1,4 +1,4 @@
-/* This finds in one look at the bytes what cJSON lets pass and a scene document may not hold. Any thread.
+/* Finds in one look at the bytes what cJSON lets pass and a scene document may not hold. Any thread.
  *
  * cJSON skips any byte below 33 as a blank, reads 01 and 1. and strings with raw control characters, cuts a
  * key at an escaped NUL and takes \u00zz for one, looks at 63 bytes of a number, recurses 1000 deep, and does

@@ -1,4 +1,4 @@
-/* This writes the JSON Schema of the scene document, from the table. */
+/* Writes the JSON Schema of the scene document, from the table. */
 #include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"

@@ -1,4 +1,4 @@
-/* This sets one field by its dotted path: --set and query parameters. */
+/* Sets one field by its dotted path: --set and query parameters. */
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/sky_scale.h"

@@ -1,4 +1,4 @@
-/* This says where the eyes of a pair are. */
+/* The positions of the two eyes of a stereo pair. */
 #include "scene/scene.h"
 
 #include "physics/angle.h"

@@ -1,4 +1,4 @@
-/* This reads the axes of a sweep, from a request or from a command line. */
+/* Reads the axes of a sweep, from a request or from a command line. */
 #include "scene/members.h"
 #include "scene/number.h"
 #include "scene/sweep.h"

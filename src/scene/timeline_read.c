@@ -1,4 +1,4 @@
-/* This reads a timeline from a request. */
+/* Reads a timeline from a request. */
 #include "scene/members.h"
 #include "scene/number.h"
 #include "scene/timeline.h"

@@ -1,4 +1,4 @@
-/* This reads a JSON document as cJSON's tree, and refuses what cJSON lets pass (scan.h). Any thread. */
+/* Reads a JSON document as cJSON's tree, and refuses what cJSON lets pass (scan.h). Any thread. */
 #ifndef KD_SCENE_TREE_H
 #define KD_SCENE_TREE_H
 

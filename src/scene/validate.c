@@ -1,4 +1,4 @@
-/* This checks that every field is in its range, and what ties fields together. */
+/* Checks that every field is in its range, and what ties fields together. */
 #include "scene/asset.h"
 #include "scene/element.h"
 #include "scene/number.h"

@@ -1,4 +1,4 @@
-/* This writes text into a buffer; after a first failure nothing more is written and status holds it. */
+/* Writes text into a buffer; after a first failure nothing more is written and status holds it. */
 #ifndef KD_SCENE_WRITER_H
 #define KD_SCENE_WRITER_H
 

@@ -1,5 +1,5 @@
-/* This leads from libmicrohttpd to the handler of a route: header and body are received and judged, what was under
- * way is given up when a client leaves. HTTP thread only. */
+/* Dispatches requests from libmicrohttpd to the handlers of routes: receives and checks header and body, and cancels
+ * the work when the client leaves. HTTP thread only. */
 #ifndef KD_SERVER_DISPATCH_H
 #define KD_SERVER_DISPATCH_H
 

@@ -1,4 +1,4 @@
-/* One thread watches the clock: deadlines, clients that went away, and the way down. */
+/* The housekeeping thread: deadlines, clients that have left, and the shutdown. */
 #ifndef KD_SERVER_KEEPER_H
 #define KD_SERVER_KEEPER_H
 

@@ -1,4 +1,4 @@
-/* The HTTP service has routes, limits, and a bounded queue in front of the render thread. Sees no Vulkan type. */
+/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. It sees no Vulkan type. */
 #ifndef KD_SERVER_SERVER_H
 #define KD_SERVER_SERVER_H
 

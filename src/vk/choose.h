@@ -1,4 +1,4 @@
-/* This says which of the listed devices to use: a pure function of the list and the wish. */
+/* Chooses one of the listed devices: a pure function of the list and the user's preference. */
 #ifndef KD_VK_CHOOSE_H
 #define KD_VK_CHOOSE_H
 

@@ -1,4 +1,4 @@
-/* This counts and logs the validation layer's messages, and names objects. */
+/* Counts and logs the validation layer's messages, and names objects. */
 #ifndef KD_VK_DEBUG_H
 #define KD_VK_DEBUG_H
 

@@ -1,4 +1,4 @@
-/* This says which commands must not overlap: it is a pure table, with no Vulkan call in it.
+/* Says which commands must not overlap: it is a pure table, with no Vulkan call in it.
  *
  * It lists the accesses since the last barrier, in recorded order and across submissions (a pipeline barrier
  * also orders earlier submissions of its queue). A command conflicts when one of its ranges overlaps a listed

@@ -1,4 +1,4 @@
-/* This makes a Vulkan instance, with its function table and, when wanted, the validation layer. */
+/* Makes a Vulkan instance, with its function table and, when wanted, the validation layer. */
 #ifndef KD_VK_INSTANCE_H
 #define KD_VK_INSTANCE_H
 

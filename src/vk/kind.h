@@ -1,4 +1,4 @@
-/* This says what Vulkan makes of a kind of binding. Pure. */
+/* The Vulkan types and flags of each kind of binding. Pure. */
 #ifndef KD_VK_KIND_H
 #define KD_VK_KIND_H
 

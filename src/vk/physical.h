@@ -1,4 +1,4 @@
-/* This says what a physical device is and whether kerrd can use it. */
+/* Properties of a physical device, and whether kerrd can use it. */
 #ifndef KD_VK_PHYSICAL_H
 #define KD_VK_PHYSICAL_H
 

@@ -1,4 +1,4 @@
-/* This adds up device time by pass name.
+/* Adds up device time by pass name.
  *
  * A submission is cut into spans: consecutive commands of one pass. A timestamp is written when recording
  * begins and after each span, always at the bottom of the pipe, that is once everything before it has

@@ -1,4 +1,4 @@
-/* This drives a Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
+/* Drives a Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
  *
  * One thread owns a struct kd_vk and everything made from it; only kd_vk_list and kd_vk_info of a
  * device that is already open may be called from elsewhere, and kd_vk_pipeline_create by threads that the owner

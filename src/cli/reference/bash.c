@@ -1,4 +1,4 @@
-/* This writes the completions for bash: tables of words, which the functions of completion.bash read. */
+/* Writes the completions for bash: tables of words, which the functions of completion.bash read. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"

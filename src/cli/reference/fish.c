@@ -1,4 +1,4 @@
-/* This writes the completions for fish: a line for each option, and tables that the functions of completion.fish
+/* Writes the completions for fish: a line for each option, and tables that the functions of completion.fish
  * read. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"

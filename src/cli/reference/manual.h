@@ -1,4 +1,4 @@
-/* This writes manual pages in the language of man(7). One thread. */
+/* Writes manual pages in the language of man(7). One thread. */
 #ifndef KD_CLI_REFERENCE_MANUAL_H
 #define KD_CLI_REFERENCE_MANUAL_H
 

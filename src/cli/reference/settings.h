@@ -1,4 +1,4 @@
-/* This writes docs/options.md. One thread. */
+/* Writes docs/options.md. One thread. */
 #ifndef KD_CLI_REFERENCE_SETTINGS_H
 #define KD_CLI_REFERENCE_SETTINGS_H
 

@@ -1,4 +1,4 @@
-/* This writes the completions for zsh: for each command what _arguments takes, and tables that the functions of
+/* Writes the completions for zsh: for each command what _arguments takes, and tables that the functions of
  * completion.zsh read. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"

@@ -1,4 +1,5 @@
-/* This says what traces rays, and what a wish for accuracy comes to. Plain values, pure functions; any thread. */
+/* Engines that trace rays, and the setting (engine, precision, steps) that an accuracy request resolves to. Plain
+ * values, pure functions; any thread. */
 #ifndef KD_RENDER_ACCURACY_ENGINE_H
 #define KD_RENDER_ACCURACY_ENGINE_H
 

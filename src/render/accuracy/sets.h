@@ -1,12 +1,12 @@
-/* Engines are judged on these rays: fixed lists with names, so that tables of different days and devices compare.
+/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are
+ * comparable.
  *
- * A set is one view or several, a view one hole seen by one observer at infinity. Positions are those of a sequence
- * of low discrepancy (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of 1/g
- * and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry, and are not rounded: what
- * single precision loses with them is its error as well. Rays within 5 % of the critical curve, with all their
- * crossings of order 2, are the near-critical set's alone: there an error is that of the arithmetic times a
- * condition number of hundreds, by any method. rho is counted from the centre of physics/critical.h. Pure; any
- * thread. */
+ * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a low-
+ * discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of 1/g
+ * and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. They are not rounded: what
+ * single precision loses by rounding them counts as its error. Rays within 5 % of the critical curve, with all their
+ * crossings of order 2, belong to the near-critical set alone: there the error of any method is that of the arithmetic
+ * times a condition number of hundreds. rho is counted from the centre of physics/critical.h. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 

@@ -1,11 +1,10 @@
-/* The table of accuracy says what each engine, precision and number of steps costs on one device, and how wrong it
- * is: the one that `kerrd bench accuracy` measures, GET /v1/accuracy serves and a tolerance is looked up in. Plain
- * values; any thread.
+/* The accuracy table: what each engine, precision and number of steps costs on one device, and its error. `kerrd bench
+ * accuracy` measures it, GET /v1/accuracy serves it, and accuracy.tolerance is looked up in it. Plain values; any
+ * thread.
  *
- * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h),
- * all orders together, over the crossings that both have from the ISCO to KD_ACCURACY_FAR: relative ones of r and g,
- * absolute ones of phi (radians) and delay (M). A ray with another fate or another number of crossings is counted in
- * `differ`. */
+ * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h), all
+ * orders together, over the crossings that both have from the ISCO to KD_ACCURACY_FAR: relative for r and g, absolute
+ * for phi (radians) and delay (M). A ray with another fate or another number of crossings is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 

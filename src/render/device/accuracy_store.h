@@ -1,5 +1,4 @@
-/* The accuracy table of a device is kept on disk, beside its pipeline cache, which is written anew with every
- * driver. */
+/* Stores the accuracy table of a device on disk, beside its pipeline cache. A new driver gets a new table. */
 #ifndef KD_RENDER_DEVICE_ACCURACY_STORE_H
 #define KD_RENDER_DEVICE_ACCURACY_STORE_H
 

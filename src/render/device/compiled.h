@@ -1,6 +1,6 @@
-/* Which kernels the driver has compiled and keeps in its files (kd_vk_compiling), so that they are not compiled beside
- * the device again. Kept in a file beside the pipeline cache, as numbers of 8 bytes; a number names a kernel and the
- * folder of the driver's files, so that none holds once that was removed. One thread at a time. */
+/* Records which kernels the driver has compiled into its own cache (kd_vk_compiling), so that they are not compiled
+ * again on the device beside. A file beside the pipeline cache holds 8 bytes for each: a hash of the kernel and of the
+ * driver's cache folder, so that none is valid once that folder was removed. One thread at a time. */
 #ifndef KD_RENDER_DEVICE_COMPILED_H
 #define KD_RENDER_DEVICE_COMPILED_H
 

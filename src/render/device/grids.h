@@ -1,6 +1,6 @@
-/* Matter on a grid as the device has it: volume.grid is read, and its numbers are sent, when the asset is another
- * than the one before (kd_own_plasma of render/emit/own.h). What is known of the last ones but their numbers stays
- * with the renderer. Render thread only. */
+/* Matter on a grid, on the device: reads volume.grid and uploads it when the asset has changed (kd_own_plasma of
+ * render/emit/own.h). The renderer keeps the description of the last grids, without their numbers. Render thread only.
+ */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
 #define KD_RENDER_DEVICE_GRIDS_H
 

@@ -1,4 +1,4 @@
-/* The files of src/render share this about a renderer. */
+/* Internals of a renderer, shared by the files of src/render. */
 #ifndef KD_RENDER_DEVICE_INTERNAL_H
 #define KD_RENDER_DEVICE_INTERNAL_H
 

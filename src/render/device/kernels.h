@@ -1,4 +1,4 @@
-/* The compute pipelines of a renderer are made when a plan first needs them, and kept. Render thread only. */
+/* Compute pipelines of a renderer, created when a plan first needs them, and kept. Render thread only. */
 #ifndef KD_RENDER_DEVICE_KERNELS_H
 #define KD_RENDER_DEVICE_KERNELS_H
 

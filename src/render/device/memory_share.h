@@ -1,5 +1,5 @@
-/* This says how much memory pictures may take: what the device has, what --memory says, and what the host has, where
- * it comes to that. */
+/* The memory limit for pictures: the minimum of what the device has, what --memory allows, and, where the device uses
+ * the host's memory, what the host has left. */
 #ifndef KD_RENDER_DEVICE_MEMORY_SHARE_H
 #define KD_RENDER_DEVICE_MEMORY_SHARE_H
 

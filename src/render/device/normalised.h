@@ -1,5 +1,5 @@
-/* A renderer keeps the densities here that it has found for given fluxes, the last of them (frame/normalise.h). The
- * thread that has the renderer. */
+/* Cache of the densities found for given fluxes (frame/normalise.h), the most recent ones. The thread that has the
+ * renderer. */
 #ifndef KD_RENDER_DEVICE_NORMALISED_H
 #define KD_RENDER_DEVICE_NORMALISED_H
 

@@ -1,8 +1,7 @@
-/* Panoramas of skies on the host, as the device is given them: the Milky Way that is made up, by its seed, or
- * sky.image. The renderer keeps the last KD_PANORAMAS that were asked for, up to 45 MB each, as long as it lives. A
- * thread of its own makes them, one after the other, and ends when none is asked for: who has the device need not
- * wait meanwhile. The first Milky Way that a process makes is kept in a file, which later ones read
- * (render/sky/milky_way_file.h). Any thread, but for what says otherwise. */
+/* Panoramas of the sky on the host: the procedural Milky Way, by its seed, or sky.image. The renderer caches the last
+ * KD_PANORAMAS, up to 45 MB each. A thread of its own makes them one after the other, and ends when there is no
+ * request, so that the thread with the device need not wait. The first Milky Way of a process is cached in a file for
+ * later ones (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 

@@ -1,5 +1,5 @@
-/* Emitters make things on the device before light is: buffers of their own, which the transfer pass reads
- * (render/emit/own.h). Frames fold over the emitters' table here and know no names. Render thread only. */
+/* Lets emitters prepare on the device, before the transfer pass, the buffers of their own that it reads
+ * (render/emit/own.h). It folds over the table of emitters and knows no names. Render thread only. */
 #ifndef KD_RENDER_DEVICE_PREPARE_H
 #define KD_RENDER_DEVICE_PREPARE_H
 

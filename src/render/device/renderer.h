@@ -1,5 +1,5 @@
-/* A renderer is one device and what is kept on it between pictures. One thread at a time has a struct kd_renderer,
- * and hands it on with a lock; the only call allowed from others meanwhile is kd_renderer_capacity. */
+/* A renderer: one device and what is cached on it between pictures. One thread at a time has a struct kd_renderer, and
+ * hands it on under a lock. Meanwhile other threads may call kd_renderer_capacity only. */
 #ifndef KD_RENDER_DEVICE_RENDERER_H
 #define KD_RENDER_DEVICE_RENDERER_H
 

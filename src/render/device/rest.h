@@ -1,4 +1,4 @@
-/* What a renderer keeps when it has nothing to do, in bytes by kind, and how it gives back the rest. */
+/* What an idle renderer keeps, in bytes by kind, and how it frees the rest. */
 #ifndef KD_RENDER_DEVICE_REST_H
 #define KD_RENDER_DEVICE_REST_H
 

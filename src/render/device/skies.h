@@ -1,6 +1,6 @@
-/* A sky on the device is a panorama, which the transfer pass reads, and stars sorted by their place. Both are made
- * on the host when the sky is another than the one before (kd_own_sky, render/emit/own.h): a panorama takes up to a
- * second, on a thread of its own (panoramas.h), stars 30 ms. Render thread only. */
+/* The sky on the device: a panorama, which the transfer pass reads, and stars sorted by place. Both are made on the
+ * host when the sky has changed (kd_own_sky, render/emit/own.h). A panorama takes up to a second, on a thread of its
+ * own (panoramas.h), stars 30 ms. Render thread only. */
 #ifndef KD_RENDER_DEVICE_SKIES_H
 #define KD_RENDER_DEVICE_SKIES_H
 

@@ -1,5 +1,5 @@
-/* A renderer has these device buffers: lens maps that are kept between frames, and the frame's working set.
- * Render thread only. */
+/* Device buffers of a renderer: the lens maps kept between frames, and the working set of a frame. Render thread only.
+ */
 #ifndef KD_RENDER_DEVICE_STORE_H
 #define KD_RENDER_DEVICE_STORE_H
 

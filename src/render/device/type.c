@@ -1,4 +1,4 @@
-/* This names the types of devices. */
+/* Names the types of devices. */
 #include "render/device/renderer.h"
 #include "vk/vk.h"
 

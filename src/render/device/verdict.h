@@ -1,5 +1,5 @@
-/* The verdict says whether a device computes what it should, and how fast: it is found out by the self-test at the
- * first start (selftest/first_start.h), and kept in the cache folder. Thread of the renderer. */
+/* Result of the self-test: whether a device computes correctly, and how fast it is. It runs at the first start
+ * (selftest/first_start.h) and is cached on disk. Thread of the renderer. */
 #ifndef KD_RENDER_DEVICE_VERDICT_H
 #define KD_RENDER_DEVICE_VERDICT_H
 

@@ -1,7 +1,7 @@
-/* An approximation is what a picture leaves out or chooses. Constant data.
+/* An approximation: something that a picture leaves out or chooses. Constant data.
  *
- * Its name is short and stable, for headers and programs: "disk.thin". Names differ from each other, and all of them
- * together fit into the header of an answer (tests/unit/emitters.c). */
+ * Its name, such as "disk.thin", is short and stable, for headers and programs. Names are unique, and all of them
+ * together fit into one header of an answer (tests/unit/emitters.c). */
 #ifndef KD_RENDER_EMIT_APPROXIMATION_H
 #define KD_RENDER_EMIT_APPROXIMATION_H
 

@@ -1,5 +1,5 @@
-/* Bodies as the kernels of light have them: opaque spheres, given by place, velocity and size, and a tree of balls
- * over them (shaders/emit/bodies.glsl). Lengths in M, angles in radians. Pure; any thread. */
+/* Bodies for the kernels of light: opaque spheres, by place, velocity and size, and a tree of bounding balls over them
+ * (shaders/emit/bodies.glsl). Lengths in M, angles in radians. Pure; any thread. */
 #ifndef KD_RENDER_EMIT_BODIES_H
 #define KD_RENDER_EMIT_BODIES_H
 

@@ -1,5 +1,5 @@
-/* The device finds how many particles (render/emit/particles.h) are where on their grids, and where some of them
- * are. Render thread only. */
+/* Counts the particles (render/emit/particles.h) in each cell of their grids, on the device, and reads back the places
+ * of listed ones. Render thread only. */
 #ifndef KD_RENDER_EMIT_DEPOSIT_H
 #define KD_RENDER_EMIT_DEPOSIT_H
 

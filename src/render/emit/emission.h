@@ -1,4 +1,4 @@
-/* The kernels of light read this: numbers and tables of all emitters. It is the C side of shaders/shared/emitters.h. */
+/* Numbers and tables of all emitters for the kernels of light: the C side of shaders/shared/emitters.h. */
 #ifndef KD_RENDER_EMIT_EMISSION_H
 #define KD_RENDER_EMIT_EMISSION_H
 

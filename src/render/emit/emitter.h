@@ -1,5 +1,5 @@
-/* Emitters are what sends light along a ray, takes it away or changes it. This is the table of
- * shaders/shared/emitters.h on the C side, one file each; plan, needs, motion, numbers and tables for the device,
+/* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
+ * shaders/shared/emitters.h, one file each. Plan, needs of the lens map, motion, numbers and tables for the device,
  * and approximations fold over it and know no names.
  *
  * To add one: its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct kd_emitter

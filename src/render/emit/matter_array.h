@@ -1,4 +1,4 @@
-/* Arrays of a grid's file, as they lie there: plain numbers, <f8 or <f4, in C order. Pure, any thread. */
+/* Reads arrays of a grid's file in place: plain numbers, <f8 or <f4, in C order. Pure, any thread. */
 #ifndef KD_RENDER_EMIT_MATTER_ARRAY_H
 #define KD_RENDER_EMIT_MATTER_ARRAY_H
 

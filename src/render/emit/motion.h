@@ -1,4 +1,4 @@
-/* Emitters (emitter.h) say what goes on by itself in a live session. Pure; any thread. */
+/* Which parts of a scene move by themselves in a live session, by emitter (emitter.h). Pure; any thread. */
 #ifndef KD_RENDER_EMIT_MOTION_H
 #define KD_RENDER_EMIT_MOTION_H
 

@@ -1,6 +1,6 @@
-/* An emitter may have buffers of its own on the device, which the kernels of light read (KD_BUFFERS_name of
- * shaders/shared/emitters.h). Before light is, it fills them: from the host, or by a pass of its own (KD_PASS_name
- * there), whose kernel is shaders/comp/NAME.comp. All that is here says how; frames fold over the table of emitters
+/* Buffers of an emitter's own on the device, which the kernels of light read (KD_BUFFERS_name of
+ * shaders/shared/emitters.h). The emitter fills them before the transfer pass: from the host, or by a pass of its own
+ * (KD_PASS_name there) with the kernel shaders/comp/NAME.comp. Frames fold over the table of emitters
  * (device/prepare.h) and know no names. Render thread only. */
 #ifndef KD_RENDER_EMIT_OWN_H
 #define KD_RENDER_EMIT_OWN_H

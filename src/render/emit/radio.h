@@ -1,5 +1,5 @@
-/* Light at a radio frequency has these units: the picture's 1 is KD_RADIO_KELVIN of brightness temperature. Pure
- * functions of valid scenes, any thread. */
+/* Units of light at a radio frequency: 1 in the picture is KD_RADIO_KELVIN of brightness temperature. Pure functions
+ * of valid scenes, any thread. */
 #ifndef KD_RENDER_EMIT_RADIO_H
 #define KD_RENDER_EMIT_RADIO_H
 

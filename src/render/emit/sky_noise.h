@@ -1,6 +1,6 @@
-/* This says whether the sky of a picture can be told from noise. From next to the horizon of a fast hole all the sky
- * is seen in a narrow cone, many times over: a pixel's step there, or the rounding of its ray's labels, leads to
- * somewhere else on the sky. Pure; any thread. */
+/* Finds cameras for which the sky is noise. From close to the horizon of a fast hole the whole sky is seen in a narrow
+ * cone, many times over: one pixel's step, or the rounding of a ray's labels, leads to somewhere else on the sky.
+ * Pure; any thread. */
 #ifndef KD_RENDER_EMIT_SKY_NOISE_H
 #define KD_RENDER_EMIT_SKY_NOISE_H
 

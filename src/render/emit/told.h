@@ -1,5 +1,5 @@
-/* This tells the emitters of a scene to whoever shows it: what they are called, and what is seen of them in words.
- * Pure functions of valid scenes, any thread. */
+/* Describes the emitters of a scene: their names, and what is seen of them in words. Pure functions of valid scenes,
+ * any thread. */
 #ifndef KD_RENDER_EMIT_TOLD_H
 #define KD_RENDER_EMIT_TOLD_H
 

@@ -1,4 +1,4 @@
-/* Every approximation there is, of pictures and of rays: docs/approximations.md and GET /v1/approximations. Any
+/* The list of all approximations, of pictures and of rays: docs/approximations.md and GET /v1/approximations. Any
  * thread. */
 #ifndef KD_RENDER_EXPLAIN_APPROXIMATIONS_H
 #define KD_RENDER_EXPLAIN_APPROXIMATIONS_H

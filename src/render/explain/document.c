@@ -1,4 +1,4 @@
-/* This writes what is explained of a pixel as JSON. */
+/* Writes what is explained of a pixel as JSON. */
 #include "base/json.h"
 #include "render/explain/explain.h"
 #include "render/explain/steps.h"

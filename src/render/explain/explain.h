@@ -1,9 +1,9 @@
-/* This explains the light of one pixel. Each of its rays is followed by closed form; what each emitter gave that ray
- * is told by the picture's own kernel (frame/tell.h). The document has both, how far they are apart, and the middle
- * ray's path for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
+/* Explains the light of one pixel. Each of its rays is traced in closed form, and the picture's own kernel reports
+ * what each emitter added to that ray (frame/tell.h). The document has both, their difference, and the path of the
+ * middle ray for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
  *
- * Lengths and times in M, angles in radians, frequencies by those that the observer measures. docs/pixel.md says
- * what the document holds. */
+ * Lengths and times in M, angles in radians, frequencies as the observer measures them. docs/pixel.md describes the
+ * document. */
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H
 #define KD_RENDER_EXPLAIN_EXPLAIN_H
 

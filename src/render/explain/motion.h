@@ -1,6 +1,6 @@
-/* This is how one ray of light moves: the case of its roots in r and in theta, where it turns, why it ends as it
- * does, and its path as points. Of the closed form of physics/null_geodesic.h and the steps of
- * physics/null_course.h, for `kerrd pixel` and `kerrd rays --trace`. Pure, any thread. */
+/* The motion of one ray: the case of its roots in r and in theta, its turning points, why it ends, and points of its
+ * path. From the closed form of physics/null_geodesic.h and the steps of physics/null_course.h, for `kerrd pixel` and
+ * `kerrd rays --trace`. Pure, any thread. */
 #ifndef KD_RENDER_EXPLAIN_MOTION_H
 #define KD_RENDER_EXPLAIN_MOTION_H
 

@@ -1,5 +1,4 @@
-/* Steps that the device takes along a ray (rays/steps.h), as names, columns and numbers for whoever writes them.
- * Pure, any thread. */
+/* Steps that the device takes along a ray (rays/steps.h) as a table: names, columns and numbers. Pure, any thread. */
 #ifndef KD_RENDER_EXPLAIN_STEPS_H
 #define KD_RENDER_EXPLAIN_STEPS_H
 

@@ -1,4 +1,4 @@
-/* This writes what is explained of a pixel as tables for eyes. */
+/* Writes what is explained of a pixel as tables for eyes. */
 #include "render/emit/emitter.h"
 #include "render/explain/explain.h"
 

@@ -1,4 +1,4 @@
-/* This follows a ray of an observer within the horizon, where closed forms end: by the steps of
+/* Follows a ray of an observer within the horizon, where closed forms end: by the steps of
  * physics/null_course.h in ingoing coordinates. */
 #include "render/explain/motion.h"
 

@@ -1,4 +1,4 @@
-/* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no
+/* Finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no
  * other. */
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"

@@ -1,4 +1,4 @@
-/* This takes rays of listed pixels from between those of the grid instead of following them (comp/between.comp). */
+/* Interpolates rays of listed pixels from those of the grid instead of tracing them (comp/between.comp). */
 #include "render/frame/lens.h"
 
 #include "render/view/critical_pixels.h"

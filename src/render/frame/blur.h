@@ -1,6 +1,6 @@
-/* Motion blur: the light of a picture is the mean of that of several, at times while a shutter is open; exposure,
- * glare and tone curve come after. It is linear light that is averaged, of each pixel, on the host, in double
- * precision. The thread that has the renderer. */
+/* Motion blur: averages the light of several pictures, at times while a shutter is open, before exposure, glare and
+ * tone curve. The average is of linear light, for each pixel, on the host, in double precision. The thread that has
+ * the renderer. */
 #ifndef KD_RENDER_FRAME_BLUR_H
 #define KD_RENDER_FRAME_BLUR_H
 

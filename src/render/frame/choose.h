@@ -1,4 +1,4 @@
-/* This chooses the pixels of a picture that need more rays, by how they are shown. Pure; any thread. */
+/* Chooses the pixels that need more rays, by how they are displayed. Pure; any thread. */
 #ifndef KD_RENDER_FRAME_CHOOSE_H
 #define KD_RENDER_FRAME_CHOOSE_H
 

@@ -1,10 +1,9 @@
-/* Compiles kernels while others have the device.
+/* Compiles kernels while other work has the device.
  *
- * A driver compiles a kernel as its pipeline is made, or at its first dispatch, on the device's queue (lavapipe, half a
- * second to some seconds). So pipelines are made beside the device. For a driver of the second kind the picture is also
- * rendered, or what needs the kernels but is no picture dispatched, on a device of its own that computes nothing
- * (kd_vk_params.compiles_only): what is compiled there goes to the driver's files, and the first device reads it from
- * there. */
+ * A driver compiles a kernel when its pipeline is created, or at its first dispatch on the device's queue (lavapipe:
+ * half a second to some seconds). So pipelines are created beside the device. For a driver of the second kind, the
+ * picture is also rendered (or other work that needs the kernels dispatched) on a second device that computes nothing
+ * (kd_vk_params.compiles_only). That fills the driver's cache on disk, from which the first device then reads. */
 #ifndef KD_RENDER_FRAME_COMPILATION_H
 #define KD_RENDER_FRAME_COMPILATION_H
 

@@ -1,5 +1,5 @@
-/* This gives pixels more rays than the others have: by the kernels of the grid once more, over a list of pixels,
- * whose light is written anew. */
+/* Traces more rays for listed pixels: runs the kernels of the grid once more, over a list of pixels, and writes the
+ * light of these pixels anew. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"

@@ -1,4 +1,4 @@
-/* This measures how far off the light of volumes is: the first ray of each pixel of a lattice is followed once more
+/* Measures how far off the light of volumes is: the first ray of each pixel of a lattice is followed once more
  * as the picture has it, and KD_MARCH_FINER times as closely, by the same kernel into a buffer of its own. */
 #include "render/frame/lens.h"
 

@@ -1,4 +1,4 @@
-/* This finds the density at which matter at a radio frequency has a given flux, volume.normalise_to_jy, by pictures
+/* Finds the density at which matter at a radio frequency has a given flux, volume.normalise_to_jy, by pictures
  * of its own. The thread that has the renderer. */
 #ifndef KD_RENDER_FRAME_NORMALISE_H
 #define KD_RENDER_FRAME_NORMALISE_H

@@ -1,4 +1,4 @@
-/* This renders a pair of pictures, one for each eye, side by side. */
+/* Renders a pair of pictures, one for each eye, side by side. */
 #include "render/frame/parts.h"
 
 #include <math.h>

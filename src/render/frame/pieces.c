@@ -1,4 +1,4 @@
-/* This follows rays through volumes to their end that a driver's limit on loops has ended before: the march lists
+/* Follows rays through volumes to their end that a driver's limit on loops has ended before: the march lists
  * them, and they go on in pieces, a dispatch each. */
 #include "render/frame/compilation.h"
 #include "render/frame/lens.h"

@@ -1,4 +1,4 @@
-/* This follows more rays where one was not enough, in rounds.
+/* Follows more rays where one was not enough, in rounds.
  *
  * One ray a pixel is off by up to half of what changes across it. Where the picture is straight from pixel to pixel,
  * a ray in the middle of each is right whatever the slope: what counts is the second difference of what is shown.

@@ -1,4 +1,4 @@
-/* This measures how far off the pixels of a picture are, on a sample of them against the picture in which each has
+/* Measures how far off the pixels of a picture are, on a sample of them against the picture in which each has
  * 64 rays. The last pass of all: the light of the sample is that of those rays afterwards.
  *
  * Kinds of pixels are sampled alike, however few they are, and each counts by its number. At the critical curve more

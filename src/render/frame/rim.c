@@ -1,5 +1,5 @@
-/* This brings the rim of the shadow to the device, where stars are sought on it too (view/rim.h): where its rays
- * come from, and tables that say where it is. */
+/* Uploads the rim of the shadow, for the star search there (view/rim.h): where its rays come from, and tables of its
+ * layout. */
 #include "render/frame/job.h"
 
 #include "render/view/rim_sky.h"

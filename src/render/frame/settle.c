@@ -1,4 +1,4 @@
-/* This settles rays that the kernels leave open: whose end, or number of crossings, single precision cannot tell.
+/* Settles rays that the kernels leave open: whose end, or number of crossings, single precision cannot tell.
  * They are few, are followed again in closed form, in double on the host, and take their places in the lens map
  * before anything reads it. */
 #include "render/frame/lens.h"

@@ -1,6 +1,5 @@
-/* This is what a frame tells of the light of the pixel that the plan names, ray by ray and emitter by emitter, as
- * the kernel that makes the picture adds it up (light/tell.glsl). Radiance is linear sRGB, in units of the
- * picture's. */
+/* Reports the light of the pixel that the plan names, ray by ray and emitter by emitter, as the picture's own kernel
+ * sums it (light/tell.glsl). Radiance is linear sRGB, in units of the picture. */
 #ifndef KD_RENDER_FRAME_TELL_H
 #define KD_RENDER_FRAME_TELL_H
 

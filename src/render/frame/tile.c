@@ -1,4 +1,4 @@
-/* This renders a tile of a picture, with a margin that is cut off again, and a picture that does not fit in strips
+/* Renders a tile of a picture, with a margin that is cut off again, and a picture that does not fit in strips
  * of itself (render/plan/tile.h). */
 #include "render/frame/parts.h"
 

@@ -1,7 +1,7 @@
-/* The audit finds how wrong a lens map is: a sample of its rays is traced again in closed form, in double on the
- * CPU, and radii of crossings and fates are compared. Costs some 3 ms whenever a new map is traced; the finding is
- * kept with the map. Of a map that the closed form in double made it finds the rounding to 32 bits alone. Render
- * thread. */
+/* The audit measures the error of a lens map: it traces a sample of its rays again in closed form, in double on the
+ * CPU, and compares radii of crossings, and fates. It takes some 3 ms whenever a new map is traced; the result is kept
+ * with the map. For a map that was made by the closed form in double, it measures the rounding to 32 bits alone.
+ * Render thread. */
 #ifndef KD_RENDER_LENS_AUDIT_H
 #define KD_RENDER_LENS_AUDIT_H
 

@@ -1,4 +1,5 @@
-/* This names the ray of a lens map's place, as closed forms and lists of rays take it. Pure, any thread. */
+/* Labels (alpha, beta and direction) of the ray at a place of the lens map, as closed forms and lists of rays take
+ * them. Pure, any thread. */
 #ifndef KD_RENDER_LENS_LABEL_H
 #define KD_RENDER_LENS_LABEL_H
 

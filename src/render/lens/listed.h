@@ -1,5 +1,5 @@
-/* This makes the lens map of a picture from listed rays: by any engine, in double precision, from a camera in
- * double. Slower than the kernels that make each ray from its pixel, by the way through the host: for pictures that
+/* Makes the lens map of a picture from listed rays: by any engine, in double precision, from a camera in double.
+ * Slower than the kernels that derive each ray from its pixel, because rays pass through the host. For pictures that
  * ask for it. Render thread. */
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H

@@ -1,5 +1,5 @@
-/* This says how much of a scene a live frame shows, and the ladder of such qualities from all of it downwards. Plain
- * values, pure functions; any thread. Which rung is in force is governor.h's to say. */
+/* Quality of a live frame: how much of the scene it renders, and the ladder of qualities from all of it downwards.
+ * Plain values, pure functions; any thread. The governor (governor.h) chooses the rung. */
 #ifndef KD_RENDER_LIVE_QUALITY_H
 #define KD_RENDER_LIVE_QUALITY_H
 

@@ -1,4 +1,4 @@
-/* The clock of a falling observer, as answers tell it. Any thread. */
+/* The clock of a falling observer, in answers. Any thread. */
 #ifndef KD_RENDER_OUTPUT_CLOCK_H
 #define KD_RENDER_OUTPUT_CLOCK_H
 

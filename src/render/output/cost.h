@@ -1,5 +1,5 @@
-/* What frames cost together, by their plans, before any is rendered: those of a job, or the scenes of a sweep, of
- * which those that share a lens map are counted with one. Pure, any thread. */
+/* The total cost of several frames before any is rendered, by their plans: those of a job, or the scenes of a sweep,
+ * which share lens maps. Pure, any thread. */
 #ifndef KD_RENDER_OUTPUT_COST_H
 #define KD_RENDER_OUTPUT_COST_H
 

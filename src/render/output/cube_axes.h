@@ -1,4 +1,4 @@
-/* This tells the axes of a sweep in a FITS cube: world coordinates in the header of each layer, and a table of each
+/* Tells the axes of a sweep in a FITS cube: world coordinates in the header of each layer, and a table of each
  * axis' values. Each function appends to a buffer. Any thread; KD_ENOMEM alone. Internal to render/output.
  *
  * An axis of evenly spaced numbers is a linear axis of world coordinates with its field's name; any other is counted

@@ -1,4 +1,4 @@
-/* This writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of
+/* Writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of
  * all; a table for each axis, named by its field, with its values in the column "value"; and the table SCENES with
  * the hash, the accuracy and, where pictures have one, the flux of each scene, in their order. An axis is one of
  * world coordinates too (cube_axes.h). */

@@ -1,4 +1,4 @@
-/* This writes a cube as numpy.savez does: kd_gather_npz. An array for each axis of the sweep, by the name of its
+/* Writes a cube as numpy.savez does: kd_gather_npz. An array for each axis of the sweep, by the name of its
  * field, float64 or text; an array of each layer, float32, of the shape (axes..., height, width[, 3]); scene_hash,
  * scene_accuracy and, where pictures have a flux, scene_flux_jy, of the shape (axes...); and notes.json. */
 #include "render/output/cube.h"

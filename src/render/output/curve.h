@@ -1,4 +1,4 @@
-/* Light curves and centroid tracks tell the light of frame after frame (render/plan/photometry.h). Pure. */
+/* Light curves and centroid tracks: one row of light for each frame (render/plan/photometry.h). Pure. */
 #ifndef KD_RENDER_OUTPUT_CURVE_H
 #define KD_RENDER_OUTPUT_CURVE_H
 

@@ -1,4 +1,4 @@
-/* This writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B. Any other word
+/* Writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B. Any other word
  * is a channel of the EXR layer "kerrd", such as kerrd.g: OpenImageIO orders names without case and takes a bare g
  * for green. All are 32-bit numbers. Attributes tell what the text of a PNG tells, and units. */
 #include "render/output/format.h"

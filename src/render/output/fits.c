@@ -1,4 +1,4 @@
-/* This writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array,
+/* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array,
  * each more an IMAGE extension of that name; "rgb" has a third axis. The primary header tells the scene, the hole,
  * the observer, accuracy, and each approximation in force; all have world coordinates. */
 #include "render/output/format.h"

@@ -1,4 +1,4 @@
-/* Cards of FITS headers: what a file of one frame says, and a cube of many. Each appends to *cards. Any thread;
+/* Cards of FITS headers, for a file of one frame and for a cube of many. Each function appends to *cards. Any thread;
  * KD_ENOMEM alone. */
 #ifndef KD_RENDER_OUTPUT_FITS_CARDS_H
 #define KD_RENDER_OUTPUT_FITS_CARDS_H

@@ -1,4 +1,4 @@
-/* Answers tell the flux of a picture at a radio frequency by this. Any thread. */
+/* The flux of a picture at a radio frequency, in answers. Any thread. */
 #ifndef KD_RENDER_OUTPUT_FLUX_H
 #define KD_RENDER_OUTPUT_FLUX_H
 

@@ -1,4 +1,4 @@
-/* This puts the files of frames into a ZIP, and has what all gathered files share. */
+/* Writes the files of frames into a ZIP; and what all gathered files share. */
 #include "render/output/gather.h"
 
 #include "image/zip.h"

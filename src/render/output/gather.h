@@ -1,5 +1,4 @@
-/* Files of many frames become one file, piece by piece: nothing of the size of all of them is ever held in memory.
- * One thread each.
+/* Writes the files of many frames as one file, piece by piece; the whole is never held in memory. One thread each.
  *
  *     kd_gather_open(&kd_gather_zip, &source, &gather, &error);
  *     for (bool over = false; !over && !status;)

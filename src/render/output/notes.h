@@ -1,5 +1,5 @@
-/* Notes are what a file tells of its picture, whatever its format: enough to render it again, and how it was made.
- * Any thread. */
+/* Metadata of a picture in its file, whatever the format: enough to render it again, and how it was made. Any thread.
+ */
 #ifndef KD_RENDER_OUTPUT_NOTES_H
 #define KD_RENDER_OUTPUT_NOTES_H
 

@@ -1,4 +1,4 @@
-/* This writes a frame's layers as numbers: kd_format_npy. One NumPy array of the shape (height, width) whose
+/* Writes a frame's layers as numbers: kd_format_npy. One NumPy array of the shape (height, width) whose
  * elements are records with a field for each word of image.layers, in its order, float32: a number, NaN where there
  * is none, or of "rgb" three, linear sRGB in units of the brightest surface brightness of the disk at g = 1. */
 #include "render/output/format.h"

@@ -1,4 +1,4 @@
-/* This writes a frame's layers as numpy.savez does: kd_format_npz. A member NAME.npy for each word of image.layers,
+/* Writes a frame's layers as numpy.savez does: kd_format_npz. A member NAME.npy for each word of image.layers,
  * of the shape (height, width), or of "rgb" (height, width, 3), float32; and notes.json with what the text of a PNG
  * tells, and units. */
 #include "render/output/format.h"

@@ -1,4 +1,4 @@
-/* This lists particles of a disk as numbers: a row a particle, 32-bit floats, in the order of the columns asked for.
+/* Lists particles of a disk as numbers: a row a particle, 32-bit floats, in the order of the columns asked for.
  *
  *     struct kd_particle_list list;
  *     kd_particle_list_init(&list, &scene, &error)                    a valid scene

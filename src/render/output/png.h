@@ -1,8 +1,8 @@
-/* kd_format_png makes of a frame a PNG file that can be rendered again from itself. Any thread.
+/* kd_format_png: a PNG file that holds its scene, so that it can be rendered again. Any thread.
  *
- * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations"
- * (one a line), "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" where others'
- * work is in it. None with KD_EFFORT_LIVE. */
+ * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations" (one a line),
+ * "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" where others' work is in it.
+ * None with KD_EFFORT_LIVE. */
 #ifndef KD_RENDER_OUTPUT_PNG_H
 #define KD_RENDER_OUTPUT_PNG_H
 

@@ -1,4 +1,4 @@
-/* This writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have
+/* Writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have
  * names, the one that gives its pixels most light first (docs/physics/sky.md). They are sought between the rays of
  * the lens map, one a pixel, and in the rim of the shadow; their places are those of the rays that end at stars;
  * brightness is of one star's image alone. */

@@ -1,7 +1,7 @@
-/* Pictures of one cost class take about the same time for an item of each pass: they differ in size, time, azimuth,
- * direction of view and exposure alone, and in distance and field of view by less than a factor of two. What a class
- * was measured to cost is a better estimate than a figure of pass.h, which is a mean over all scenes: volumes and gas
- * differ from that by factors of up to six. Any thread. */
+/* Cost classes: pictures of one class differ in size, time, azimuth, direction of view and exposure alone, and in
+ * distance and field of view by less than a factor of two, so that their passes take about the same time for an item.
+ * The measured cost of a class is a better estimate than a figure of pass.h, a mean over all scenes, from which
+ * volumes and gas differ by factors of up to six. Any thread. */
 #ifndef KD_RENDER_PLAN_COST_CLASS_H
 #define KD_RENDER_PLAN_COST_CLASS_H
 

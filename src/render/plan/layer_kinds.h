@@ -1,7 +1,6 @@
-/* A frame may have these layers besides the picture: this is the table of shaders/shared/layers.h on the C side,
- * with units, colours and words. To add one: its line there, its row in layer_kinds.c, its word in the row
- * image.layers of the field table, its section in docs/layers.md. Constant data and pure functions of valid scenes,
- * any thread. */
+/* The table of layers that a frame may have besides the picture: the C side of shaders/shared/layers.h, with units,
+ * colours and words. To add one: its line there, its row in layer_kinds.c, its word in the row image.layers of the
+ * field table, its section in docs/layers.md. Constant data and pure functions of valid scenes, any thread. */
 #ifndef KD_RENDER_PLAN_LAYER_KINDS_H
 #define KD_RENDER_PLAN_LAYER_KINDS_H
 

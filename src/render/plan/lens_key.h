@@ -1,5 +1,5 @@
-/* What the lens map of a picture depends on, as a key by which it is kept. The group of a scene, by which those of a
- * sweep are put in order, is kd_plan_lens_group of plan.h. Any thread. */
+/* The key of a lens map: a hash of everything that it depends on. The group of a scene, by which the scenes of a sweep
+ * are ordered, is kd_plan_lens_group of plan.h. Any thread. */
 #ifndef KD_RENDER_PLAN_LENS_KEY_H
 #define KD_RENDER_PLAN_LENS_KEY_H
 

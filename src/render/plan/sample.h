@@ -1,5 +1,4 @@
-/* This says how much a sampled lens map needs (render/frame/sample.h): its blocks of cells, and bytes. Pure, any
- * thread. */
+/* The size of a sampled lens map (render/frame/sample.h): its blocks of cells, and bytes. Pure, any thread. */
 #ifndef KD_RENDER_PLAN_SAMPLE_H
 #define KD_RENDER_PLAN_SAMPLE_H
 

@@ -1,4 +1,4 @@
-/* This says whether a request for rays can be answered at all. Any thread. */
+/* Checks whether a request for rays can be answered. Any thread. */
 #ifndef KD_RENDER_RAYS_CHECK_H
 #define KD_RENDER_RAYS_CHECK_H
 

@@ -1,4 +1,4 @@
-/* This reads the long array of a request, [[alpha, beta], ...], without a tree of nodes. Private to src/render. */
+/* Reads the long array of a request, [[alpha, beta], ...], without a tree of nodes. Private to src/render. */
 #ifndef KD_RENDER_RAYS_LIST_H
 #define KD_RENDER_RAYS_LIST_H
 

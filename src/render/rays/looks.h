@@ -1,5 +1,5 @@
-/* This leads from what a moving observer asks, directions in its own frame, to the labels of rays, and brings what was
- * found back into that frame. Private to src/render/rays but for `kerrd rays --trace`. Pure, any thread. */
+/* Converts directions in the frame of a moving observer to labels of rays, and the results back into that frame.
+ * Private to src/render/rays but for `kerrd rays --trace`. Pure, any thread. */
 #ifndef KD_RENDER_RAYS_LOOKS_H
 #define KD_RENDER_RAYS_LOOKS_H
 

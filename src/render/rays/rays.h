@@ -1,4 +1,4 @@
-/* This finds the end points of arbitrary rays, by any engine: what POST /v1/rays and `kerrd rays` answer with.
+/* Finds the end points of arbitrary rays, by any engine: what POST /v1/rays and `kerrd rays` answer with.
  *
  * A ray is a pair (alpha, beta) in M, labels of the constants of motion (Bardeen 1973): lambda = L/E = -alpha sin i,
  * eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2, the sign of the arriving photon's p^theta that of beta. It is

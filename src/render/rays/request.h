@@ -1,4 +1,4 @@
-/* This reads what is asked of kd_rays_trace from outside: a JSON document, an NPY array, fields by name. Any thread.
+/* Reads what is asked of kd_rays_trace from outside: a JSON document, an NPY array, fields by name. Any thread.
  *
  *     {"spin": 0.9, "observer": {"r": "infinity", "inclination_deg": 60}, "rays": [[-5, 0], [2.5, 1e-3]],
  *      "orders": 3, "accuracy": {"profile": "high" | "tolerance": 1e-8 | "engine": "closed", "precision": "f64",

@@ -1,4 +1,4 @@
-/* This writes one ray of an answer as text or bytes. Private to src/render. */
+/* Writes one ray of an answer as text or bytes. Private to src/render. */
 #ifndef KD_RENDER_RAYS_ROWS_H
 #define KD_RENDER_RAYS_ROWS_H
 

@@ -1,4 +1,4 @@
-/* This finds where a listed ray starts in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t,
+/* Finds where a listed ray starts in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t,
  * phi) -> (-t, -phi), in which a ray that is traced back is a photon that flies away from the observer. Double
  * precision, pure, any thread. */
 #ifndef KD_RENDER_RAYS_START_H

@@ -1,5 +1,5 @@
-/* This tells one ray step by step, as the device takes them: the kernels of device.c are compiled with KD_TRACE, and
- * write what they have after each step. For `kerrd rays --trace` and for a pixel. Render thread. */
+/* Records each step of one ray as the device takes it: the kernels of device.c are compiled with KD_TRACE and write
+ * their state after each step. For `kerrd rays --trace` and for a pixel. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 

@@ -1,4 +1,4 @@
-/* This measures the accuracy table of a device. Render thread; minutes, or about ten seconds if quick. */
+/* Measures the accuracy table of a device. Render thread; minutes, or about ten seconds if quick. */
 #ifndef KD_RENDER_SELFTEST_ACCURACY_MEASURE_H
 #define KD_RENDER_SELFTEST_ACCURACY_MEASURE_H
 

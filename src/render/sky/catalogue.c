@@ -1,4 +1,4 @@
-/* This holds the catalogue of data/hipparcos.stars, in the program as it is in the file. */
+/* Embeds the catalogue data/hipparcos.stars in the program, as it is in the file. */
 #include "render/sky/star.h"
 
 #include <math.h>

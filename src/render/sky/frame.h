@@ -1,5 +1,5 @@
-/* This says which way a sky is turned. Rotations between three frames: that of the hole, z along its spin, x towards
- * azimuth 0; equatorial, J2000, x towards the equinox; galactic, x towards l = 0. All are right-handed. Double
+/* Orientation of the sky: rotations between three frames. That of the hole has z along its spin and x towards azimuth
+ * 0; equatorial, J2000, has x towards the equinox; galactic has x towards l = 0. All are right-handed. Double
  * precision; pure, any thread. */
 #ifndef KD_RENDER_SKY_FRAME_H
 #define KD_RENDER_SKY_FRAME_H

@@ -1,4 +1,4 @@
-/* This makes up a Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, by noise of a seed.
+/* Makes up a Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, by noise of a seed.
  *
  * The profiles are fits by eye to photographs; the dust takes 1.35 times as much of blue light as of green, and 0.72
  * times of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as that of the sky:

@@ -1,4 +1,4 @@
-/* This finds images of stars in the rim of the shadow (view/rim.h), next to the critical curve, where neighbouring
+/* Finds images of stars in the rim of the shadow (view/rim.h), next to the critical curve, where neighbouring
  * rays of a picture lead too far apart to tell. Pure; any thread. */
 #ifndef KD_RENDER_SKY_RIM_IMAGES_H
 #define KD_RENDER_SKY_RIM_IMAGES_H

@@ -1,5 +1,4 @@
-/* This goes from a place near a star's image to the image itself, by Newton's method (star_images.h). Pure; any
- * thread. */
+/* Newton's method from a place near a star's image to the image itself (star_images.h). Pure; any thread. */
 #ifndef KD_RENDER_SKY_STAR_ROOT_H
 #define KD_RENDER_SKY_STAR_ROOT_H
 

@@ -1,5 +1,5 @@
-/* This leads from the camera of a scene to the constants from which a kernel makes each ray. Double precision, pure,
- * any thread. */
+/* Converts the camera of a scene to the constants from which a kernel makes each ray. Double precision, pure, any
+ * thread. */
 #ifndef KD_RENDER_VIEW_CAMERA_H
 #define KD_RENDER_VIEW_CAMERA_H
 

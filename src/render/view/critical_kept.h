@@ -1,6 +1,5 @@
-/* This keeps the pixels at the critical curve of the cameras of late. A picture needs them twice, as its plan counts
- * them and as its lens map is traced, and a view whose time runs needs them for every frame: they are listed once.
- * Any thread. */
+/* Cache of the pixels at the critical curve, for the most recent cameras. A picture needs them twice, for its plan and
+ * for its lens map, and a view whose time runs needs them for every frame. Any thread. */
 #ifndef KD_RENDER_VIEW_CRITICAL_KEPT_H
 #define KD_RENDER_VIEW_CRITICAL_KEPT_H
 

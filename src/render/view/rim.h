@@ -1,4 +1,4 @@
-/* This lays out the rim of the shadow: next to the critical curve rays of a picture lead too far apart to find
+/* Lays out the rim of the shadow: next to the critical curve rays of a picture lead too far apart to find
  * images of stars between them, and others are followed there, round the curve and by the logarithm of the distance
  * to it, in which every image order of the sky is as wide as the last (docs/physics/sky.md). Which ones: rim_grid.h.
  * Double precision; pure, any thread. The scene must be valid.

@@ -1,4 +1,4 @@
-/* This says which rays of the rim (rim.h) are followed: those of some grids, next to one another, each so fine that
+/* Says which rays of the rim (rim.h) are followed: those of some grids, next to one another, each so fine that
  * the sky goes by KD_RIM_STEP at most from ray to ray. Next to the equator of a fast hole it goes by hundreds of
  * times as far as elsewhere, on the way to the critical curve as well as along it. What is out of the picture, or
  * where the brightest star would not be seen, has none.

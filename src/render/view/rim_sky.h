@@ -1,4 +1,4 @@
-/* This follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve 32 bits lose 1e-4
+/* Follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve 32 bits lose 1e-4
  * to 1e-2 radians of where a ray goes.
  *
  * The two angles of physics/null_bend.h, and the tangent, are smooth functions of the curve's point and of the

@@ -1,4 +1,4 @@
-/* This follows one ray of an observer to the sky in double precision, by closed form: physics/null_bend.h for a
+/* Follows one ray of an observer to the sky in double precision, by closed form: physics/null_bend.h for a
  * direction in which a camera looks. Pure; any thread. */
 #ifndef KD_RENDER_VIEW_SKY_RAY_H
 #define KD_RENDER_VIEW_SKY_RAY_H

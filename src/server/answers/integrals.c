@@ -1,4 +1,4 @@
-/* This answers POST /v1/line and its like: integrals over a thin disk, or over pictures of a scene (integral/run.h).
+/* Answers POST /v1/line and its like: integrals over a thin disk, or over pictures of a scene (integral/run.h).
  * A worker computes them, and has their pictures rendered one after the other. */
 #include "integral/run.h"
 #include "server/asset/store.h"

@@ -1,4 +1,4 @@
-/* This answers GET /metrics: counters, gauges and histograms in Prometheus's text format 0.0.4. */
+/* Answers GET /metrics: counters, gauges and histograms in Prometheus's text format 0.0.4. */
 #include "server/asset/store.h"
 #include "server/http/measures.h"
 #include "server/http/process.h"

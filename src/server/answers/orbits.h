@@ -1,4 +1,4 @@
-/* This answers POST /v1/orbits. */
+/* Handler of POST /v1/orbits. */
 #ifndef KD_SERVER_ANSWERS_ORBITS_H
 #define KD_SERVER_ANSWERS_ORBITS_H
 

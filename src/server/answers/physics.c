@@ -1,4 +1,4 @@
-/* This answers GET /v1/physics/NAME: quantities by name (quantity/quantity.h). An answer that takes a moment is
+/* Answers GET /v1/physics/NAME: quantities by name (quantity/quantity.h). An answer that takes a moment is
  * computed here, others by the workers, in turns. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"

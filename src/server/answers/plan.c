@@ -1,4 +1,4 @@
-/* This answers POST /v1/plan: what rendering a scene takes, or all scenes of a sweep together, whose body is that of
+/* Answers POST /v1/plan: what rendering a scene takes, or all scenes of a sweep together, whose body is that of
  * a job with axes. The scenes of a sweep are planned by the workers, in turns. */
 #include "render/output/cost.h"
 #include "scene/scan.h"

@@ -1,4 +1,4 @@
-/* This answers POST /v1/rays, from the request to the stream of the answer. */
+/* Answers POST /v1/rays, from the request to the stream of the answer. */
 #include "server/http/negotiate.h"
 #include "server/answers/rays_work.h"
 #include "server/http/reply.h"

@@ -1,5 +1,5 @@
-/* A request for rays goes through the workers: it is read, traced in slices by as many as are free, or by the
- * device, some at each turn that the render queue gives it, and summed up. */
+/* Computes a request for rays: the workers parse it, trace it in slices on as many threads as are free, or on the
+ * device at each turn that the render queue gives it, and sum it up. */
 #ifndef KD_SERVER_ANSWERS_RAYS_WORK_H
 #define KD_SERVER_ANSWERS_RAYS_WORK_H
 

@@ -1,4 +1,4 @@
-/* This answers /v1/share, which makes the address of a scene, and /oembed, which tells what is shown in its place. */
+/* Answers /v1/share, which makes the address of a scene, and /oembed, which tells what is shown in its place. */
 #include "server/answers/share.h"
 
 #include "base/json.h"

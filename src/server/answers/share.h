@@ -1,4 +1,4 @@
-/* What other sites are told of a shared scene. HTTP thread. */
+/* What other sites show of a shared scene: title, description, addresses. HTTP thread. */
 #ifndef KD_SERVER_ANSWERS_SHARE_H
 #define KD_SERVER_ANSWERS_SHARE_H
 

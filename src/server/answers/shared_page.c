@@ -1,4 +1,4 @@
-/* This answers /s/CODE: a page of which other sites show title, words and picture where somebody has put a link to it
+/* Answers /s/CODE: a page of which other sites show title, words and picture where somebody has put a link to it
  * (Open Graph, https://ogp.me; oEmbed). Its script leads to the page with the scene; without scripts it shows the
  * picture and a link. */
 #include "server/answers/share.h"

@@ -1,4 +1,4 @@
-/* This reads and writes the files of assets, these and no others, and follows no link. Private to store.c. */
+/* Reads and writes the files of assets, and no others; never follows a link. Private to store.c. */
 #ifndef KD_SERVER_ASSET_FOLDER_H
 #define KD_SERVER_ASSET_FOLDER_H
 

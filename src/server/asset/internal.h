@@ -1,4 +1,4 @@
-/* The store of assets inside, for the files of this folder. */
+/* Internals of the asset store, shared by the files of this folder. */
 #ifndef KD_SERVER_ASSET_INTERNAL_H
 #define KD_SERVER_ASSET_INTERNAL_H
 

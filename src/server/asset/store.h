@@ -1,8 +1,8 @@
-/* Assets are bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a
- * folder too if the server has one: DIRECTORY/assets/HASH.png, or .npz, with HASH.json beside it, each written as a
- * whole, the latter last. Any thread.
+/* Assets: files that clients upload, and that scenes name by their SHA-256. They are kept in memory, and on disk if
+ * the server has a state folder: DIRECTORY/assets/HASH.png or HASH.npz, with HASH.json beside it, each written
+ * atomically, the latter last. Any thread.
  *
- * Errors name no path: clients see them. */
+ * Errors name no path, because clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H
 #define KD_SERVER_ASSET_STORE_H
 

@@ -1,5 +1,5 @@
-/* A server may be for those alone who have a token of its token file: here that is read, and each request is held
- * against it. */
+/* Access control by bearer token: reads the token file of kerrd serve --token-file, and checks each request against
+ * it. */
 #ifndef KD_SERVER_HTTP_ACCESS_H
 #define KD_SERVER_HTTP_ACCESS_H
 

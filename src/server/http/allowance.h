@@ -1,7 +1,6 @@
-/* An allowance says how much of the device's time each client may use in the long run: a bucket of seconds a client,
- * which fills at a constant rate and holds what comes in a minute. What a client's work takes is taken out of its
- * bucket, which may fall below nothing; then the client has to wait until it has filled again. Pure: the clock is
- * the caller's. One owner at a time. */
+/* Rate limit of device time: a token bucket for each client (--client-device-seconds). The bucket fills at a constant
+ * rate and holds at most a minute's worth. Work that a client has done is charged to its bucket, which may go into
+ * debt; the client then waits until the debt is paid. Pure: the caller supplies the time. One thread at a time. */
 #ifndef KD_SERVER_HTTP_ALLOWANCE_H
 #define KD_SERVER_HTTP_ALLOWANCE_H
 

@@ -1,5 +1,5 @@
-/* The base path stands before every path of this server where a proxy has given it a part of a site: "/some/prefix",
- * or "" for none. The routes, and what is told of them, do not contain it. Pure; any thread. */
+/* Base path: the prefix, such as "/some/prefix", that a proxy puts before every path of this server; "" for none.
+ * Routes and the documents that describe them do not contain it. Pure; any thread. */
 #ifndef KD_SERVER_HTTP_BASE_PATH_H
 #define KD_SERVER_HTTP_BASE_PATH_H
 

@@ -1,7 +1,7 @@
-/* This counts bytes that are held for requests, in all and by client: bodies that are being received, answers that
- * are not taken yet. Any thread.
+/* Memory budget of requests: bytes of bodies that are being received and of answers that the client has not taken yet,
+ * in total and for each client. Any thread.
  *
- * No client has more than its share, which leaves room for others; and some room is kept for small ones. */
+ * No client may hold more than its share, and a reserve is kept for small requests. */
 #ifndef KD_SERVER_HTTP_BYTES_H
 #define KD_SERVER_HTTP_BYTES_H
 

@@ -1,7 +1,6 @@
-/* A client is whom a request is from, for shares and limits. With a token file it is known by the name of its token,
- * wherever it comes from. Else, and for connections, it is known by where it comes from: an IPv4 address, or the
- * first half of an IPv6 address, since a host has all of the other half. All that comes through a proxy is one
- * client then. */
+/* Client identity, for shares and limits. With a token file, a client is the name of its token, wherever it connects
+ * from. Otherwise, and for limits on connections, it is its IPv4 address, or the first 64 bits of its IPv6 address,
+ * since a host controls the rest. Without tokens, everything behind one proxy is one client. */
 #ifndef KD_SERVER_HTTP_CLIENT_H
 #define KD_SERVER_HTTP_CLIENT_H
 

@@ -1,6 +1,6 @@
-/* Open connections have deadlines. libmicrohttpd's timeout counts idle time only, so that one byte every few seconds
- * holds a connection for ever: each stage of a request has a deadline of its own here, and a sweep shuts down the
- * sockets that missed it.
+/* Deadlines of open connections. libmicrohttpd's timeout counts idle time only, so that one byte every few seconds
+ * would hold a connection for ever. Here each stage of a request has its own deadline, and a sweep shuts down sockets
+ * that missed it.
  *
  * A socket stays open until its connection is removed, which takes the same lock as the sweep. Any thread. */
 #ifndef KD_SERVER_HTTP_CONNECTIONS_H

@@ -1,8 +1,8 @@
-/* Pages of other origins may use a server where it lists them: what a browser asks before it lets one, and what
- * answers say to it (the Fetch standard's CORS protocol).
+/* Cross-origin access (the Fetch standard's CORS protocol): answers preflight requests and sets the headers that let
+ * pages of the origins of --cors-origin and --embed-origin use the server.
  *
- * A page brings an access token in Authorization or Kerrd-Access. No answer allows credentials, and the page's own
- * cookie is not looked at for it. */
+ * A page sends its access token in Authorization or Kerrd-Access. No answer allows credentials, and the cookie of our
+ * own page is ignored in cross-origin requests. */
 #ifndef KD_SERVER_HTTP_CORS_H
 #define KD_SERVER_HTTP_CORS_H
 

@@ -1,4 +1,4 @@
-/* These numbers are counted for /metrics. */
+/* Counters of requests for /metrics. */
 #ifndef KD_SERVER_HTTP_COUNTS_H
 #define KD_SERVER_HTTP_COUNTS_H
 

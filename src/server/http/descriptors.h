@@ -1,4 +1,4 @@
-/* This says how many connections this process has descriptors for, and how many are open. */
+/* File descriptors: how many connections the process's limit allows, and how many descriptors are open. */
 #ifndef KD_SERVER_HTTP_DESCRIPTORS_H
 #define KD_SERVER_HTTP_DESCRIPTORS_H
 

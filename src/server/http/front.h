@@ -1,7 +1,6 @@
-/* The listening socket has a thread of its own. It accepts, looks at the first bytes of a connection without taking
- * them, and hands the connection to one of two daemons of libmicrohttpd: that of the health routes, or that of
- * everything else. So neither a busy HTTP thread nor connections at their limit can hold up /healthz, /readyz and
- * /metrics, which stay on the port they share. */
+/* Accepts connections on the listening socket, on a thread of its own. It peeks at the first bytes of each and hands
+ * it to one of two libmicrohttpd daemons: one for the health routes, one for everything else. So neither a busy HTTP
+ * thread nor a full connection limit delays /healthz, /readyz and /metrics, although they share the port. */
 #ifndef KD_SERVER_HTTP_FRONT_H
 #define KD_SERVER_HTTP_FRONT_H
 

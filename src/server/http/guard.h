@@ -1,6 +1,6 @@
-/* The guard checks what must hold of a request's header before anything of it is believed. libmicrohttpd lets
- * through differing Content-Lengths, Content-Length beside Transfer-Encoding and several Hosts, each of which lets a
- * proxy in front and this server disagree on where a request ends or for whom it is. */
+/* Checks a request's header before anything in it is trusted. libmicrohttpd accepts conflicting Content-Lengths,
+ * Content-Length beside Transfer-Encoding, and several Hosts. Each lets a proxy and this server disagree about where a
+ * request ends or whom it is for (request smuggling). */
 #ifndef KD_SERVER_HTTP_GUARD_H
 #define KD_SERVER_HTTP_GUARD_H
 

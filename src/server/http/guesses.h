@@ -1,7 +1,7 @@
-/* Wrong access tokens are counted by the address they come from: so many at once, and one more every few seconds.
- * Beyond that no token is looked at that has not come from there before, right or wrong, so that nothing can be
- * learnt by trying; who was in stays in, so that nobody is shut out by another one behind the same proxy. The same
- * wrong token again, as from a page that is left open, is no new try. Any thread. */
+/* Throttle against guessing of access tokens. Each address may present a few wrong tokens at once, and one more every
+ * few seconds. Beyond that, tokens new to that address are rejected unseen, so that guessing learns nothing; a token
+ * that was accepted from there before still works, so that one client cannot lock out another behind the same proxy.
+ * Repeating the same wrong token, as an open page does, counts once. Any thread. */
 #ifndef KD_SERVER_HTTP_GUESSES_H
 #define KD_SERVER_HTTP_GUESSES_H
 

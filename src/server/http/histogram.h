@@ -1,5 +1,4 @@
-/* This counts durations for /metrics, in buckets that are the same for all: 1 ms to 10 minutes. Any thread, without
- * a lock. */
+/* Histogram of durations for /metrics, with the same buckets everywhere: 1 ms to 10 minutes. Lock-free; any thread. */
 #ifndef KD_SERVER_HTTP_HISTOGRAM_H
 #define KD_SERVER_HTTP_HISTOGRAM_H
 

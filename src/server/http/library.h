@@ -1,9 +1,8 @@
-/* This answers for what libmicrohttpd refuses by itself: what it cannot read as HTTP, before it asks us or in the
- * middle of a body. It answers with a page of HTML of its own (0.9.75 with two headers for a Content-Length that is
- * no number), and has no hook that names the connection: it only writes a line to its log. Its thread works on one
- * connection at a time, so the one at fault is the one whose bytes that thread has read last, or that it asked us
- * about since. That one gets a problem document before the library's page, for which its socket then takes no more.
- * docs/decisions/0006-answers-of-the-library.md says why. */
+/* Replaces libmicrohttpd's own error pages by problem documents. The library answers by itself what it cannot parse as
+ * HTTP, before it calls a handler or in the middle of a body. It has no hook that names the connection; it only logs a
+ * line. Since its thread works on one connection at a time, the connection at fault is the one it read from, or asked
+ * us about, last. That connection gets a problem document first, and its socket then takes no more bytes, so the
+ * library's page is dropped. docs/decisions/0006-answers-of-the-library.md has the reasons. */
 #ifndef KD_SERVER_HTTP_LIBRARY_H
 #define KD_SERVER_HTTP_LIBRARY_H
 

@@ -1,4 +1,4 @@
-/* This opens a listening TCP socket from a numeric address. */
+/* Opens a listening TCP socket on a numeric address. */
 #ifndef KD_SERVER_HTTP_LISTEN_H
 #define KD_SERVER_HTTP_LISTEN_H
 

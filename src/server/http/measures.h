@@ -1,5 +1,5 @@
-/* How long requests take is counted here, by route and by the first digit of the status: as many series as there are
- * routes, whatever clients ask for. Any thread. */
+/* Durations of requests for /metrics, by route and first digit of the status. The number of series is bounded by the
+ * number of routes, whatever clients ask for. Any thread. */
 #ifndef KD_SERVER_HTTP_MEASURES_H
 #define KD_SERVER_HTTP_MEASURES_H
 

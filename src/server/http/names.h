@@ -1,4 +1,4 @@
-/* These are the names under which a server that listens on every address is reached. */
+/* Host names under which a server that listens on every address is reached. */
 #ifndef KD_SERVER_HTTP_NAMES_H
 #define KD_SERVER_HTTP_NAMES_H
 

@@ -1,4 +1,4 @@
-/* These header values choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any
+/* Reads the header values that select an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any
  * thread. */
 #ifndef KD_SERVER_HTTP_NEGOTIATE_H
 #define KD_SERVER_HTTP_NEGOTIATE_H

@@ -1,9 +1,9 @@
-/* Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): a POST that is sent again with the same key makes
- * nothing again. What has been made keeps the promise with it: for as long as it is there, a job after a restart too,
- * the same request of the same client is answered with it. HTTP thread only.
+/* Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): a repeated POST with the same key creates nothing
+ * new. The key is kept with the object that it created, for as long as that exists (a job: across restarts), and the
+ * same request of the same client is answered with that object. HTTP thread only.
  *
- * Handlers of routes that are marked `once` call kd_once_begin before they make anything, with the promise of what
- * was made with the request's key, and give request->once to what they make. */
+ * Handlers of routes that are marked `once` look for an object that holds the request's key, call kd_once_begin with
+ * that object's struct kd_once before they create anything, and copy request->once into what they create. */
 #ifndef KD_SERVER_HTTP_ONCE_H
 #define KD_SERVER_HTTP_ONCE_H
 

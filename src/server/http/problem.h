@@ -1,4 +1,4 @@
-/* Errors are answered as RFC 9457 problem documents. */
+/* Error answers are RFC 9457 problem documents; these are their types. */
 #ifndef KD_SERVER_HTTP_PROBLEM_H
 #define KD_SERVER_HTTP_PROBLEM_H
 

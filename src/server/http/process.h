@@ -1,5 +1,5 @@
-/* What every program tells of itself to Prometheus, by the names that its client libraries use:
- * process_resident_memory_bytes and so on. Any thread; it reads /proc. */
+/* Metrics of the process under the names that Prometheus's client libraries use, such as
+ * process_resident_memory_bytes. Reads /proc. Any thread. */
 #ifndef KD_SERVER_HTTP_PROCESS_H
 #define KD_SERVER_HTTP_PROCESS_H
 

@@ -1,4 +1,5 @@
-/* Threads that do little and are waited for run soon after they wake, also where all cores are busy. */
+/* Shorter scheduling slices for threads that do little work but are waited for, so that they run soon after they wake
+ * even when all cores are busy. */
 #ifndef KD_SERVER_HTTP_PROMPT_H
 #define KD_SERVER_HTTP_PROMPT_H
 

@@ -1,5 +1,5 @@
-/* The address by which others reach the page, for what must be absolute: links and pictures that other sites show.
- * kerrd serve --public-url gives it; without it, the Host of a request does, which the server has accepted, by http. */
+/* The public address of this server, for URLs that must be absolute: links and pictures that other sites show. It is
+ * --public-url; without that, "http://" and the Host of the request, which the server has checked. */
 #ifndef KD_SERVER_HTTP_PUBLIC_URL_H
 #define KD_SERVER_HTTP_PUBLIC_URL_H
 

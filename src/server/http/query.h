@@ -1,5 +1,5 @@
-/* Bounds of what a query may say: who reads it and openapi.json go by these. Literals, for the latter writes them as
- * text. */
+/* Limits of query parameters, for the parser and for openapi.json. They are literals, because openapi.json prints
+ * them. */
 #ifndef KD_SERVER_HTTP_QUERY_H
 #define KD_SERVER_HTTP_QUERY_H
 

@@ -1,4 +1,4 @@
-/* This reads a Range value (RFC 9110 14.1.2). Pure; any thread. */
+/* Parses a Range header (RFC 9110 14.1.2). Pure; any thread. */
 #ifndef KD_SERVER_HTTP_RANGE_H
 #define KD_SERVER_HTTP_RANGE_H
 

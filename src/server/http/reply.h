@@ -1,6 +1,7 @@
-/* All answers carry the same headers, and have a deadline for being taken. HTTP thread only.
+/* Builds and sends answers. Every answer has the same basic headers and a deadline by which the client must take it.
+ * HTTP thread only.
  *
- * Functions that return an MHD_Result give MHD_NO when memory ran out, which closes the connection. */
+ * Functions that return an MHD_Result return MHD_NO when memory ran out, which closes the connection. */
 #ifndef KD_SERVER_HTTP_REPLY_H
 #define KD_SERVER_HTTP_REPLY_H
 

@@ -1,4 +1,4 @@
-/* A request is kept here from its first line to its last byte. HTTP thread only. */
+/* State of one request, from its first line to the last byte of its answer. HTTP thread only. */
 #ifndef KD_SERVER_HTTP_REQUEST_H
 #define KD_SERVER_HTTP_REQUEST_H
 

@@ -1,5 +1,4 @@
-/* A request has an id, by which its line in the log, its answer and what a proxy or a client has written down can be
- * found together. Any thread. */
+/* Request IDs: the log line, the answer and the records of proxies and clients carry the same ID. Any thread. */
 #ifndef KD_SERVER_HTTP_REQUEST_ID_H
 #define KD_SERVER_HTTP_REQUEST_ID_H
 

@@ -1,4 +1,4 @@
-/* A request that is over becomes one line of the log, of the level info. HTTP threads. */
+/* Logs each finished request as one line of level info. HTTP threads. */
 #ifndef KD_SERVER_HTTP_REQUEST_LOG_H
 #define KD_SERVER_HTTP_REQUEST_LOG_H
 

@@ -1,4 +1,5 @@
-/* A route says what is served where. The table also is the source of /openapi.json and of the Allow header. */
+/* The table of routes: path, methods, handler, media type, statuses, parameters. /openapi.json and the Allow header
+ * are generated from it. */
 #ifndef KD_SERVER_HTTP_ROUTE_H
 #define KD_SERVER_HTTP_ROUTE_H
 

@@ -1,4 +1,4 @@
-/* This makes unguessable names. Any thread. */
+/* Generates unguessable identifiers. Any thread. */
 #ifndef KD_SERVER_HTTP_SECRET_H
 #define KD_SERVER_HTTP_SECRET_H
 

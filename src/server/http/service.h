@@ -1,9 +1,9 @@
-/* The parts of the HTTP service share this. Private to src/server.
+/* State shared by the parts of the HTTP service. Private to src/server.
  *
- * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health
- * routes, another every other handler ("the HTTP thread"); the render queue has its render threads and encoders,
- * those who take turns (turns.h) their workers; the keeper (keeper.h) watches deadlines, vanished clients and the
- * way down. */
+ * Threads: the front (front.h) accepts connections. One libmicrohttpd thread runs the handlers of the health routes,
+ * another all other handlers ("the HTTP thread"). The render queue has render threads and encoders, the task scheduler
+ * (turns.h) its workers. The keeper (keeper.h) enforces deadlines, notices clients that have left, and runs the
+ * shutdown. */
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 

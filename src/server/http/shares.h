@@ -1,16 +1,15 @@
-/* This says who has the device next, by fair shares of its time. Pure: no clock, no thread, no allocation. One owner
- * at a time.
+/* Fair-queueing scheduler: picks the client, and the piece of its work, that runs on the device next. Pure: no clock,
+ * no thread, no allocation. One thread at a time.
  *
- * The device's time is shared among clients, and each client's part among its classes of work by their weights. Both
- * by start-time fair queueing (Goyal, Vin & Cheng 1996): who is served pays with the time it took, divided by its
- * weight; who has paid least is next; and who was away is as if it had paid as much as the one that is being served,
- * so that nobody saves time up and nobody is made to wait for having been the only one. So a client with little to
- * do waits for the slice that is under way, and for no more than its share of the others, however much another one
- * wants.
+ * The device's time is shared among clients, and each client's part among its classes of work by weight, both by
+ * start-time fair queueing (Goyal, Vin & Cheng 1996). Work that ran is charged its time, divided by its weight. The
+ * client, and within it the class, that was charged least runs next. One that was away is treated as if it had been
+ * charged as much as the one that is running: nobody saves up time, and nobody is punished for having been alone. So a
+ * client with little to do waits for the slice that is under way, and then for at most its share of the others,
+ * whatever they ask for.
  *
- * Among the works of one class and one client that one is next which would end first if each had the same part of
- * the time (Friedman & Henderson 2003): short work goes first, and yet the longest ends no later than it would if
- * all went on side by side.
+ * Among the works of one class and one client, the one runs next that would end first if all ran side by side
+ * (Friedman & Henderson 2003): short work goes first, and the longest still ends no later than with equal parts.
  *
  *     kd_shares_add(&shares, &work->claim);
  *     while ((claim = kd_shares_next(&shares, may, user))) {

@@ -1,4 +1,4 @@
-/* This takes a request target apart: the path and the query's pairs, percent-decoded. */
+/* Parses a request target: the path, and the query's pairs, percent-decoded. */
 #ifndef KD_SERVER_HTTP_TARGET_H
 #define KD_SERVER_HTTP_TARGET_H
 

@@ -1,5 +1,5 @@
-/* This reads the header traceparent (W3C Trace Context, 3.2), by which a line in the log is found from the trace that
- * its request is part of. Pure; any thread. */
+/* Parses the header traceparent (W3C Trace Context, 3.2). The log then names the trace that a request belongs to.
+ * Pure; any thread. */
 #ifndef KD_SERVER_HTTP_TRACE_H
 #define KD_SERVER_HTTP_TRACE_H
 

@@ -1,6 +1,6 @@
-/* Long jobs take turns: a few workers do a piece of each, so that a short one does not wait for a long one. A turn ends
- * by itself after some 10 ms; what it calls may also pause in the midst of it (base/pause.h), on a thread that is
- * kept for it while as many others as there are workers go on. */
+/* Cooperative task scheduler: a few workers run slices of long tasks in turn, so that a short task does not wait for a
+ * long one. A slice returns after some 10 ms. A function that it calls may also be suspended in the middle
+ * (base/pause.h); it then keeps its thread, while as many other threads as there are workers go on. */
 #ifndef KD_SERVER_HTTP_TURNS_H
 #define KD_SERVER_HTTP_TURNS_H
 

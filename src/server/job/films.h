@@ -1,8 +1,8 @@
-/* Films of a job's frames, kept in its folder: each is encoded once, and gone with the job. Its bytes count as those
- * of the frames do. Any thread.
+/* Films of a job's frames, cached in the job's folder: each is encoded once and deleted with the job. Their size
+ * counts towards the quota of frames. Any thread.
  *
- * Who wants one opens it; where it is not there, one at a time claims the job, writes the film and gives the claim
- * back, whatever has become of it. Others look again a little later. */
+ * A request opens the film. If it does not exist yet, one request at a time claims the job, encodes the film and
+ * releases the claim, even on failure; the others retry a little later. */
 #ifndef KD_SERVER_JOB_FILMS_H
 #define KD_SERVER_JOB_FILMS_H
 

@@ -1,7 +1,7 @@
-/* This names a job's files, and removes these and no others, through no link. Private to store.c.
+/* Names and removes the files of a job, and no others; never follows a link. Private to store.c.
  *
- * A folder of jobs holds one folder a job, named by its id, and `lock`. While a job is being written its folder is
- * called ID.new. */
+ * The folder of jobs has one folder for each job, named by its ID, and `lock`. While a job is being written its folder
+ * is called ID.new. */
 #ifndef KD_SERVER_JOB_FOLDER_H
 #define KD_SERVER_JOB_FOLDER_H
 

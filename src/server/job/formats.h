@@ -1,4 +1,4 @@
-/* GET /v1/jobs/ID/result may give these, by the name that `format=` has for each. Pure; any thread. */
+/* Formats of GET /v1/jobs/ID/result, by their names in `format=`. Pure; any thread. */
 #ifndef KD_SERVER_JOB_FORMATS_H
 #define KD_SERVER_JOB_FORMATS_H
 

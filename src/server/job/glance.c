@@ -1,4 +1,4 @@
-/* This file makes pictures of a job's frame while it is rendered, as far as it has come, for clients that ask. */
+/* Previews of a frame of a job while it renders, for clients that ask. */
 #include "image/png.h"
 #include "base/clock.h"
 #include "server/job/internal.h"

@@ -1,4 +1,4 @@
-/* jobs.c, resume.c, run.c and watch.c share this. */
+/* Internals of jobs, shared by jobs.c, resume.c, run.c and watch.c. */
 #ifndef KD_SERVER_JOB_INTERNAL_H
 #define KD_SERVER_JOB_INTERNAL_H
 

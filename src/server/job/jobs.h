@@ -1,8 +1,8 @@
-/* Jobs are pictures that take longer than anybody wants to hold a connection for, and sequences of them.
+/* Jobs: pictures, and sequences of them, that take longer than a client wants to hold a connection for.
  *
- * The oldest unfinished job renders, a frame at a time and with the least share of the device; its frames go to
- * files. Nothing depends on who asked: jobs end when they are done, fail or are deleted, and go on after a restart
- * if the server has a state folder. Any thread; the functions on watchers belong to the HTTP thread. */
+ * The oldest unfinished job renders, one frame at a time and with the smallest share of the device; its frames are
+ * written to files. A job does not depend on its client: it ends when it is done, fails or is deleted, and continues
+ * after a restart if the server has a state folder. Any thread; functions on watchers belong to the HTTP thread. */
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 

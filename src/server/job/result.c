@@ -1,4 +1,4 @@
-/* This answers GET /v1/jobs/{id}/result: a frame as a file, or the frames as they come; all of them as one file:
+/* Answers GET /v1/jobs/{id}/result: a frame as a file, or the frames as they come; all of them as one file:
  * whole.c, a table of their rows: table.c. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"

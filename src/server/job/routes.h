@@ -1,4 +1,4 @@
-/* routes.c, result.c, table.c and whole.c share this. HTTP thread. */
+/* Declarations shared by routes.c, result.c, table.c and whole.c. HTTP thread. */
 #ifndef KD_SERVER_JOB_ROUTES_H
 #define KD_SERVER_JOB_ROUTES_H
 

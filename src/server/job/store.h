@@ -1,9 +1,9 @@
-/* Jobs are kept on disk. DIRECTORY/ID/ holds request.json as it came, job.json, and what has become of the frames,
- * 000000.png and so on, pictures or not. Each file is written as a whole; a folder with a job.json of ours and
- * without a request is what is left of a job that has been deleted. What else is in the folder, and what cannot be
- * read, is left alone; no link is followed. Any thread, but one a job.
+/* Jobs on disk. DIRECTORY/ID/ holds request.json as it was received, job.json, and the frames: 000000.png and so on,
+ * whether pictures or not. Each file is written atomically. A folder with our job.json but without a request is the
+ * rest of a deleted job. Other files, and those that cannot be read, are left alone; links are never followed. Any
+ * thread, but one for each job.
  *
- * Errors name no path: clients see them. KD_EFULL and KD_ENOMEM (descriptors too) may be over in a while. */
+ * Errors name no path, because clients see them. KD_EFULL and KD_ENOMEM (also for descriptors) may pass. */
 #ifndef KD_SERVER_JOB_STORE_H
 #define KD_SERVER_JOB_STORE_H
 

@@ -1,5 +1,5 @@
-/* Answers with the table of a job that is done, whose frames are rows (render/output/series.h). The rows, as many as
- * frames, are read and written by the workers. HTTP thread. */
+/* Answers with the table of a finished job whose frames are rows (render/output/series.h). Workers read and write the
+ * rows, of which there may be as many as frames. HTTP thread. */
 #ifndef KD_SERVER_JOB_TABLE_H
 #define KD_SERVER_JOB_TABLE_H
 

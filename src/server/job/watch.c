@@ -1,4 +1,4 @@
-/* This knows who follows a job, and what happens to jobs as time goes by. */
+/* Clients that follow a job, and what happens to jobs as time goes by. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/job/internal.h"

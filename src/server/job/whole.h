@@ -1,5 +1,5 @@
-/* Answers with all files of a job that is done as one (render/output/gather.h), piece by piece. Workers look through
- * the files of a cube, and wait for ffmpeg to encode a film, before its first byte. HTTP thread. */
+/* Answers with all files of a finished job in one (render/output/gather.h), piece by piece. Before the first byte,
+ * workers read through the files of a cube, or wait until ffmpeg has encoded a film. HTTP thread. */
 #ifndef KD_SERVER_JOB_WHOLE_H
 #define KD_SERVER_JOB_WHOLE_H
 

@@ -1,5 +1,4 @@
-/* This says in openapi.json who may use what: by the tokens of a token file, and by those of a session, a
- * playground, a job, an asset. */
+/* Access control in openapi.json: the tokens of a token file, and those of a session, a playground, a job, an asset. */
 #ifndef KD_SERVER_OPENAPI_ACCESS_H
 #define KD_SERVER_OPENAPI_ACCESS_H
 

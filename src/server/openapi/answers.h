@@ -1,4 +1,4 @@
-/* This says which answers have a schema of their own in openapi.json. */
+/* Schemas of answers in openapi.json. */
 #ifndef KD_SERVER_OPENAPI_ANSWERS_H
 #define KD_SERVER_OPENAPI_ANSWERS_H
 

@@ -1,5 +1,4 @@
-/* This says in openapi.json which headers answers have, but for those that HTTP, caches and browsers have of any
- * answer. */
+/* Headers of answers in openapi.json, except those that HTTP, caches and browsers know anyway. */
 #ifndef KD_SERVER_OPENAPI_HEADERS_H
 #define KD_SERVER_OPENAPI_HEADERS_H
 

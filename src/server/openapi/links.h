@@ -1,5 +1,4 @@
-/* This says in openapi.json what can be asked of what has been made: links from the answer that makes it to the
- * operations under its address. */
+/* Links in openapi.json: from the answer that creates an object to the operations on it. */
 #ifndef KD_SERVER_OPENAPI_LINKS_H
 #define KD_SERVER_OPENAPI_LINKS_H
 

@@ -1,4 +1,4 @@
-/* This puts /v1/physics/NAME into openapi.json, a path a quantity. Private to src/server. */
+/* Adds /v1/physics/NAME to openapi.json, a path for each quantity. Private to src/server. */
 #ifndef KD_SERVER_OPENAPI_PHYSICS_H
 #define KD_SERVER_OPENAPI_PHYSICS_H
 

@@ -1,5 +1,5 @@
-/* This says in openapi.json which problems an operation may answer, by status, and what each status means: from the
- * table of problems. */
+/* Problems that an operation may answer in openapi.json, by status, and the meaning of each status. From the table of
+ * problems. */
 #ifndef KD_SERVER_OPENAPI_PROBLEMS_H
 #define KD_SERVER_OPENAPI_PROBLEMS_H
 

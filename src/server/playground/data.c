@@ -1,5 +1,5 @@
-/* This gives the bodies and the debris of a play, packed: at once, or as soon as they are newer than those that a
- * client has. */
+/* Sends the bodies and the debris of a playground session, packed: at once, or as soon as they are newer than those
+ * that the client has. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"

@@ -1,4 +1,4 @@
-/* Documents of a play: what a request asks of it besides its playground, and how it stands. Any thread. */
+/* JSON documents of a playground session: its settings in a request, and its state. Any thread. */
 #ifndef KD_SERVER_PLAYGROUND_DOCUMENT_H
 #define KD_SERVER_PLAYGROUND_DOCUMENT_H
 

@@ -1,4 +1,4 @@
-/* This streams what a play does: a tick whenever there is a newer one, and each event once, by its number. */
+/* Streams what a play does: a tick whenever there is a newer one, and each event once, by its number. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/http/reply.h"

@@ -1,4 +1,4 @@
-/* This is what the files of src/server/playground share. */
+/* Internals of playground sessions, shared by the files of src/server/playground. */
 #ifndef KD_SERVER_PLAYGROUND_INTERNAL_H
 #define KD_SERVER_PLAYGROUND_INTERNAL_H
 

@@ -1,13 +1,14 @@
-/* A play is a playground that lives on the server: it goes on by itself, at so many M a second, and its owner
- * changes it meanwhile.
+/* Playground sessions: a playground on the server that runs at a given rate, in M a second, and that its owner changes
+ * meanwhile.
  *
- * It goes on while somebody watches or asks, and rests KD_PLAY_REST_MS after the last one; when nobody has come for
- * params.idle_ms it ends. Each play has one job that takes turns with those of the others (http/turns.h), of some 10
- * ms: a sub-step is not divided, and takes tens of milliseconds where there are 4096 bodies or a million pieces of
- * debris. What a second asks for and does not get is let go: simulated time slows, which is told.
+ * It runs while a client watches or asks, and pauses KD_PLAY_REST_MS after the last one. After params.idle_ms without
+ * any client it ends. Each is one task of the scheduler (http/turns.h), with slices of some 10 ms; a sub-step is never
+ * divided, and takes tens of milliseconds with 4096 bodies or a million pieces of debris. If the processor cannot keep
+ * up, simulated time slows down, which is reported.
  *
- * A playground belongs to one thread at a time: whoever has taken it, a worker always. The HTTP thread reads what the
- * workers have published, a tick. Any thread; the functions on watchers belong to the HTTP thread. */
+ * A playground belongs to one thread at a time: the one that has taken it, which is always a worker. The HTTP thread
+ * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP
+ * thread. */
 #ifndef KD_SERVER_PLAYGROUND_PLAYS_H
 #define KD_SERVER_PLAYGROUND_PLAYS_H
 

@@ -1,4 +1,4 @@
-/* What the handlers of a play share. HTTP thread. */
+/* Declarations shared by the handlers of playground sessions. HTTP thread. */
 #ifndef KD_SERVER_PLAYGROUND_ROUTES_H
 #define KD_SERVER_PLAYGROUND_ROUTES_H
 

@@ -1,4 +1,4 @@
-/* This knows who watches a play, and what happens to plays as time goes by. */
+/* Clients that watch a playground session, and what happens to sessions as time goes by. */
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/http/connections.h"

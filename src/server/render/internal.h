@@ -1,4 +1,4 @@
-/* The files of the render queue share this. */
+/* Internals of the render queue, shared by its files. */
 #ifndef KD_SERVER_RENDER_INTERNAL_H
 #define KD_SERVER_RENDER_INTERNAL_H
 

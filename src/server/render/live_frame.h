@@ -1,6 +1,6 @@
-/* A live frame is one frame of a session, encoded, and what is said of it; all who watch share it, and the last
- * frees it. It is constant once made, but for its files: one that is not the last of its scene may be asked for in
- * other kinds, and has its pixels for that. */
+/* One encoded frame of a session, and its metadata. All viewers share it by reference count. It is immutable, except
+ * that the frame of a scene that is still being refined keeps its pixels, so that it can be encoded in further
+ * formats. */
 #ifndef KD_SERVER_RENDER_LIVE_FRAME_H
 #define KD_SERVER_RENDER_LIVE_FRAME_H
 

@@ -1,5 +1,4 @@
-/* How long the device's works wait and how long the passes of pictures take is counted here, for /metrics. Any
- * thread. */
+/* Queue times of works and durations of render passes, for /metrics. Any thread. */
 #ifndef KD_SERVER_RENDER_MEASURES_H
 #define KD_SERVER_RENDER_MEASURES_H
 

@@ -1,13 +1,13 @@
-/* A painter makes small pictures that nobody is in a hurry for, such as those of presets: beside the render queue,
- * one at a time, on a thread of the least weight with a device of its own.
+/* Renders small pictures of low priority, such as thumbnails of presets, outside the render queue: one at a time, on a
+ * thread of lowest priority with a device of its own.
  *
- * Its own device is what keeps it out of the way of live frames: software compiles a kernel when it is first used,
- * for seconds, and the queue of the device that does so stands meanwhile. The driver's threads have the painter's
- * weight, too, since the painter's thread starts them. The device is opened for the first picture and closed when
- * none was wanted for a while. One that fails is opened again for the picture, once.
+ * A device of its own keeps it from delaying live frames: a software driver compiles a kernel at its first use, for
+ * seconds, and the queue of that device waits meanwhile. The driver's threads inherit the painter's priority. The
+ * device is opened for the first picture and closed when none has been asked for in a while. If it fails, it is opened
+ * once more.
  *
- * Pictures are kept in the folder where the device's driver keeps what it has compiled, one file a name, so that
- * each is painted once for a version and a device. */
+ * Pictures are cached in the folder where the driver caches its compiled kernels, one file for each, so that each is
+ * rendered once for a version and a device. */
 #ifndef KD_SERVER_RENDER_PAINTER_H
 #define KD_SERVER_RENDER_PAINTER_H
 

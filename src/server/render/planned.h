@@ -1,5 +1,5 @@
-/* This makes the plan of the scene that a request asks for. What takes more than a moment, a large body or a picture
- * of many pixels, is done by the workers: the HTTP thread serves everybody. HTTP thread. */
+/* Plans the scene of a request. Large bodies and pictures of many pixels are planned by the workers, since the HTTP
+ * thread serves every client. HTTP thread. */
 #ifndef KD_SERVER_RENDER_PLANNED_H
 #define KD_SERVER_RENDER_PLANNED_H
 

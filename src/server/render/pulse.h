@@ -1,7 +1,7 @@
-/* A pulse tells a thread that works from one that hangs in a call which does not return: it beats whenever the work
- * has come on, and somebody else looks how long ago that was. Any thread beats; one looks, several times a second. A
- * time in which nobody looked, as that of a process that was stopped or of a machine that slept, counts as one
- * deadline of a submission at most. */
+/* Watchdog: tells a thread that is working from one that hangs in a call. The worker beats when it makes progress; an
+ * observer checks the age of the last beat several times a second. A period in which the observer itself did not run,
+ * as when the process was stopped or the machine slept, counts as one submission deadline at most. Any thread may
+ * beat. */
 #ifndef KD_SERVER_RENDER_PULSE_H
 #define KD_SERVER_RENDER_PULSE_H
 

@@ -1,4 +1,4 @@
-/* This answers /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is
+/* Answers /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is
  * told. */
 #include "render/explain/explain.h"
 #include "render/output/notes.h"

@@ -1,4 +1,4 @@
-/* This finds the scene that a request asks for, from its query and body. HTTP thread. */
+/* Finds the scene that a request asks for, in its query and body. HTTP thread. */
 #ifndef KD_SERVER_RENDER_SCENE_SOURCE_H
 #define KD_SERVER_RENDER_SCENE_SOURCE_H
 

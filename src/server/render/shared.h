@@ -1,4 +1,4 @@
-/* Shared scenes: what the code of /s/CODE holds is the text of a link (scene/link.h). HTTP thread. */
+/* Shared scenes: the code of /s/CODE, decoded, is the text of a link (scene/link.h). HTTP thread. */
 #ifndef KD_SERVER_RENDER_SHARED_H
 #define KD_SERVER_RENDER_SHARED_H
 

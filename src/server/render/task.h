@@ -1,6 +1,5 @@
-/* A task is a request that workers answer by turns (http/turns.h): it is suspended meanwhile, and given up when its
- * client has left, the server stops at once or its time is over. Owned by its request and freed with it; whoever
- * makes one embeds it.
+/* A request that the workers answer (http/turns.h). It is suspended meanwhile, and cancelled when its client leaves,
+ * the server stops at once, or its time is up. It belongs to its request and is freed with it; embed it in a struct.
  *
  *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, finish };
  *     struct mine *mine = kd_task_begin(request, queue, &KIND, &refused);

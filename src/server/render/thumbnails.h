@@ -1,6 +1,5 @@
-/* A small picture of each preset is kept here, for a page that shows which there are. Each is painted when somebody
- * first asks for it (painter.h), and kept in memory as long as the program runs, and in its file for later ones.
- * Whoever asks meanwhile waits, however many they are; what they wait for is painted once. */
+/* Thumbnails of presets. Each is rendered when it is first requested (painter.h), then kept in memory, and on disk for
+ * later runs. Requests that arrive meanwhile wait for that one rendering. */
 #ifndef KD_SERVER_RENDER_THUMBNAILS_H
 #define KD_SERVER_RENDER_THUMBNAILS_H
 

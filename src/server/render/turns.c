@@ -1,4 +1,4 @@
-/* This decides who has the device, and what is done with it. */
+/* Decides which work runs on the device, and runs it. */
 #include "base/clock.h"
 #include "server/render/internal.h"
 

@@ -1,4 +1,4 @@
-/* This is what sessions.c, run.c and watch.c share. */
+/* Internals of sessions, shared by sessions.c, run.c and watch.c. */
 #ifndef KD_SERVER_SESSION_INTERNAL_H
 #define KD_SERVER_SESSION_INTERNAL_H
 

@@ -1,4 +1,4 @@
-/* This sends the frames of a session: one by one as they are asked for, and as streams. */
+/* Sends the frames of a session: one by one as they are asked for, and as streams. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/query.h"

@@ -1,8 +1,8 @@
-/* A live session is a scene that its owner changes, the newest frame of it, and those who watch.
+/* Live sessions. A session has a scene that its owner changes, the newest frame of it, and viewers.
  *
- * A session is rendered only while somebody waits for a newer frame, and only if a newer one would differ: the scene
- * has changed, goes on by itself, or a finer picture of it is still to come. One frame is traced while the one
- * before is encoded; all who watch share it. Any thread; the functions on viewers belong to the HTTP thread. */
+ * A session is rendered only while a viewer waits for a newer frame, and only if that would differ: the scene has
+ * changed, it moves by itself, or a finer picture of it is still to come. One frame is traced while the previous one
+ * is encoded, and all viewers share it. Any thread; functions on viewers belong to the HTTP thread. */
 #ifndef KD_SERVER_SESSION_SESSIONS_H
 #define KD_SERVER_SESSION_SESSIONS_H
 

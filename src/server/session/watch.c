@@ -1,4 +1,4 @@
-/* This knows who watches a session, and what happens to sessions as time goes by. */
+/* Viewers of a session, and what happens to sessions as time goes by. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/session/internal.h"
