@@ -23,7 +23,7 @@ struct kd_request {
     struct kd_connection *connection;
     char client[KD_CLIENT];         /* who it is from */
     char id[KD_REQUEST_ID_MAX + 1]; /* once its header is there */
-    struct kd_trace trace;          /* that it is part of */
+    struct kd_traceparent trace;    /* that it is part of */
     char *raw;                      /* the target as received; of one in absolute form what stands behind its host */
     char *authority;                /* that host; NULL: the target is in another form */
     struct kd_target target;

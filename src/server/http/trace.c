@@ -11,9 +11,9 @@ static bool is_field(const char *at, size_t n, bool last) { return strspn(at, HE
 
 static bool is_zero(const char *at, size_t n) { return strspn(at, "0") >= n; }
 
-bool kd_trace_read(const char *value, struct kd_trace *out)
+bool kd_trace_read(const char *value, struct kd_traceparent *out)
 {
-    *out = (struct kd_trace) { 0 };
+    *out = (struct kd_traceparent) { 0 };
     if (!value || strlen(value) < ALL)
         return false;
     const char *trace = value + VERSION + 1, *parent = trace + TRACE + 1, *flags = parent + PARENT + 1;
