@@ -148,7 +148,7 @@ class Listed(Case):
         for target, methods, more in (
             ("/v1/render", "GET, HEAD, POST", ["Content-Type", "If-None-Match"]),
             ("/v1/device", "GET, HEAD", []),
-            ("/v1/presets", "GET, HEAD", ["If-None-Match"]),
+            ("/v1/presets", "GET, HEAD", ["If-None-Match", "Range", "If-Range"]),
             ("/v1/sessions", "POST", ["Content-Type", "Idempotency-Key"]),
             ("/v1/jobs/0123456789abcdef/result", "GET, HEAD", ["If-None-Match", "Range", "If-Range"]),
             ("/v1/sessions/0123456789abcdef", "GET, HEAD, PATCH, DELETE", ["Content-Type", "Prefer"]),
