@@ -68,6 +68,8 @@ def refused(label, problem):
         problem.get("type") == "urn:kerrd:problem:too-large"
     ):  # more than this server, on this device, does for one request
         return "more than this server does"
+    if problem.get("type") == "urn:kerrd:problem:idempotency-key-reused":
+        return "a key that came before with another request"
     if of_an_axis(label, problem):
         return "a value of an axis"
     state = {"POST /v1/playground": "/state", "POST /v1/jobs": "/playground/state"}.get(label)

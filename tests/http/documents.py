@@ -37,6 +37,8 @@ LEFT_OUT = {
     "export PATH=": "kerrd is on the PATH here",
     "kerrd serve": "serves until it is stopped; tests/http has a server for each option",
     'curl -H "Authorization: Bearer $TOKEN" http://HOST': "HOST is a name of the reader's own",
+    "curl -C - -O http://HOST": "the same; tests/http/films.py goes on with half a film",
+    "curl -H 'Idempotency-Key: ": "the same; tests/http/once.py sends requests twice",
 }
 # What takes minutes is begun, so that what it is called with is right, and ended after some seconds.
 BEGUN = {
@@ -167,7 +169,7 @@ class Documents(unittest.TestCase):
         self.run_all("docs/layers.md", 1)
 
     def test_http(self):
-        self.run_all("docs/http.md", 3)
+        self.run_all("docs/http.md", 6)
 
     def test_observers(self):
         self.run_all("docs/physics/observers.md", 1)

@@ -127,7 +127,7 @@ def pictures():
 
 def routes(document):
     """Requests that each operation of the document refuses."""
-    known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64)
+    known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64, code="AwA")
     bad = {
         "broken": b'{"a":',
         "not an object": b"[1]",

@@ -141,6 +141,7 @@ static bool may_say_little(const struct kd_route *route, unsigned method)
 static const struct {
     const char *name, *help;
     bool (*of)(const struct kd_route *route, unsigned method);
+    const char *schema; /* NULL: any text */
 } asked[] = {
     { "If-None-Match", "ETag of what the client has: where it is the same the answer is 304", is_kept },
     { "Range",
@@ -155,7 +156,9 @@ static const struct {
     { KD_ONCE_HEADER,
       "a string of 1 to 128 characters, new with each request: one that is sent again with the same key and body is "
       "answered with what the first has made, as long as that is there",
-      is_made_once },
+      is_made_once,
+      "{\"type\":\"string\",\"pattern\":\"^[ \\\\t]*(\\\"[ !#-\\\\[\\\\]-~]{1,128}\\\"|[!#-+\\\\-"
+      "-\\\\[\\\\]-~]([ !#-+\\\\--\\\\[\\\\]-~]{0,126}[!#-+\\\\--\\\\[\\\\]-~])?)[ \\\\t]*$\"}" },
     { "Prefer", "return=minimal (RFC 7240): the answer is the revision alone", may_say_little },
 };
 
@@ -176,7 +179,7 @@ void kd_openapi_asked_headers(struct kd_json *json, const struct kd_route *route
         kd_json_string(json, "name", asked[i].name);
         kd_json_string(json, "in", "header");
         kd_json_string(json, "description", asked[i].help);
-        kd_schema_text(json, "schema", TEXT);
+        kd_schema_text(json, "schema", asked[i].schema ? asked[i].schema : TEXT);
         kd_json_end(json);
     }
 }
