@@ -46,8 +46,8 @@ struct kind {
 
 static const struct kind *kind_of(const char *path, const struct argp_state *state)
 {
-    static struct kind kinds[] = { { "fits", &kd_format_fits, &kd_gather_fits },
-                                   { "npz", &kd_format_fits, &kd_gather_npz },
+    static struct kind kinds[] = { { "fits", &kd_format_cubed, &kd_gather_fits },
+                                   { "npz", &kd_format_cubed, &kd_gather_npz },
                                    { "zip", &kd_format_png, &kd_gather_zip },
                                    { "csv", NULL, NULL },
                                    { "json", NULL, NULL } };
@@ -122,7 +122,7 @@ static enum kd_status check(struct work *w, struct kd_error *error)
         struct kd_plan plan;
         uint64_t group;
         status = plan_of(w, i, &scene, &plan, error);
-        if (!status && w->kind->frame == &kd_format_fits)
+        if (!status && w->kind->frame == &kd_format_cubed)
             status = kd_cube_compare(&shape, i, &scene, &plan, error);
         if (!status && (kd_plan_lens_group(&scene, &group) || kd_sweep_order_add(&w->order, group, 0)))
             status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
@@ -237,7 +237,7 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, &scene, &assets, &sweep, error));
     KD_TRY(kd_asset_options_check(&arguments->scene.assets, error));
     work.sweep = sweep;
-    if (work.kind->frame == &kd_format_fits)
+    if (work.kind->frame == &kd_format_cubed)
         KD_TRY(kd_cube_check(sweep, error));
     KD_TRY(kd_file_check(arguments->output, error));
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,

@@ -219,6 +219,15 @@ class Sweep(support.Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stderr)
 
+    def test_a_cube_of_a_radio_source_has_the_layers_that_are_asked_for(self):
+        """Not janskys in the picture's place, as a FITS file has them: beside a sky they are not known."""
+        for name in ("a.fits", "a.npz"):
+            sky = ["-x", "sky.model=none,grid"]
+            done = support.run("sweep", "-p", "riaf", "--size", "12x12", *sky, "-o", self.path(name))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.opened("a.fits")[0].header["EXTNAME"], "rgb")
+        self.assertEqual(numpy.load(self.path("a.npz"))["rgb"].shape, (2, 12, 12, 3))
+
     def test_frequencies(self):
         """Maps at a list of frequencies: each plane is the picture at its frequency, astropy finds the frequency of
         each, and each has its flux."""

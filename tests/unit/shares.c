@@ -244,8 +244,10 @@ static void a_class_that_was_barred(void **state)
             run(&b, 60000);
             barred->barred = false;
             const double before = other->served, waited = b.now;
-            while (other->served <= before) /* at least until it has its share again */
+            while (other->served <= before)
                 assert_non_null(turn(&b));
+            /* 200 ms; its own share between two slices of the other one, by their weights; a slice that is under way,
+             * the other one's, and the rounding of one. */
             assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
         }
 }

@@ -150,3 +150,12 @@ const struct kd_format kd_format_fits = {
     .encode = encode,
     .scene = scene_in,
 };
+
+const struct kd_format kd_format_cubed = {
+    .name = "fits",
+    .media_type = "application/fits",
+    .magic = "SIMPLE  =",
+    .carries = KD_CARRIES_LAYERS,
+    .encode = encode,
+    .scene = scene_in,
+};

@@ -60,6 +60,10 @@ KD_FORMATS(KD_FORMAT_DECLARE)
 /* Moving frames of those who take them, of the quality that the picture says; in no table. jpeg.c */
 extern const struct kd_format kd_format_jpeg;
 
+/* FITS files of the scenes of a cube, in no table: with the layers that image.layers names, and no others, so that all
+ * scenes have the same. fits.c */
+extern const struct kd_format kd_format_cubed;
+
 /* The first is what is made where nobody says otherwise. formats.c */
 extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats;

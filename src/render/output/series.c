@@ -30,7 +30,7 @@ static const struct kd_series cube = {
     .name = "cube",
     .noun = "cube",
     .each = "FITS files of a cube",
-    .frame = &kd_format_fits,
+    .frame = &kd_format_cubed,
     .wholes = cubes,
     .swept = true,
 };
