@@ -329,13 +329,14 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     struct kd_problem problem;
     enum MHD_Result result;
 
+    const bool sound =
+        request->raw && kd_guard_check(request->mhd, version, request->authority, server->hosts,
+                                       kd_route_is_health(&server->base, request->raw), &request->header, &problem);
     kd_request_id_choose(MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_REQUEST_ID_HEADER), request->id);
     read_trace(request);
-    if (!request->raw) {
+    if (!request->raw)
         return kd_reply_no_memory(request);
-    }
-    if (!kd_guard_check(request->mhd, version, request->authority, server->hosts,
-                        kd_route_is_health(&server->base, request->raw), &request->header, &problem)) {
+    if (!sound) {
         kd_connection_linger(request->connection);
         return kd_reply_problem(request, &problem);
     }

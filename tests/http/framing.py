@@ -127,6 +127,16 @@ class Guard(daemon.Case):
                 self.assertTrue(got.startswith(b"HTTP/1.1 "), got[:100])
                 self.assertEqual(got.split(b"\r\n\r\n", 1)[1], b"")
 
+    def test_blanks_behind_a_value_are_no_part_of_it(self):
+        answer = self.daemon.raw(
+            get(b"Host: localhost:80 \t", b"X-Request-Id: one \t ", b"Accept: application/json\t", path=b"/v1/presets")
+        )
+        self.assertEqual((answer.status, answer.header("X-Request-Id")), (200, "one"))
+        again = get(b"Host: localhost", b"If-None-Match: " + answer.header("ETag").encode() + b" ", path=b"/v1/presets")
+        self.assertEqual(self.daemon.raw(again).status, 304)
+        posted = POST[:-2] + b" \t\r\nContent-Length: 2\r\n\r\n{}"
+        self.assertEqual(self.daemon.raw(posted).status, 200)
+
     def test_names_with_blanks(self):
         for line in (b"Content-Length : 2", b"Transfer-Encoding : chunked", b"Ho st: x", b"(x): 1"):
             with self.subTest(line):

@@ -97,7 +97,16 @@ class Once(Case):
 
     def test_keys(self):
         long = "k" * 128
-        for key in KEY, KEY.strip('"'), '"a"', f'"{long}"', long, '"two words, and a comma"', "a_B-9:./~":
+        for key in (
+            KEY,
+            KEY.strip('"'),
+            '"a"',
+            f'"{long}"',
+            long,
+            '"two words, and a comma"',
+            "a_B-9:./~",
+            '"blanks" \t ',
+        ):
             with self.subTest(key):
                 one, other = self.first_and_again("/v1/jobs", {"scene": SCENE}, key, key)
                 self.assertSame(one, other)

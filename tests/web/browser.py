@@ -192,6 +192,13 @@ class Browser(unittest.TestCase):
             return { coloured, hash };
         }""")
 
+    def rows(self, page, selector):
+        """The texts of a table's cells, row by row, at one moment: a table of what is live is soon replaced."""
+        return page.evaluate(
+            "within => [...document.querySelectorAll(within + ' tbody tr')].map(row => [...row.cells].map(c => c.textContent))",
+            selector,
+        )
+
     def field(self, page, path):
         return page.locator(f'[data-path="{path}"] input[type=number]').input_value()
 

@@ -35,12 +35,24 @@ static bool is_token(const char *text, size_t size)
     return size > 0;
 }
 
-/* A longer one is no name of ours. */
-static void keep_host(struct kd_header *header, const char *value)
+/* Blanks at the end are no part of a value (RFC 9110 5.5), and libmicrohttpd leaves them there (0.9.75). */
+static size_t trim(const char *value, size_t size)
 {
-    size_t n = strlen(value);
-    while (n && (value[n - 1] == ' ' || value[n - 1] == '\t'))
-        n--;
+    union {
+        const char *in;
+        char *out;
+    } text = { value }; /* the library's own copy, which it ended with a zero itself */
+    const size_t given = size;
+    while (size && (value[size - 1] == ' ' || value[size - 1] == '\t'))
+        size--;
+    if (size < given)
+        text.out[size] = 0;
+    return size;
+}
+
+/* A longer one is no name of ours. */
+static void keep_host(struct kd_header *header, const char *value, size_t n)
+{
     snprintf(header->host_text, sizeof header->host_text, "%.*s",
              (int)(n < sizeof header->host_text ? n : sizeof header->host_text - 1), value);
 }
@@ -52,12 +64,14 @@ static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key,
     (void)kind;
     if (!value)
         value = "", value_size = 0;
+    const bool sound = strlen(value) == value_size && !strpbrk(value, "\r\n");
+    const size_t size = sound ? trim(value, value_size) : 0;
     if (!is_token(key, key_size))
         scan->fault = "a header field's name is not a token";
-    else if (strlen(value) != value_size || strpbrk(value, "\r\n"))
+    else if (!sound)
         scan->fault = "a header field's value holds a control character";
     else if (!strcasecmp(key, "Host"))
-        scan->hosts++, keep_host(scan->header, value);
+        scan->hosts++, keep_host(scan->header, value, size);
     else if (!strcasecmp(key, "Content-Type"))
         scan->types++, scan->header->content_type = value;
     else if (!strcasecmp(key, "Transfer-Encoding")) {
