@@ -6,6 +6,7 @@ import importlib
 import json
 import os
 import re
+import shutil
 import signal
 import socket
 import struct
@@ -18,6 +19,8 @@ import urllib.parse
 COMMAND = []  # the server's command line, from ours; set by main()
 HEADER_BYTES = 3000  # of any answer: proxies take 4096 by default, their own lines included
 SMALL = "image.width=64&image.height=36"
+# The shell has no window of its own, and takes 40 % less of the processor for the same page.
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), None)
 
 
 class Answer:

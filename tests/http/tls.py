@@ -223,7 +223,7 @@ class Proxies:
         api = daemon.needed("playwright.sync_api")
         with api.sync_playwright() as playwright:
             browser = playwright.chromium.launch(
-                executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
+                executable_path=daemon.CHROMIUM, args=["--no-sandbox", "--disable-gpu"]
             )
             page = browser.new_page(viewport={"width": 640, "height": 400}, ignore_https_errors=True)
             page.goto(f"https://localhost:{self.port}/")

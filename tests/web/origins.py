@@ -76,7 +76,7 @@ class Origins(unittest.TestCase):
         cls.options = ("--token-file", tokens)
         playwright = browser.sync_playwright().start()
         cls.addClassCleanup(playwright.stop)
-        cls.chromium = playwright.chromium.launch(executable_path=browser.CHROMIUM, args=browser.FLAGS)
+        cls.chromium = playwright.chromium.launch(executable_path=daemon.CHROMIUM, args=browser.FLAGS)
         cls.addClassCleanup(cls.chromium.close)
 
     def see(self, *options):

@@ -295,7 +295,8 @@ class Sessions(Browser):
         page = self.open()
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         self.assertEqual(self.daemon.get("/v1/sessions/" + own["id"]).status, 200)
-        page.close()
+        with page.expect_event("close"):
+            page.close(run_before_unload=True)
         self.assertTrue(
             daemon.eventually(lambda: self.daemon.get("/v1/sessions/" + own["id"]).status == 404, 30),
             "sooner than by idling",
