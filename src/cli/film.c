@@ -70,7 +70,7 @@ static void read_only(struct arguments *arguments, const char *text, const struc
     if (strspn(text, "0123456789:") != strlen(text) ||
         sscanf(text, "%9u:%9u%n", &arguments->first, &arguments->last, &end) != 2 || text[end] ||
         arguments->first > arguments->last)
-        argp_error(state, "--only is %s, allowed is FIRST:LAST, numbers of frames from 0 on, as in 24:47", text);
+        argp_error(state, "--only is %s; it must be FIRST:LAST, numbers of frames from 0 on, as in 24:47", text);
     arguments->only = true;
 }
 
@@ -92,7 +92,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SHUTTER:
         arguments->shutter = strtod(text, &end);
         if (*end || end == text || !(arguments->shutter > 0) || arguments->shutter > 1)
-            argp_error(state, "--shutter is %s, allowed are numbers above 0, at most 1", text);
+            argp_error(state, "--shutter is %s; it must be a number above 0, at most 1", text);
         return 0;
     case KEY_STATE: arguments->state = text; return 0;
     case KEY_ONLY: read_only(arguments, text, state); return 0;
@@ -163,14 +163,14 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
             kd_error_field(error, "/playground",
                            "a playground is filmed, whose frames depend on those before: --only is for other films"));
     if (w->arguments->only && w->arguments->last >= w->spec.frames)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "--only is %u:%u, allowed are frames 0 to %u", w->arguments->first,
+        KD_TRY(kd_error_set(error, KD_EINVAL, "--only is %u:%u; its frames must be 0 to %u", w->arguments->first,
                             w->arguments->last, w->spec.frames - 1));
     if (!w->arguments->only) {
         w->arguments->first = 0;
         w->arguments->last = w->spec.frames - 1;
     }
     if (w->spec.series->frame != &kd_format_png)
-        KD_TRY(kd_error_field(error, "/output", "output is \"%s\", allowed is \"pictures\": of them a film is made",
+        KD_TRY(kd_error_field(error, "/output", "output is \"%s\"; it must be \"pictures\": of them a film is made",
                               w->spec.series->name));
 done:
     return status;

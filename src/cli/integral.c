@@ -84,7 +84,7 @@ static enum kd_status load_scene(struct arguments *arguments, struct kd_integral
     enum kd_status status = KD_OK;
     const bool chosen = options->preset || options->from;
     if (chosen && request->scene)
-        return kd_error_set(error, KD_EINVAL, "--%s beside a file that has a scene: allowed is one of the two",
+        return kd_error_set(error, KD_EINVAL, "--%s beside a file that has a scene: only one of the two may be given",
                             options->preset ? "preset" : "from");
     if (!request->scene && !chosen && !options->n_set && !kd_integral_is_pictured(request->what))
         return KD_OK;

@@ -94,7 +94,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_EVERY:
         a->pictures.every = strtod(text, &end);
         if (*end || end == text || !(a->pictures.every > 0) || !isfinite(a->pictures.every))
-            argp_error(state, "--every is %s, allowed are numbers above 0", text);
+            argp_error(state, "--every is %s; it must be a number above 0", text);
         return 0;
     case KEY_SCENE: a->pictures.scene.document = text; return 0;
     case KEY_SCENE_PRESET: a->pictures.scene.preset = text; return 0;
@@ -125,7 +125,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_TIME:
         a->time = strtod(text, &end);
         if (*end || end == text || !(a->time >= 0) || !isfinite(a->time))
-            argp_error(state, "--time is %s, allowed are numbers from 0", text);
+            argp_error(state, "--time is %s; it must be at least 0", text);
         return 0;
     case ARGP_KEY_ARG:
         if (a->document)

@@ -184,7 +184,7 @@ static enum kd_status give_variable(struct kd_settings *settings, size_t i, cons
          text && !status; text = list ? strtok_r(NULL, ",", &rest) : NULL) {
         if (!kd_setting_takes(&settings->table[i], text, allowed))
             status =
-                kd_error_set(error, KD_EINVAL, "the environment: %s is \"%s\", allowed is %s", own, shown, allowed);
+                kd_error_set(error, KD_EINVAL, "the environment: %s is \"%s\"; it must be %s", own, shown, allowed);
         else
             status = kd_settings_give(settings, i, KD_BY_ENVIRONMENT, text, error);
     }

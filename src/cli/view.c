@@ -149,7 +149,7 @@ static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *s
     scene->image.height = (int32_t)height;
     if (kd_scene_has_tile(scene))
         KD_TRY(kd_error_field(error, "/image/tile/width",
-                              "image.tile.width is %d, allowed is 0: kerrd view shows whole pictures",
+                              "image.tile.width is %d; it must be 0: kerrd view shows whole pictures",
                               scene->tile.width));
     KD_TRY(kd_scene_validate(scene, error));
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,

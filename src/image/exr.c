@@ -141,7 +141,8 @@ enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, 
     with.write_fn = write_at;
     with.error_handler_fn = keep_message;
     if (image->n_channels > MOST_CHANNELS)
-        return kd_error_set(error, KD_EINVAL, "EXR: %zu channels, allowed are %d", image->n_channels, MOST_CHANNELS);
+        return kd_error_set(error, KD_EINVAL, "EXR: there are %zu channels; there must be at most %d",
+                            image->n_channels, MOST_CHANNELS);
     exr_result_t code, closed = EXR_ERR_SUCCESS;
     TRY(exr_start_write(&context, "memory", EXR_WRITE_FILE_DIRECTLY, &with));
     TRY(put_header(context, image));

@@ -22,18 +22,18 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
         return kd_error_field(
             error, "/inclination_deg",
-            "inclination_deg is %.9g, where the disk is seen edge on; allowed are 0 to 87 and 93 to 180",
+            "inclination_deg is %.9g, where the disk is seen edge on; it must be 0 to 87 or 93 to 180",
             r->inclination_deg);
     if (isnan(r->inner))
         r->inner = isco;
     if (r->inner < isco * (1 - 1e-9))
         return kd_error_field(
             error, "/inner",
-            "inner is %.9g, within the ISCO of this spin, %.9g M; allowed are that and larger radii, and \"isco\"",
-            r->inner, isco);
+            "inner is %.9g, within the ISCO of this spin, %.9g M; it must be at least that, or \"isco\"", r->inner,
+            isco);
     r->inner = fmax(r->inner, isco);
     if (r->outer <= r->inner * (1 + 1e-6))
-        return kd_error_field(error, "/outer", "outer is %.9g and inner is %.9g; allowed are larger radii than that",
+        return kd_error_field(error, "/outer", "outer is %.9g and inner is %.9g; outer must be larger than inner",
                               r->outer, r->inner);
     return KD_OK;
 }
@@ -45,8 +45,8 @@ enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, con
         if (!(list->at[i] > list->at[i - 1])) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/%s/%zu", name, i);
-            return kd_error_field(error, pointer, "%s is %.9g after %.9g; allowed are numbers that grow", name,
-                                  list->at[i], list->at[i - 1]);
+            return kd_error_field(error, pointer, "%s is %.9g after %.9g; each must be larger than the one before",
+                                  name, list->at[i], list->at[i - 1]);
         }
     return KD_OK;
 }
@@ -74,7 +74,7 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
     double least = 1.05 * kd_kerr_horizon(r->spin);
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
         return kd_error_field(error, "/height",
-                              "height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more",
+                              "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this spin",
                               r->height, least);
     return KD_OK;
 }
@@ -87,7 +87,7 @@ static enum kd_status fill_edges(struct kd_integral_request *r, struct kd_error 
         r->energy_max = 1.7 * r->rest_energy;
     if (!(r->energy_max > r->energy_min))
         return kd_error_field(error, "/energy_max",
-                              "energy_max is %.9g and energy_min %.9g; allowed are larger values than that",
+                              "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
                               r->energy_max, r->energy_min);
     enum kd_status status = kd_integral_make_room(r, f, (size_t)r->bins + 1, "/bins", &list, error);
     for (size_t i = 0; !status && i <= r->bins; i++)
@@ -103,9 +103,10 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
         return fill_edges(r, error);
     for (size_t i = 0; i < 3; i++)
         if (kd_integral_given(r, even[i]))
-            return kd_error_field(error, "/edges", "edges are given beside %s: allowed is one of the two", even[i]);
+            return kd_error_field(error, "/edges", "edges are given beside %s: only one of the two may be given",
+                                  even[i]);
     if (r->edges.n < 2)
-        return kd_error_field(error, "/edges", "edges has one number, allowed are 2 to %u: both ends of each bin",
+        return kd_error_field(error, "/edges", "edges has one number; it must have 2 to %u: both ends of each bin",
                               KD_INTEGRAL_LIST);
     r->bins = (uint32_t)r->edges.n - 1, r->energy_min = r->edges.at[0], r->energy_max = r->edges.at[r->bins];
     return kd_integral_check_growth(&r->edges, "edges", error);
@@ -133,7 +134,8 @@ enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, con
     snprintf(pointer, sizeof pointer, "/%s", list);
     for (size_t i = 0; i < n; i++)
         if (kd_integral_given(r, others[i]))
-            return kd_error_field(error, pointer, "%s is given beside %s: allowed is one of the two", list, others[i]);
+            return kd_error_field(error, pointer, "%s is given beside %s: only one of the two may be given", list,
+                                  others[i]);
     return KD_OK;
 }
 
@@ -143,7 +145,7 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
     if (r->inclination_deg < KD_INTEGRAL_FACE_ON || r->inclination_deg > 180 - KD_INTEGRAL_FACE_ON)
         return kd_error_field(error, "/inclination_deg",
                               "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer "
-                              "function; allowed are 0.1 to 87 and 93 to 179.9",
+                              "function; it must be 0.1 to 87 or 93 to 179.9",
                               r->inclination_deg);
     if (r->radii.n) {
         KD_TRY(kd_integral_check_beside(r, "radii", (const char *const[]) { "rings" }, 1, error));
@@ -161,7 +163,7 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
         if (r->radii.at[i] < r->inner * (1 - 1e-12) || r->radii.at[i] > r->outer) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/radii/%zu", i);
-            return kd_error_field(error, pointer, "a radius is %.9g, allowed are %.9g to %.9g, from inner to outer",
+            return kd_error_field(error, pointer, "a radius is %.9g; it must be %.9g to %.9g, from inner to outer",
                                   r->radii.at[i], r->inner, r->outer);
         }
     if (r->radii.n * r->g_star.n > KD_INTEGRAL_TRANSFERS)
@@ -180,18 +182,19 @@ enum kd_status kd_integral_check_frequencies(struct kd_integral_request *r, uint
     if (r->frequencies_hz.n) {
         KD_TRY(kd_integral_check_beside(r, "frequencies_hz", even, 3, error));
         if (r->frequencies_hz.n > most)
-            return kd_error_field(error, "/frequencies_hz", "frequencies_hz has %zu numbers, allowed are 1 to %u",
+            return kd_error_field(error, "/frequencies_hz", "frequencies_hz has %zu numbers; it must have 1 to %u",
                                   r->frequencies_hz.n, most);
         r->frequencies = (uint32_t)r->frequencies_hz.n, r->frequency_min_hz = r->frequencies_hz.at[0],
         r->frequency_max_hz = r->frequencies_hz.at[r->frequencies - 1];
         return kd_integral_check_growth(&r->frequencies_hz, "frequencies_hz", error);
     }
     if (r->frequencies > most)
-        return kd_error_field(error, "/frequencies", "frequencies is %u, allowed are 2 to %u", r->frequencies, most);
+        return kd_error_field(error, "/frequencies", "frequencies is %u; it must be 2 to %u", r->frequencies, most);
     if (!(r->frequency_max_hz > r->frequency_min_hz))
-        return kd_error_field(error, "/frequency_max_hz",
-                              "frequency_max_hz is %.9g and frequency_min_hz %.9g; allowed are larger values than that",
-                              r->frequency_max_hz, r->frequency_min_hz);
+        return kd_error_field(
+            error, "/frequency_max_hz",
+            "frequency_max_hz is %.9g and frequency_min_hz %.9g; frequency_max_hz must be larger than frequency_min_hz",
+            r->frequency_max_hz, r->frequency_min_hz);
     KD_TRY(kd_integral_fill_list(r, "frequencies_hz", r->frequencies, r->frequency_min_hz, r->frequency_max_hz, error));
 done:
     return status;

@@ -198,10 +198,11 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/radii/%zu", at);
     if (!kd_transfer_ring_of(image, r->radii.at[at], &ring))
-        return kd_error_field(error, pointer,
-                              "a radius is %.9g, whose ends of g were not found at this inclination; allowed are "
-                              "inclinations further from face on and edge on",
-                              r->radii.at[at]);
+        return kd_error_field(
+            error, pointer,
+            "a radius is %.9g, whose ends of g were not found at this inclination; the inclination must be "
+            "further from face on and edge on",
+            r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
         kd_pause_every(k, 16);
         double g_star = r->g_star.at[k];

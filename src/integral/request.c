@@ -71,12 +71,15 @@ static void describe_allowed(const struct kd_integral_field *f, char out[KD_ALLO
         size_t used = 0;
         for (const char *word = f->words; *word;
              word += word[strcspn(word, "|")] ? strcspn(word, "|") + 1 : strlen(word))
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", used ? ", " : "",
+            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"",
+                                     !used               ? ""
+                                     : strchr(word, '|') ? ", "
+                                                         : " or ",
                                      part(word, "|", one));
         return;
     }
-    snprintf(out, KD_ALLOWED_SIZE, f->open ? "%snumbers above %s and below %s%s%s%s" : "%s%s to %s%s%s%s",
-             f->kind == KD_INTEGRAL_WHOLE ? "whole numbers from " : "", low, high, f->words ? ", and \"" : "",
+    snprintf(out, KD_ALLOWED_SIZE, f->open ? "%sa number above %s and below %s%s%s%s" : "%s%s to %s%s%s%s",
+             f->kind == KD_INTEGRAL_WHOLE ? "a whole number from " : "", low, high, f->words ? ", or \"" : "",
              f->words ? f->words : "", f->words ? "\"" : "");
 }
 
@@ -86,7 +89,7 @@ static enum kd_status refuse(const struct kd_integral_field *f, const struct kd_
     char given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
     kd_value_describe(value, given);
     describe_allowed(f, allowed);
-    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", f->name, given,
+    return kd_error_field(error, pointer, "%s is %s%s; it must be %s", f->name, given,
                           f->kind == KD_INTEGRAL_WORD ? "" : kd_value_unwanted(value), allowed);
 }
 
@@ -141,7 +144,7 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
 {
     *list = (struct kd_integral_list *)(void *)((char *)request + f->offset);
     if (!n || n > KD_INTEGRAL_LIST)
-        return kd_error_field(error, pointer, "%s has %zu numbers, allowed are 1 to %u", f->name, n, KD_INTEGRAL_LIST);
+        return kd_error_field(error, pointer, "%s has %zu numbers; it must have 1 to %u", f->name, n, KD_INTEGRAL_LIST);
     free((*list)->at);
     **list = (struct kd_integral_list) { malloc(n * sizeof(double)), n };
     return (*list)->at ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %zu numbers", n);
@@ -168,7 +171,7 @@ static enum kd_status read_list(struct kd_integral_request *request, const struc
         char given[KD_VALUE_SIZE];
         struct kd_value value = kd_tree_value(item);
         kd_value_describe(&value, given);
-        return kd_error_field(error, pointer, "%s is %s, allowed is an array of numbers", f->name, given);
+        return kd_error_field(error, pointer, "%s is %s; it must be an array of numbers", f->name, given);
     }
     KD_TRY(kd_integral_make_room(request, f, (size_t)cJSON_GetArraySize(item), pointer, &list, error));
     for (const cJSON *one = item->child; one; one = one->next, i++) {

@@ -81,7 +81,7 @@ static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error 
     if (!kd_scene_is_radio(scene))
         return kd_error_field(error, "/scene/volume/model",
                               "volume.model has no light of one frequency in physical units, which a spectrum is of; "
-                              "allowed are those with volume.frequency_ghz, "
+                              "it must be one with volume.frequency_ghz, "
                               "such as gold and riaf; without scene and preset the spectrum is that of a thin disk");
     if (!kd_scene_is_radio_alone(scene))
         return kd_error_field(error, "/scene",
@@ -98,7 +98,7 @@ enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd
     if (!kd_scene_is_flat(r->scene))
         return kd_error_field(
             error, "/scene/camera/projection",
-            "camera.projection has no areas to scale, by which flux is measured; allowed are plane and pinhole");
+            "camera.projection has no areas to scale, by which flux is measured; it must be plane or pinhole");
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = fmax(r->scene->volume.frequency_ghz * 1e9 / 30, least);
     if (isnan(r->frequency_max_hz))
@@ -109,7 +109,7 @@ enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/frequencies_hz/%zu", i);
             return kd_error_field(error, pointer,
-                                  "a frequency is %.9g, allowed are those of volume.frequency_ghz, %.9g to %.9g Hz",
+                                  "a frequency is %.9g; it must be within volume.frequency_ghz, %.9g to %.9g Hz",
                                   r->frequencies_hz.at[i], least, most);
         }
     r->pixels = r->pixels ? r->pixels : 128;
@@ -166,7 +166,7 @@ static enum kd_status check_baselines(struct kd_integral_request *r, struct kd_e
         KD_TRY(make_baselines(r, error));
     else if (r->u.n != r->v.n)
         KD_TRY(kd_error_field(error, r->u.n > r->v.n ? "/u" : "/v",
-                              "u has %zu numbers and v has %zu; allowed are as many of each", r->u.n, r->v.n));
+                              "u has %zu numbers and v has %zu; both must have as many", r->u.n, r->v.n));
     else
         KD_TRY(kd_integral_check_beside(r, "u", others, 4, error));
     if (r->u.n * (1 + r->orders) > KD_INTEGRAL_ROWS)
@@ -180,10 +180,10 @@ static enum kd_status check_orders(const struct kd_integral_request *r, struct k
 {
     if (r->orders && r->scene->disk.model == KD_DISK_NONE)
         return kd_error_field(error, "/orders",
-                              "orders is %u, and there is no disk whose image orders could be told apart; allowed is 0",
+                              "orders is %u, and there is no disk whose image orders could be told apart; it must be 0",
                               r->orders);
     if (r->orders > (uint32_t)r->scene->accuracy.orders)
-        return kd_error_field(error, "/orders", "orders is %u, allowed are 0 to %d, accuracy.orders of the scene",
+        return kd_error_field(error, "/orders", "orders is %u; it must be 0 to %d, accuracy.orders of the scene",
                               r->orders, r->scene->accuracy.orders);
     return KD_OK;
 }
@@ -195,7 +195,7 @@ enum kd_status kd_integral_check_visibility(struct kd_integral_request *r, struc
         KD_TRY(kd_integral_make_scene(r, error));
     if (!kd_wcs_of(r->scene).far)
         return kd_error_field(error, "/scene/camera",
-                              "camera sees no flat map from far away, which visibilities are of; allowed are camera.r "
+                              "camera sees no flat map from far away, which visibilities are of; it must be camera.r "
                               "\"infinity\" and the projections auto and plane");
     KD_TRY(check_orders(r, error));
     r->pixels = r->pixels ? r->pixels : 256;

@@ -47,7 +47,7 @@ static enum kd_status read_list(struct reader *r)
     char pointer[40];
     if (!n || n > KD_JOB_FRAMES_MAX)
         return cJSON_IsArray(r->scenes)
-                   ? kd_error_field(r->error, "/scenes", "there are %d scenes, allowed are 1 to %d", n,
+                   ? kd_error_field(r->error, "/scenes", "there are %d scenes; there must be 1 to %d", n,
                                     KD_JOB_FRAMES_MAX)
                    : kd_member_refuse(r->scenes, "/scenes", "an array of scenes", r->error);
     if (r->scene || r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline) || r->axes)
@@ -221,7 +221,7 @@ static enum kd_status read_exposure(struct reader *r)
                               spec->series->name);
     if (word == ONE && (spec->sweep || r->playground))
         return kd_error_field(r->error, "/exposure",
-                              "exposure is \"one\", allowed with %s is \"each\": give style.exposure of the scene a "
+                              "exposure is \"one\"; with %s it must be \"each\": give style.exposure of the scene a "
                               "number, which all frames then have",
                               spec->sweep ? "axes" : "a playground");
     spec->one_exposure = word == ONE;

@@ -3,6 +3,7 @@
 #include "base/decimal.h"
 #include "orbit/cases.h"
 #include "scene/number.h"
+#include "scene/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -100,20 +101,22 @@ const char *kd_orbit_field_word(const struct kd_orbit_field *field, int i)
 
 static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALLOWED_SIZE])
 {
-    static const char *const ranges[] = { "%s to %s", "%s up to, not including, %s", "numbers above %s and below %s" };
+    static const char *const ranges[] = { "%s to %s", "%s up to, not including, %s", "a number above %s and below %s" };
     char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
     size_t used = 0;
     *out = 0;
     kd_number_format(low, field->least);
     kd_number_format(high, field->most);
     switch (field->kind) {
-    case TRUTH: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
-    case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s", low, high); return;
+    case TRUTH: snprintf(out, KD_ALLOWED_SIZE, "true or false"); return;
+    case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "a whole number from %s to %s", low, high); return;
     case REAL: snprintf(out, KD_ALLOWED_SIZE, ranges[field->open], low, high); return;
     case WORD:
         for (int i = 0; kd_orbit_field_word(field, i) && used < KD_ALLOWED_SIZE; i++)
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "",
-                                     kd_orbit_field_word(field, i));
+            used += (size_t)snprintf(
+                out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"",
+                kd_text_or((size_t)i, kd_orbit_field_word(field, i + 1) ? (size_t)i + 2 : (size_t)i + 1),
+                kd_orbit_field_word(field, i));
         return;
     }
 }
@@ -162,6 +165,6 @@ enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, 
         return KD_OK;
     kd_value_describe(value, given);
     describe_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", field->name, given,
+    return kd_error_field(error, pointer, "%s is %s%s; it must be %s", field->name, given,
                           field->kind == REAL || field->kind == WHOLE ? kd_value_unwanted(value) : "", allowed);
 }

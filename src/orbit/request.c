@@ -115,7 +115,7 @@ static enum kd_status not_a(const cJSON *item, const char *pointer, const char *
     char given[KD_VALUE_SIZE];
     struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
-    return kd_error_field(error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given,
+    return kd_error_field(error, pointer, "%s is %s; it must be %s", *pointer ? pointer + 1 : "the document", given,
                           allowed);
 }
 
@@ -207,7 +207,7 @@ static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON 
             return not_a(item, "/orbits", "an array of orbits", error);
         n = (size_t)cJSON_GetArraySize(item);
         if (!n || n > KD_ORBITS_MAX)
-            return kd_error_field(error, "/orbits", "there are %zu orbits, allowed are 1 to %u", n, KD_ORBITS_MAX);
+            return kd_error_field(error, "/orbits", "there are %zu orbits; there must be 1 to %u", n, KD_ORBITS_MAX);
     }
     if (!(request->specs = calloc(n, sizeof *request->specs)))
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu orbits", n);
@@ -311,10 +311,11 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
             return status;
     }
     if (!isnan(p->periods) && !isnan(p->time))
-        return kd_error_field(error, "/duration", "duration is given as periods and as time: allowed is one of them");
+        return kd_error_field(error, "/duration",
+                              "duration is given as periods and as time: only one of them may be given");
     if (p->or_end && isnan(p->periods))
         return kd_error_field(error, "/duration/or_end",
-                              "or_end is true without periods, allowed is false: what has none is followed to its end "
+                              "or_end is true without periods; it must be false: what has none is followed to its end "
                               "in any case, unless a time is given");
     if (!kd_orbit_is_seen(p) &&
         (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
@@ -323,11 +324,11 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     if (kd_orbit_is_seen(p) && request->many)
         return kd_error_field(error, "/seen", "seen belongs to one orbit, and there is a list of %zu", request->n);
     if (kd_orbit_is_seen(p) && p->samples > KD_ORBIT_SEEN_MAX)
-        return kd_error_field(error, "/samples", "samples is %u, allowed are up to %u of an orbit that is seen",
+        return kd_error_field(error, "/samples", "samples is %u; it must be at most %u of an orbit that is seen",
                               p->samples, KD_ORBIT_SEEN_MAX);
     if (p->samples == 1)
         return kd_error_field(error, "/samples",
-                              "samples is 1, allowed are 0 for none and 2 or more: both ends of the path are samples");
+                              "samples is 1; it must be 0 for none, or 2 or more: both ends of the path are samples");
     if (request->many && p->series && (double)p->samples * (double)request->n > KD_ORBIT_SAMPLES_MAX)
         return kd_error_field(error, "/samples", "%u samples of %zu orbits are more than %u in all", p->samples,
                               request->n, KD_ORBIT_SAMPLES_MAX);
@@ -357,8 +358,8 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
     return kd_error_field(
         error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
         "energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double "
-        "precision does not tell how long the body whirls there, and whether it falls or returns: allowed are "
-        "values that differ from these by some parts in 1e12",
+        "precision does not tell how long the body whirls there, and whether it falls or returns: they must "
+        "differ from these by some parts in 1e12",
         energy, momentum, r);
 }
 

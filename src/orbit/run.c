@@ -30,11 +30,11 @@ static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
     run->image = (struct kd_place_image) { .off = NAN };
     if (isfinite(o->r) && !(o->r > kd_kerr_horizon(run->orbit.a)))
         return kd_error_field(error, "/seen/observer_r",
-                              "observer_r is %.9g, allowed are radii outside the horizon, r = %.9g", o->r,
+                              "observer_r is %.9g; it must be a radius outside the horizon, r = %.9g", o->r,
                               kd_kerr_horizon(run->orbit.a));
     if (isfinite(o->r) && !kd_observer_exists(o->motion, &at))
         return kd_error_field(error, "/seen/observer_r",
-                              "observer_r is %.9g, where there is no observer %s; allowed there are %s", o->r,
+                              "observer_r is %.9g, where there is no observer %s; observers there are %s", o->r,
                               kd_observers[o->motion].word, kd_observer_others(&at, others));
     run->view = kd_place_view_of(&motion, &at);
     return KD_OK;
@@ -205,8 +205,8 @@ static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
     if (run->params->way == KD_WAY_CLOSED)
         each = 1;
     if (!(each * pieces <= KD_ORBIT_STEPS_MAX))
-        return kd_error_field(error, "/duration", "the duration takes %.3g steps, allowed are %.0f", each * pieces,
-                              KD_ORBIT_STEPS_MAX);
+        return kd_error_field(error, "/duration", "the duration takes %.3g steps; it must take at most %.0f",
+                              each * pieces, KD_ORBIT_STEPS_MAX);
     run->steps = (uint64_t)(each * pieces);
     run->h = run->mino_end / (double)run->steps;
     return KD_OK;

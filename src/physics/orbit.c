@@ -102,7 +102,7 @@ enum kd_status kd_orbit_check_spin(double a, struct kd_error *error)
 {
     if (fabs(a) < 1)
         return KD_OK;
-    return kd_error_field(error, "/spin", "spin is %.16g, allowed are numbers above -1 and below 1", a);
+    return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", a);
 }
 
 /* E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
@@ -121,11 +121,11 @@ enum kd_status kd_orbit_from_constants(double a, double energy, double momentum,
     if (!(carter >= 0))
         return kd_error_field(
             error, "/carter",
-            "carter is %.16g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
+            "carter is %.16g; it must be 0 or more; a motion that never crosses the equator (Q < 0) is "
             "given by position and velocity",
             carter);
     if (!isnan(r) && !(r > kd_kerr_horizon(a)))
-        return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
+        return kd_error_field(error, "/r", "r is %.16g; it must be above the horizon at %.9g", r, kd_kerr_horizon(a));
     *o = (struct kd_orbit) {
         .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
     };
@@ -192,15 +192,15 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
     if (status)
         return status;
     if (!(r > kd_kerr_horizon(a)) || !isfinite(r))
-        return kd_error_field(error, "/position/r", "r is %.16g, allowed is above the horizon at %.9g", r,
+        return kd_error_field(error, "/position/r", "r is %.16g; it must be above the horizon at %.9g", r,
                               kd_kerr_horizon(a));
     if (!(theta_deg >= 0 && theta_deg <= 180))
-        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g, allowed is 0 to 180", theta_deg);
+        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g; it must be 0 to 180", theta_deg);
     if (!kd_observer_exists(frame, &at))
         return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
                               row->why, r, row->edge, row->outside(a, at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
-        return kd_error_field(error, "/velocity", "the speed is %.16g, allowed is below 1, that of light", speed);
+        return kd_error_field(error, "/velocity", "the speed is %.16g; it must be below 1, that of light", speed);
     return KD_OK;
 }
 

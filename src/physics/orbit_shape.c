@@ -143,9 +143,9 @@ enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struc
     if (status)
         return status;
     if (!(e >= 0 && e < 1))
-        return kd_error_field(error, "/e", "e is %.16g, allowed is 0 up to, not including, 1: a bound orbit", e);
+        return kd_error_field(error, "/e", "e is %.16g; it must be 0 up to, not including, 1: a bound orbit", e);
     if (!(p > kd_kerr_horizon(a)) || !isfinite(p))
-        return kd_error_field(error, "/p", "p is %.16g, allowed is above the horizon at %.9g", p, kd_kerr_horizon(a));
+        return kd_error_field(error, "/p", "p is %.16g; it must be above the horizon at %.9g", p, kd_kerr_horizon(a));
     *o = of_shape(a, p, e, x);
     double least = p < 12.5 ? kd_orbit_separatrix(a, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))

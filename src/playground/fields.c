@@ -55,14 +55,17 @@ static void allowed(const struct kd_playground_setting *row, char out[KD_ALLOWED
     kd_number_format(high, row->most);
     kd_number_format(above, row->above_0);
     if (row->above_0 > 0)
-        snprintf(out, KD_ALLOWED_SIZE, "%s, and %s to %s", low, above, high);
+        snprintf(out, KD_ALLOWED_SIZE, "%s, or %s to %s", low, above, high);
     else if (row->kind == KD_SETTING_TRUTH)
-        snprintf(out, KD_ALLOWED_SIZE, "true and false");
+        snprintf(out, KD_ALLOWED_SIZE, "true or false");
     else if (row->kind != KD_SETTING_WORD)
-        snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_WHOLE ? "whole numbers from " : "", low,
+        snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_WHOLE ? "a whole number from " : "", low,
                  high);
-    for (int i = 0; row->kind == KD_SETTING_WORD && kd_playground_word(row->words, i, word, sizeof word); i++)
-        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", word);
+    size_t words = 0;
+    while (row->kind == KD_SETTING_WORD && kd_playground_word(row->words, (int)words, word, sizeof word))
+        words++;
+    for (size_t i = 0; i < words && kd_playground_word(row->words, (int)i, word, sizeof word); i++)
+        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", kd_text_or(i, words), word);
 }
 
 enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *row, const struct kd_value *value,
@@ -73,7 +76,7 @@ enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *r
         return KD_OK;
     kd_value_describe(value, given);
     allowed(row, may);
-    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", row->name, given,
+    return kd_error_field(error, pointer, "%s is %s%s; it must be %s", row->name, given,
                           row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE ? kd_value_unwanted(value) : "",
                           may);
 }
@@ -122,7 +125,7 @@ enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON
         snprintf(index, sizeof index, "%d", i);
         kd_playground_pointer(at, pointer, index);
         kd_value_describe(&value, given);
-        return kd_error_field(error, at, "this is %s%s, allowed are %g to %g", given, kd_value_unwanted(&value), -most,
+        return kd_error_field(error, at, "this is %s%s; it must be %g to %g", given, kd_value_unwanted(&value), -most,
                               most);
     }
     return KD_OK;

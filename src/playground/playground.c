@@ -66,15 +66,15 @@ static enum kd_status check(const struct kd_playground *p, const struct kd_playg
     const double r = kd_playground_radius(body->x), v = kd_playground_radius(body->v);
     for (int k = 0; k < 3; k++)
         if (!(fabs(body->x[k]) <= FAR))
-            return kd_error_field(error, "/position", "position holds %g, allowed are -%g to %g M", body->x[k], FAR,
+            return kd_error_field(error, "/position", "position holds %g; it must be -%g to %g M", body->x[k], FAR,
                                   FAR);
     if (!(v <= 1 + 1e-12) || (kerr(p) && !(v < 1)))
-        return kd_error_field(error, "/velocity", "velocity is %.9g c, allowed is %s", v,
+        return kd_error_field(error, "/velocity", "velocity is %.9g c; it must be %s", v,
                               kerr(p) ? "less than c" : "up to c");
     if (!kerr(p) && !(r > KD_PLAYGROUND_CAPTURE))
         return kd_error_field(
             error, "/position",
-            "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's", r,
+            "position is %.9g M from the hole; it must be more than %g M: closer in all is the hole's", r,
             KD_PLAYGROUND_CAPTURE);
     return KD_OK;
 }

@@ -127,7 +127,7 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
         return kd_error_field(error, pointer, "%s is no array", name);
     if (list && what != ADD &&
         cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* of ADD the body that is one too many is named */
-        return kd_error_field(error, pointer, "%s has %d elements, allowed are up to %u", name,
+        return kd_error_field(error, pointer, "%s has %d elements; it must have at most %u", name,
                               cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
         kd_pause_every(i, 16);
@@ -191,7 +191,7 @@ static enum kd_status read_preset(const cJSON *tree, const struct kd_playground_
         kd_text_clip(clipped, sizeof clipped, name->valuestring);
     return kd_error_field(
         error, "/preset",
-        "preset is %s, allowed are \"disruption\", \"system\", \"binary\", \"emri\", \"swarm\", \"figure-eight\"",
+        "preset is %s; it must be \"disruption\", \"system\", \"binary\", \"emri\", \"swarm\" or \"figure-eight\"",
         clipped);
 }
 

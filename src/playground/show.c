@@ -240,7 +240,7 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
     if (p->params.gravity == KD_GRAVITY_KERR && p->params.spin != scene->spacetime.spin)
         return kd_error_field(
             error, "/spacetime/spin",
-            "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
+            "spacetime.spin is %.9g; it must be %.9g: the playground's bodies move round a hole of that spin",
             scene->spacetime.spin, p->params.spin);
     return KD_OK;
 }

@@ -156,8 +156,8 @@ static enum kd_status read_numbers(void *to, const struct number *table, size_t 
         const double x = cJSON_IsNumber(one) ? one->valuedouble : NAN;
         if (!(x >= may->least && x <= may->most) || (may->whole && x != floor(x))) {
             char what[120];
-            snprintf(what, sizeof what, "is %.17g, allowed %s %.17g to %.17g", x,
-                     may->whole ? "are whole numbers from" : "is", may->least, may->most);
+            snprintf(what, sizeof what, "is %.17g; it must be %s%.17g to %.17g", x,
+                     may->whole ? "a whole number from " : "", may->least, may->most);
             return bad(pointer, table[i].name, cJSON_IsNumber(one) ? what : "is no number", error);
         }
         switch (table[i].kind) {

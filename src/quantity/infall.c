@@ -54,8 +54,8 @@ static enum kd_status check(const struct kd_observer_motion *motion, const struc
         return KD_EINVAL;
     if (!kd_infall_is_level(motion, at))
         return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
-                                   "where it would not stay at this latitude; allowed with "
-                                   "spin are 0, 90 and 180, or what falls from rest at infinity");
+                                   "where it would not stay at this latitude; with "
+                                   "spin it must be 0, 90 or 180, or the fall begin at rest at infinity");
     return KD_OK;
 }
 

@@ -68,7 +68,7 @@ static enum kd_status fill_now(const struct parameters *p, const struct orbit *k
     if (!(a * (1 - e) > 6))
         return kd_quantity_outside(error, "period_s", p->period_s,
                                    "which is a = %.6g M: the orbit comes inside 6 M, "
-                                   "where nothing of this holds; allowed are longer periods",
+                                   "where nothing of this holds; the periods must be longer",
                                    a);
     o->eta = eta;
     o->chirp_mass = kd_inspiral_chirp_mass(eta) * k->total;

@@ -60,10 +60,10 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
     const bool below = p->inclination_deg > 90;
     m->inner = isinf(p->inner) ? horizon : p->inner;
     if (m->inner < horizon)
-        return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; allowed is outside",
+        return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; it must be outside",
                                    horizon);
     if (!(p->outer > m->inner))
-        return kd_quantity_outside(error, "outer", p->outer, "allowed is more than inner, %.9g M", m->inner);
+        return kd_quantity_outside(error, "outer", p->outer, "and must be more than inner, %.9g M", m->inner);
     m->curve = kd_critical_of(&(struct kd_critical_observer) { .spin = p->spin,
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),

@@ -78,7 +78,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
     if (fabs(p->m) > p->l)
-        return kd_quantity_outside(error, "m", p->m, "and l is %g; allowed is -%g to %g", p->l, p->l, p->l);
+        return kd_quantity_outside(error, "m", p->m, "and l is %g; it must be -%g to %g", p->l, p->l, p->l);
     if (fresh) {
         struct kd_qnm mode;
         if (!kd_qnm_find((int)p->l, (int)p->m, (int)p->n, p->spin, &mode))

@@ -58,8 +58,7 @@ static double g_of(const struct parameters *p, double r, const struct kd_ring_im
 
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 {
-    return kd_quantity_outside(error, "r", m->r,
-                               "so near the horizon that its image was not found; allowed are larger ones");
+    return kd_quantity_outside(error, "r", m->r, "so near the horizon that its image was not found; it must be larger");
 }
 
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
@@ -67,7 +66,7 @@ static enum kd_status make_rings(const struct parameters *p, struct memory *m, s
     double i = p->inclination_deg, up = (i > 90 ? 180 - i : i) * (M_PI / 180); /* mirrored: the same but for beta */
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
-                                   "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
+                                   "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
     m->r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
     if (m->r <= kd_kerr_horizon(p->spin))
         return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_kerr_horizon(p->spin));

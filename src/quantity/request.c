@@ -46,7 +46,11 @@ void kd_parameter_allowed(const struct kd_parameter *p, char out[KD_ALLOWED_TEXT
         used = 0;
         for (const char *rest = p->words; *rest && used < KD_ALLOWED_TEXT;) {
             rest = kd_parameter_word(rest, word);
-            used += (size_t)snprintf(out + used, KD_ALLOWED_TEXT - used, "%s\"%s\"", used ? ", " : "", word);
+            used += (size_t)snprintf(out + used, KD_ALLOWED_TEXT - used, "%s\"%s\"",
+                                     !used   ? ""
+                                     : *rest ? ", "
+                                             : " or ",
+                                     word);
         }
         return;
     }
@@ -55,9 +59,9 @@ void kd_parameter_allowed(const struct kd_parameter *p, char out[KD_ALLOWED_TEXT
     used = (size_t)snprintf(out, KD_ALLOWED_TEXT, p->open ? "above %s and below %s%s%s" : "%s to %s%s%s", low, high,
                             pure ? "" : " ", pure ? "" : p->unit);
     if (p->whole)
-        used += (size_t)snprintf(out + used, KD_ALLOWED_TEXT - used, ", whole numbers");
+        used += (size_t)snprintf(out + used, KD_ALLOWED_TEXT - used, ", a whole number");
     if (p->word)
-        snprintf(out + used, KD_ALLOWED_TEXT - used, ", and \"%s\"", p->word);
+        snprintf(out + used, KD_ALLOWED_TEXT - used, ", or \"%s\"", p->word);
 }
 
 static bool holds(const struct kd_parameter *p, double value)
@@ -112,7 +116,7 @@ static enum kd_status refuse(const struct kd_parameter *p, const char *pointer, 
     char given[64], allowed[KD_ALLOWED_TEXT];
     kd_text_clip(given, sizeof given, text);
     kd_parameter_allowed(p, allowed);
-    return kd_error_field(error, pointer, "%s is \"%s\", allowed are %s%s", p->name, given, allowed,
+    return kd_error_field(error, pointer, "%s is \"%s\"; it must be %s%s", p->name, given, allowed,
                           p->words ? "" : ", or a range first:last:count of 2 to 100000 of these");
 }
 
@@ -141,7 +145,7 @@ static enum kd_status set_digits(struct kd_quantity_request *request, const char
     const char *rest = number(text, &value);
     if (!rest || *rest || value != floor(value) || value < 1 || value > KD_DECIMAL_DIGITS) {
         kd_text_clip(given, sizeof given, text);
-        return kd_error_field(error, "/digits", "digits is \"%s\", allowed are whole numbers from 1 to %d", given,
+        return kd_error_field(error, "/digits", "digits is \"%s\"; it must be a whole number from 1 to %d", given,
                               KD_DECIMAL_DIGITS);
     }
     request->digits = (int)value;

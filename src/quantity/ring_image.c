@@ -89,12 +89,11 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
-                                   "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
+                                   "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
     if (kd_quantity_outside_horizon(p->spin, r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
-        return kd_quantity_outside(error, "r", r,
-                                   "too near the horizon for its image to be found; allowed are larger radii");
+        return kd_quantity_outside(error, "r", r, "too near the horizon for its image to be found; it must be larger");
     return KD_OK;
 }
 

@@ -31,17 +31,17 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     const struct kd_quantity *quantity = request->quantity;
     char pointer[60];
     if (!quantity->sound)
-        return kd_error_field(error, "/format", "format is \"wav\", allowed for %s are \"json\" and \"csv\"",
+        return kd_error_field(error, "/format", "format is \"wav\", and for %s must be \"json\" or \"csv\"",
                               quantity->name);
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         snprintf(pointer, sizeof pointer, "/%s", quantity->parameters[i].name);
         if (request->axes[i].count > 1)
-            return kd_error_field(error, pointer, "%s is a range of %zu values, allowed in a sound is one", pointer + 1,
+            return kd_error_field(error, pointer, "%s is a range of %zu values; in a sound it must be one", pointer + 1,
                                   request->axes[i].count);
     }
     double t = request->axes[parameter(quantity, "t")].first;
     if (t != 0)
-        return kd_error_field(error, "/t", "t is %g, allowed is 0: a sound holds all times", t);
+        return kd_error_field(error, "/t", "t is %g; it must be 0: a sound holds all times", t);
     return KD_OK;
 }
 
@@ -60,12 +60,12 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
     double low = four_digits(mass * hz / KD_SOUND_HZ_MAX, true), high = four_digits(mass * hz / KD_SOUND_HZ_MIN, false);
     if (hz >= KD_SOUND_HZ_MIN && hz <= KD_SOUND_HZ_MAX)
         return KD_OK;
-    return kd_error_field(
-        error, "/mass_msun",
-        "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are masses "
-        "from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one",
-        mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
-        floor(log2(KD_SOUND_HZ_MAX / natural)));
+    return kd_error_field(error, "/mass_msun",
+                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; what is heard is %g to %g "
+                          "Hz: it must be %.4g "
+                          "to %.4g solar masses, or shift_octaves %.0f to %.0f",
+                          mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
+                          floor(log2(KD_SOUND_HZ_MAX / natural)));
 }
 
 static double parameter_of(const struct kd_quantity_answer *answer, const char *name)
@@ -80,11 +80,11 @@ static enum kd_status short_enough(const struct kd_quantity_answer *answer, stru
     double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");
     if (fades <= KD_SOUND_DAMPING_S)
         return KD_OK;
-    return kd_error_field(
-        error, "/stretch",
-        "stretch is %g, which makes the sound fade by e in %.3g s; allowed for this one is 1 to %.4g, "
-        "which is %g s",
-        stretch, fades, four_digits(fmax(1, KD_SOUND_DAMPING_S * stretch / fades), false), KD_SOUND_DAMPING_S);
+    return kd_error_field(error, "/stretch",
+                          "stretch is %g, which makes the sound fade by e in %.3g s; it must be 1 to %.4g, "
+                          "which is %g s",
+                          stretch, fades, four_digits(fmax(1, KD_SOUND_DAMPING_S * stretch / fades), false),
+                          KD_SOUND_DAMPING_S);
 }
 
 static enum kd_status put(struct kd_buffer *out, uint64_t value, int bytes)

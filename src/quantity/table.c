@@ -54,7 +54,7 @@ enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *
     double horizon = kd_kerr_horizon(a);
     return r >= horizon
                ? KD_OK
-               : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; allowed is outside", horizon);
+               : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; it must be outside", horizon);
 }
 
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,

@@ -27,7 +27,7 @@ static enum kd_status suits(const struct kd_scene *scene, const char *path, cons
     if (!strcmp(path, "volume.grid")) {
         if (!found->nodes[0])
             return kd_error_field(error, pointer,
-                                  "%s is a picture of %u x %u pixels, allowed is a grid of matter, an NPZ file", path,
+                                  "%s is a picture of %u x %u pixels; it must be a grid of matter, an NPZ file", path,
                                   found->width, found->height);
         return kd_asset_check_grid(found->spin, scene, error);
     }
@@ -35,11 +35,11 @@ static enum kd_status suits(const struct kd_scene *scene, const char *path, cons
         return KD_OK;
     if (found->nodes[0])
         return kd_error_field(error, pointer,
-                              "%s is a grid of matter of %u x %u x %u nodes, allowed is a picture of the whole sky",
+                              "%s is a grid of matter of %u x %u x %u nodes; it must be a picture of the whole sky",
                               path, found->nodes[0], found->nodes[1], found->nodes[2]);
     if (!kd_asset_is_panorama(found->width, found->height))
         return kd_error_field(error, pointer,
-                              "%s is a picture of %u x %u pixels, allowed is one of the whole sky: twice as wide as it "
+                              "%s is a picture of %u x %u pixels; it must be one of the whole sky: twice as wide as it "
                               "is high, of %d to %d "
                               "rows",
                               path, found->width, found->height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST);
@@ -57,7 +57,7 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *fie
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
     if (!assets->find(assets->user, name, &found) || !kd_asset_is_hash(found.hash))
-        return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here; allowed are %s", path,
+        return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here; it must be %s", path,
                               name, assets->allowed);
     enum kd_status status = suits(scene, path, pointer, &found, error);
     if (!status)

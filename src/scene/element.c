@@ -46,5 +46,6 @@ enum kd_status kd_element_count(const struct kd_section *list, size_t size, stru
         return KD_OK;
     char pointer[KD_PATH_SIZE];
     kd_element_pointer(list, list->most, pointer);
-    return kd_error_field(error, pointer, "%s has %zu elements, allowed are at most %zu", list->name, size, list->most);
+    return kd_error_field(error, pointer, "%s has %zu elements; it must have at most %zu", list->name, size,
+                          list->most);
 }

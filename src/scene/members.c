@@ -12,7 +12,7 @@ enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const ch
     char given[KD_VALUE_SIZE];
     struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
-    return kd_error_field(error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given,
+    return kd_error_field(error, pointer, "%s is %s; it must be %s", *pointer ? pointer + 1 : "the document", given,
                           allowed);
 }
 
@@ -68,11 +68,7 @@ enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char
             *out = (unsigned)i;
             return KD_OK;
         }
-        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"",
-                                   !i          ? ""
-                                   : i + 1 < n ? ", "
-                                               : " or ",
-                                   words[i]);
+        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"", kd_text_or(i, n), words[i]);
     }
     return kd_member_refuse(item, pointer, allowed, error);
 }

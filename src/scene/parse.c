@@ -52,7 +52,7 @@ static enum kd_status not_a(struct reader *reader, const cJSON *item, const char
     snprintf(path, sizeof path, "%s", pointer + 1);
     for (char *c = path; *c; c++)
         *c = *c == '/' ? '.' : *c;
-    return kd_error_field(reader->error, pointer, "%s is %s, allowed is %s", path, given, allowed);
+    return kd_error_field(reader->error, pointer, "%s is %s; it must be %s", path, given, allowed);
 }
 
 static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item);
@@ -81,7 +81,7 @@ static enum kd_status store_words(struct reader *reader, const struct kd_field *
     kd_field_path(field, index, path);
     kd_value_describe(&value, given);
     kd_value_allowed(field, allowed);
-    return kd_error_field(reader->error, pointer, "%s %s %s, allowed are arrays: %s", path,
+    return kd_error_field(reader->error, pointer, "%s %s %s; it must be an array: %s", path,
                           cJSON_IsArray(item) && bad ? "holds" : "is", bad ? given : "an array of none", allowed);
 }
 
@@ -193,7 +193,7 @@ static enum kd_status both_names(struct reader *reader, const struct kd_old_name
     char pointer[KD_PATH_SIZE];
     snprintf(pointer, sizeof pointer, "/%s", old->name);
     return kd_error_field(reader->error, pointer,
-                          "%s is an old name of %s.%zu, and %s is given too; allowed is one of them", old->name,
+                          "%s is an old name of %s.%zu, and %s is given too; only one of them may be given", old->name,
                           old->section, old->index, old->section);
 }
 
@@ -265,7 +265,7 @@ static enum kd_status read_document(struct reader *reader, const struct kd_scene
         char given[KD_VALUE_SIZE];
         struct kd_value value = kd_tree_value(root);
         kd_value_describe(&value, given);
-        return kd_error_field(reader->error, "", "the document is %s, allowed is an object", given);
+        return kd_error_field(reader->error, "", "the document is %s; it must be an object", given);
     }
     for (const cJSON *item = root->child; item && !status; item = item->next)
         status = read_member(reader, &top, item);

@@ -46,7 +46,7 @@ static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *e
 {
     if (scene->image.bit_depth % BITS == 0) /* 8 to 16, by its range */
         return KD_OK;
-    return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d, allowed are 8 and 16 bits",
+    return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d; it must be 8 or 16 bits",
                           scene->image.bit_depth);
 }
 
@@ -65,7 +65,7 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
                               show(camera->r).text);
     if (camera->projection == KD_PROJECTION_RING && isfinite(camera->r))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\" with camera.r %s M, allowed is \"infinity\"",
+                              "camera.projection is \"ring\" with camera.r %s M; it must be \"infinity\"",
                               show(camera->r).text);
     return KD_OK;
 }
@@ -88,7 +88,7 @@ static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
     for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
         if (knobs[i].idle && knobs[i].value != 0)
             return kd_error_field(error, knobs[i].pointer,
-                                  "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
+                                  "camera.%s is %s; it must be 0 in the %s projection, which is aimed with %s",
                                   knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
                                   near   ? WORD_OF_NEAR(camera->projection)
                                   : ring ? "ring"
@@ -105,7 +105,7 @@ static enum kd_status decades(const struct kd_scene *scene, struct kd_error *err
     if (camera->ring_decades_min < camera->ring_decades_max)
         return KD_OK;
     return kd_error_field(error, "/camera/ring_decades_min",
-                          "camera.ring_decades_min is %s, allowed is less than camera.ring_decades_max, %s",
+                          "camera.ring_decades_min is %s; it must be less than camera.ring_decades_max, %s",
                           show(camera->ring_decades_min).text, show(camera->ring_decades_max).text);
 }
 
@@ -115,7 +115,7 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
     if (r > least || scene->camera.observer == KD_OBSERVER_INFALL)
         return KD_OK;
     return kd_error_field(error, "/camera/r",
-                          "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s", show(r).text,
+                          "camera.r is %s M; it must be more than %s M, the horizon of spacetime.spin %s", show(r).text,
                           show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
@@ -155,7 +155,7 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
         if (knobs[i].value != knobs[i].idle && (c->observer != knobs[i].observer || !isfinite(c->r)))
             return kd_error_field(
                 error, knobs[i].pointer,
-                "camera.%s is %s, allowed is %s unless camera.observer is \"%s\" at a finite camera.r",
+                "camera.%s is %s; it must be %s unless camera.observer is \"%s\" at a finite camera.r",
                 knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
                 knobs[i].idle == 0 ? "0"
                 : i == 3           ? "\"infinity\""
@@ -174,20 +174,20 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
         return kd_error_field(error, "/motion/proper_time_rate",
-                              "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in "
+                              "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, goes round in "
                               "the equatorial plane or falls without leaving its latitude, from a finite camera.r",
                               show(m->proper_time_rate).text);
     if (scene->disk.slow_light && scene->camera.observer == KD_OBSERVER_INFALL)
         return kd_error_field(
             error, "/disk/slow_light",
-            "disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads "
+            "disk.slow_light is true; it must be false with motion.proper_time_rate %s of one who falls: the way leads "
             "into the ergosphere, where there is none",
             show(m->proper_time_rate).text);
     if (m->time_rate == 0 && m->azimuth_rate_deg == 0)
         return KD_OK;
     const bool time = m->time_rate != 0;
     return kd_error_field(error, time ? "/motion/time_rate" : "/motion/azimuth_rate_deg",
-                          "motion.%s is %s, allowed is 0 with motion.proper_time_rate %s: time and "
+                          "motion.%s is %s; it must be 0 with motion.proper_time_rate %s: time and "
                           "azimuth go on as they do on the observer's way",
                           time ? "time_rate" : "azimuth_rate_deg", show(time ? m->time_rate : m->azimuth_rate_deg).text,
                           show(m->proper_time_rate).text);
@@ -203,7 +203,7 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
         (camera->projection != KD_PROJECTION_AUTO && camera->projection != KD_PROJECTION_PINHOLE))
         return kd_error_field(
             error, "/camera/stereo",
-            "camera.stereo is \"pair\", allowed is \"none\" but from a finite camera.r in pinhole projection");
+            "camera.stereo is \"pair\"; it must be \"none\" but from a finite camera.r in pinhole projection");
     for (int side = -1; side <= 1; side += 2) {
         const struct kd_scene eye = kd_scene_eye(scene, side);
         const struct kd_vantage at = kd_scene_vantage(&eye);
@@ -212,7 +212,7 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
               kd_observer_check(&m, &at, &bound) == KD_OBSERVER_SOUND))
             return kd_error_field(
                 error, "/camera/eye_distance",
-                "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; allowed are "
+                "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; it must be "
                 "smaller ones",
                 show(camera->eye_distance).text);
     }
@@ -225,7 +225,7 @@ static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *
     if (scene->disk.model == KD_DISK_NONE || scene->disk.inner >= least)
         return KD_OK;
     return kd_error_field(error, "/disk/inner",
-                          "disk.inner is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
+                          "disk.inner is %s M; it must be at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
                           show(scene->disk.inner).text, show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
@@ -235,7 +235,7 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
     double least = isco ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.outer > least)
         return KD_OK;
-    return kd_error_field(error, "/disk/outer", "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
+    return kd_error_field(error, "/disk/outer", "disk.outer is %s M; it must be more than the inner edge, %s M%s",
                           show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
@@ -243,11 +243,11 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->disk.height > 0 && scene->disk.height < LEAST_HEIGHT)
-        return kd_error_field(error, "/disk/height", "disk.height is %s, allowed is 0, and %s or more",
+        return kd_error_field(error, "/disk/height", "disk.height is %s; it must be 0 or at least %s",
                               show(scene->disk.height).text, show(LEAST_HEIGHT).text);
     if (scene->disk.height == 0 || scene->disk.model != KD_DISK_PARTICLES)
         return KD_OK;
-    return kd_error_field(error, "/disk/height", "disk.height is %s, allowed where disk.model is \"particles\" is 0",
+    return kd_error_field(error, "/disk/height", "disk.height is %s; where disk.model it must be \"particles\" is 0",
                           show(scene->disk.height).text);
 }
 
@@ -259,12 +259,12 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
         const double isco = kd_kerr_isco(scene->spacetime.spin);
         if (!(v->torus_radius > isco))
             return kd_error_field(error, "/volume/torus_radius",
-                                  "volume.torus_radius is %s M, allowed is more than the ISCO, %s M",
+                                  "volume.torus_radius is %s M; it must be more than the ISCO, %s M",
                                   show(v->torus_radius).text, show_bound(isco).text);
         const double light = kd_kerr_photon_orbit(scene->spacetime.spin);
         if (!(least < v->torus_radius) || !(least > light))
             return kd_error_field(error, "/volume/inner",
-                                  "volume.inner is %s%s M, allowed for a torus is less than volume.torus_radius, %s M, "
+                                  "volume.inner is %s%s M; it must be less than volume.torus_radius, %s M, "
                                   "and more than the orbit of light, %s M",
                                   isinf(v->inner) ? "\"horizon\", for a torus " : "", show(least).text,
                                   show_bound(v->torus_radius).text, show_bound(light).text);
@@ -272,26 +272,26 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
         if (!isfinite(torus.outer) || !(torus.log_most > 0))
             return kd_error_field(error, "/volume/torus_radius",
                                   "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like "
-                                  "that has no outer edge; allowed is less, or an inner edge further out",
+                                  "that has no outer edge; it must be less, or the inner edge further out",
                                   show(v->torus_radius).text, show(least).text);
     }
     if (v->model >= KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
         return kd_error_field(error, "/volume/gamma_max",
-                              "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s",
+                              "volume.gamma_max is %s; it must be more than volume.gamma_min, %s",
                               show(v->gamma_max).text, show_bound(v->gamma_min).text);
     if (v->normalise_to_jy > 0 && !(kd_scene_is_radio_alone(scene) && kd_scene_is_flat(scene)))
         return kd_error_field(error, "/volume/normalise_to_jy",
-                              "volume.normalise_to_jy is %s Jy, allowed is 0 but where a volume at a radio frequency "
+                              "volume.normalise_to_jy is %s Jy; it must be 0 but where a volume at a radio frequency "
                               "shines alone, in the plane and pinhole projections",
                               show(v->normalise_to_jy).text);
     if (v->normalise_to_jy > 0 && scene->camera.stereo != KD_STEREO_NONE)
         return kd_error_field(
             error, "/volume/normalise_to_jy",
-            "volume.normalise_to_jy is %s Jy, allowed for a pair of eyes is 0: each would see another density",
+            "volume.normalise_to_jy is %s Jy; for a pair of eyes it must be 0: each would see another density",
             show(v->normalise_to_jy).text);
     if (v->model == KD_VOLUME_NONE || v->outer > least)
         return KD_OK;
-    return kd_error_field(error, "/volume/outer", "volume.outer is %s M, allowed is more than the inner edge, %s M",
+    return kd_error_field(error, "/volume/outer", "volume.outer is %s M; it must be more than the inner edge, %s M",
                           show(v->outer).text, show_bound(least).text);
 }
 
@@ -308,11 +308,11 @@ static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
     if (j->outer > least && j->falloff < slowest)
         return kd_error_field(
             error, "/jets/falloff",
-            "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M, allowed is at least %s",
+            "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M; it must be at least %s",
             show(j->falloff).text, show(least).text, show(j->outer).text, show_bound(slowest).text);
     if (j->outer > least)
         return KD_OK;
-    return kd_error_field(error, "/jets/outer", "jets.outer is %s M, allowed is more than the inner edge, %s M",
+    return kd_error_field(error, "/jets/outer", "jets.outer is %s M; it must be more than the inner edge, %s M",
                           show(j->outer).text, show_bound(least).text);
 }
 
@@ -327,7 +327,7 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
             continue;
         kd_field_path(r, i, path);
         kd_field_pointer(r, i, pointer);
-        return kd_error_field(error, pointer, "%s is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s",
+        return kd_error_field(error, pointer, "%s is %s M; it must be at least %s M, the ISCO of spacetime.spin %s",
                               path, show(spot->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
     }
     return KD_OK;
@@ -343,7 +343,7 @@ static enum kd_status body_field(const char *name, size_t index, const char *is,
     const struct kd_field *field = kd_field_find("bodies", name);
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
-    return kd_error_field(error, pointer, "%s is %s, allowed is %s", path, is, allowed);
+    return kd_error_field(error, pointer, "%s is %s; it must be %s", path, is, allowed);
 }
 
 static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd_error *error)
@@ -396,7 +396,7 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
         return KD_OK;
     return kd_error_field(
         error, "/style/ringdown",
-        "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of "
+        "style.ringdown is %s; it must be 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of "
         "them rings alone",
         show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
 }
@@ -408,7 +408,7 @@ static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *e
     if (isinf(scene->camera.field_uas) || kd_field_holds(field, width))
         return KD_OK;
     return kd_error_field(error, "/camera/field_uas",
-                          "camera.field_uas is %s microarcseconds, allowed are %s to %s, camera.field_m %s to %s, at "
+                          "camera.field_uas is %s microarcseconds; it must be %s to %s, camera.field_m %s to %s, at "
                           "this spacetime.mass_msun and spacetime.distance_pc",
                           show(scene->camera.field_uas).text, show(of_m * field->minimum).text,
                           show(of_m * field->maximum).text, show(field->minimum).text, show(field->maximum).text);
@@ -421,12 +421,12 @@ static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
         return KD_OK;
     if (isnan(width))
         return kd_error_field(error, "/style/beam_uas",
-                              "style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the "
+                              "style.beam_uas is %s; it must be 0 but in the plane and pinhole projections: in the "
                               "others pixels are not of one angle",
                               show(scene->style.beam_uas).text);
     return kd_error_field(
         error, "/style/beam_uas",
-        "style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at "
+        "style.beam_uas is %s microarcseconds; it must be at most %s, %d times the width of the picture at "
         "this spacetime.mass_msun and spacetime.distance_pc",
         show(scene->style.beam_uas).text, show(most).text, BEAM_WIDTHS);
 }
@@ -439,7 +439,7 @@ static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *
         return KD_OK;
     return kd_error_field(
         error, "/style/colour_bar",
-        "style.colour_bar is true, allowed is false unless style.palette is \"heat\" and style.tone_map "
+        "style.colour_bar is true; it must be false unless style.palette is \"heat\" and style.tone_map "
         "\"srgb\": else brightness has no one colour, or no even scale");
 }
 
@@ -448,8 +448,8 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
 {
     if (scene->accuracy.steps % STEPS == 0)
         return KD_OK;
-    return kd_error_field(error, "/accuracy/steps",
-                          "accuracy.steps is %d, allowed are multiples of 4 up to 2048, and 0", scene->accuracy.steps);
+    return kd_error_field(error, "/accuracy/steps", "accuracy.steps is %d; it must be 0 or a multiple of 4 up to 2048",
+                          scene->accuracy.steps);
 }
 
 /* A tile lies in its picture. What is made of the whole picture, no tile can have: it is refused where a plan is
@@ -459,23 +459,23 @@ static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
     const struct kd_tile *t = &scene->tile;
     if ((t->width > 0) != (t->height > 0))
         return kd_error_field(error, t->width ? "/image/tile/height" : "/image/tile/width",
-                              "image.tile.width is %d and image.tile.height %d pixels, allowed are both above 0, or "
-                              "both 0: the whole picture",
+                              "image.tile.width is %d and image.tile.height %d pixels; both must be above 0, or "
+                              "both 0, for the whole picture",
                               t->width, t->height);
     if (!t->width && (t->left || t->top))
         return kd_error_field(error, t->left ? "/image/tile/left" : "/image/tile/top",
-                              "image.tile.left is %d and image.tile.top %d pixels, allowed are 0 without "
+                              "image.tile.left is %d and image.tile.top %d pixels; both must be 0 without "
                               "image.tile.width and image.tile.height",
                               t->left, t->top);
     if (t->left + t->width > scene->image.width)
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %d pixels from column %d on, allowed are up to %d in a picture of image.width %d",
+            "image.tile.width is %d pixels from column %d on; it must be at most %d in a picture of image.width %d",
             t->width, t->left, scene->image.width > t->left ? scene->image.width - t->left : 0, scene->image.width);
     if (t->top + t->height > scene->image.height)
         return kd_error_field(
             error, "/image/tile/height",
-            "image.tile.height is %d pixels from row %d on, allowed are up to %d in a picture of image.height %d",
+            "image.tile.height is %d pixels from row %d on; it must be at most %d in a picture of image.height %d",
             t->height, t->top, scene->image.height > t->top ? scene->image.height - t->top : 0, scene->image.height);
     return KD_OK;
 }
@@ -487,21 +487,22 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
         return KD_OK;
     if (!kd_scene_is_magnetic(scene))
         return kd_error_field(error, "/polarization/model",
-                              "polarization.model is \"transfer\", allowed where volume.model has electrons in a "
+                              "polarization.model is \"transfer\", which needs a volume.model with electrons in a "
                               "magnetic field: \"riaf\", \"torus\", \"grid\"");
     if (scene->volume.electrons == KD_VOLUME_KAPPA && !(scene->volume.kappa >= 3.5 && scene->volume.kappa <= 5))
         return kd_error_field(error, "/volume/kappa",
-                              "volume.kappa is %s, allowed with polarization.model \"transfer\" is 3.5 to 5, for which "
+                              "volume.kappa is %s; with polarization.model \"transfer\" it must be 3.5 to 5, for which "
                               "Faraday rotation is known",
                               show(scene->volume.kappa).text);
     if (!kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/polarization/model",
-                              "polarization.model is \"transfer\", allowed where nothing but the volume shines: "
-                              "disk.model and sky.model \"none\", "
-                              "no jets, spots or bodies");
+        return kd_error_field(
+            error, "/polarization/model",
+            "polarization.model is \"transfer\", which needs a scene where nothing but the volume shines: "
+            "disk.model and sky.model \"none\", "
+            "no jets, spots or bodies");
     if (scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/polarization/model",
-                              "polarization.model is \"transfer\", allowed is \"none\" with camera.projection "
+                              "polarization.model is \"transfer\"; it must be \"none\" with camera.projection "
                               "\"ring\", where a picture has no up");
     return KD_OK;
 }

@@ -32,7 +32,8 @@ static enum kd_status no_memory(const struct reader *r)
 
 static enum kd_status too_many(const struct reader *r, double n)
 {
-    return kd_error_field(r->error, r->pointer, "the axes make %.6g scenes, allowed are up to %d", n, KD_SWEEP_MOST);
+    return kd_error_field(r->error, r->pointer, "the axes make %.6g scenes; they must make at most %d", n,
+                          KD_SWEEP_MOST);
 }
 
 static enum kd_status begin(struct reader *r, const char *path)
@@ -43,7 +44,7 @@ static enum kd_status begin(struct reader *r, const char *path)
     kd_text_pointer(r->pointer, sizeof r->pointer, path);
     kd_text_clip(name, sizeof name, path);
     if (s->n_axes == KD_SWEEP_AXES)
-        return kd_error_field(r->error, r->pointer, "%s is one axis too many, allowed are up to %d", name,
+        return kd_error_field(r->error, r->pointer, "%s is one axis too many; there must be at most %d", name,
                               KD_SWEEP_AXES);
     for (size_t i = 0; i < s->n_axes; i++)
         if (kd_scene_same_path(s->axes[i].path, path))
@@ -137,7 +138,7 @@ static enum kd_status add_range(struct reader *r, const char *text)
     if (!(steps >= 0) || !isfinite(steps) || !isfinite(range.step) || range.step == 0)
         return kd_error_field(
             r->error, r->pointer,
-            "%s is \"%s\", allowed are a list of values, and a range that leads from its start to its stop: "
+            "%s is \"%s\"; it must be a list of values or a range that leads from its start to its stop: "
             "\"10:80:15\", start:stop:step, or \"10:80/15\", start:stop/how many",
             last(r)->path, shown);
     if (steps > KD_SWEEP_MOST)
@@ -182,7 +183,7 @@ static enum kd_status end(struct reader *r)
     struct kd_sweep *s = r->sweep;
     struct kd_sweep_axis *axis = last(r);
     if (!axis->n)
-        return kd_error_field(r->error, r->pointer, "%s is a list of none, allowed are one value and more", axis->path);
+        return kd_error_field(r->error, r->pointer, "%s is an empty list; it must have at least one value", axis->path);
     double all = (double)(s->scenes ? s->scenes : 1) * (double)axis->n;
     if (all > KD_SWEEP_MOST)
         return too_many(r, all);
@@ -310,7 +311,7 @@ static enum kd_status read_typed(struct reader *r, char *text)
     enum kd_status status;
     if (!values || values == text)
         KD_TRY(kd_error_set(r->error, KD_EINVAL,
-                            "an axis is \"%.60s\", allowed is FIELD=VALUE,VALUE,... or FIELD=START:STOP:STEP", text));
+                            "an axis is \"%.60s\"; it must be FIELD=VALUE,VALUE,... or FIELD=START:STOP:STEP", text));
     *values++ = 0;
     KD_TRY(begin(r, text));
     if (range_of(values).by)

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+const char *kd_text_or(size_t i, size_t n) { return !i ? "" : i + 1 < n ? ", " : " or "; }
+
 void kd_text_clip(char *out, size_t size, const char *text)
 {
     size_t used = 0, length = strnlen(text, size), whole = 0;

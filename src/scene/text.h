@@ -8,6 +8,9 @@
  * size is at least 8. */
 void kd_text_clip(char *out, size_t size, const char *text);
 
+/* What stands before item i of n in "a, b or c". */
+const char *kd_text_or(size_t i, size_t n);
+
 /* Appends "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so that the
  * pointer still names its parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);

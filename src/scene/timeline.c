@@ -158,7 +158,7 @@ static enum kd_status go_on(struct kd_scene *scene, double proper_time, struct k
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
         return kd_error_field(error, "",
-                              "proper_time is %.9g M, allowed is 0 unless camera.observer stays, goes round in the "
+                              "proper_time is %.9g M; it must be 0 unless camera.observer stays, goes round in the "
                               "equatorial plane or falls without "
                               "leaving its latitude, from a finite camera.r",
                               proper_time);

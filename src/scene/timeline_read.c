@@ -78,8 +78,8 @@ static enum kd_status read_proper_time(struct reader *r, const cJSON *item, cons
                                 "finite camera.r",
                                 r->error);
     if (value > 0 && key->scene.motion.proper_time_rate > 0)
-        return kd_error_field(r->error, pointer, "%s is given with motion.proper_time_rate, allowed is one of them",
-                              pointer + 1);
+        return kd_error_field(r->error, pointer,
+                              "%s is given with motion.proper_time_rate; only one of them may be given", pointer + 1);
     key->proper_time = value;
     return KD_OK;
 }
@@ -212,7 +212,7 @@ enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const str
     if (items->keyframes && !cJSON_IsArray(items->keyframes))
         KD_TRY(kd_member_refuse(items->keyframes, "/keyframes", "an array of keyframes", error));
     if (items->keyframes && (!n || n > KD_TIMELINE_KEYS_MAX))
-        KD_TRY(kd_error_field(error, "/keyframes", "there are %zu keyframes, allowed are 1 to %d", n,
+        KD_TRY(kd_error_field(error, "/keyframes", "there are %zu keyframes; there must be 1 to %d", n,
                               KD_TIMELINE_KEYS_MAX));
     timeline.keys = calloc(n + 1, sizeof *timeline.keys);
     if (!timeline.keys)

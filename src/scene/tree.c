@@ -114,7 +114,7 @@ enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_
     struct kd_long_strings strings;
     cJSON *root = NULL;
     if (length > most)
-        return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);
+        return kd_error_set(error, KD_EINVAL, "the document has %zu bytes; it must have at most %zu", length, most);
     if (!text)
         text = ""; /* no bytes: C has no sum of a null pointer and 0 */
     kd_scan_skip_mark(&text, &length);

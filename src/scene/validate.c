@@ -37,7 +37,7 @@ static enum kd_status range(const struct kd_scene *scene, const struct kd_field 
     kd_field_pointer(field, index, pointer);
     kd_value_allowed(field, allowed);
     kd_number_format(number, value);
-    return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, number, allowed);
+    return kd_error_field(error, pointer, "%s is %s; it must be %s", path, number, allowed);
 }
 
 static enum kd_status ranges(const struct kd_scene *scene, const struct kd_section *section, struct kd_error *error)

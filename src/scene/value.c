@@ -54,8 +54,8 @@ static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     size_t used = 0;
     for (int i = 0; i < count && used < KD_ALLOWED_SIZE; i++) {
         struct kd_word word = kd_field_word(field, i);
-        const char *separator = i == 0 ? "" : i + 1 < count ? ", " : " and ";
-        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%.*s\"", separator, word.length, word.text);
+        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%.*s\"", kd_text_or((size_t)i, (size_t)count),
+                                 word.length, word.text);
     }
 }
 
@@ -88,18 +88,18 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     switch (field->kind) {
     case KD_FIELD_REAL: snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s", low, high, space, unit); return;
     case KD_FIELD_WORD:
-        snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s, and \"%s\"", low, high, space, unit, field->words);
+        snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s, or \"%s\"", low, high, space, unit, field->words);
         return;
     case KD_FIELD_INT:
         snprintf(out, KD_ALLOWED_SIZE,
-                 field->words ? "whole numbers from %s to %s%s%s, and \"%s\"" : "whole numbers from %s to %s%s%s", low,
+                 field->words ? "a whole number from %s to %s%s%s, or \"%s\"" : "a whole number from %s to %s%s%s", low,
                  high, space, unit, field->words);
         return;
-    case KD_FIELD_BOOL: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
+    case KD_FIELD_BOOL: snprintf(out, KD_ALLOWED_SIZE, "true or false"); return;
     case KD_FIELD_ENUM: list_words(field, out); return;
     case KD_FIELD_ASSET:
         snprintf(out, KD_ALLOWED_SIZE,
-                 "null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter, then letters, digits, "
+                 "null, the SHA-256 of an asset as 64 hexadecimal digits, or a name: a letter, then letters, digits, "
                  ". _ and -");
         return;
     case KD_FIELD_WORDS: list_many(field, out); return;
@@ -157,7 +157,7 @@ enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *fie
     kd_field_pointer(field, index, pointer);
     kd_value_describe(value, given);
     kd_value_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", path, given,
+    return kd_error_field(error, pointer, "%s is %s%s; it must be %s", path, given,
                           wants_number(field, value) ? kd_value_unwanted(value) : "", allowed);
 }
 
@@ -167,5 +167,5 @@ enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *e
         return KD_OK;
     char given[KD_VALUE_SIZE];
     kd_value_describe(value, given);
-    return kd_error_field(error, "/version", "version is %s, allowed is %d", given, KD_SCENE_VERSION);
+    return kd_error_field(error, "/version", "version is %s; it must be %d", given, KD_SCENE_VERSION);
 }

@@ -28,7 +28,7 @@ struct kd_value kd_value_typed(const char *text);
  * is wanted", or "". */
 const char *kd_value_unwanted(const struct kd_value *value);
 
-/* Write how a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false". */
+/* Write how a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true or false". */
 enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 400 };
 void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
 void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE]);

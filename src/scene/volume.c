@@ -46,5 +46,5 @@ enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, st
     kd_number_format(here, scene->spacetime.spin);
     return kd_error_field(
         error, "/volume/grid",
-        "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; allowed is the same", made, here);
+        "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; it must be the same", made, here);
 }

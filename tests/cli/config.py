@@ -132,11 +132,11 @@ class Config(support.Case):
             for member in members:
                 with self.subTest(name, member=member):
                     self.refused(
-                        self.path("kerrd.json") + ": " + name, "allowed is", f"(at /{name}", config={name: member}
+                        self.path("kerrd.json") + ": " + name, "it must be", f"(at /{name}", config={name: member}
                     )
             if text is not None and name != "host":
                 with self.subTest(variable):
-                    self.refused(f'{variable} is "{text}", allowed is ', env={variable: text})
+                    self.refused(f'{variable} is "{text}"; it must be ', env={variable: text})
                 done = self.serve(f"--{name}={text}")
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(f"--{name} {text}: ", done.stderr)
@@ -192,7 +192,7 @@ class Config(support.Case):
         self.assertEqual(done.returncode, 2)
         line = json.loads(done.stderr)
         self.assertEqual((line["level"], line["event"]), ("error", "message"))
-        self.assertIn("port is -1, allowed is a whole number from 0 to 65535 (at /port)", line["message"])
+        self.assertIn("port is -1; it must be a whole number from 0 to 65535 (at /port)", line["message"])
 
     def test_it_serves_by_the_file(self):
         path = self.write("kerrd.json", '{"port": 0, "base-path": "/black", "log-format": "json", "log-level": "info"}')

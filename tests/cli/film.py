@@ -132,9 +132,9 @@ class Shares(Case):
 
     def test_what_it_takes(self):
         state = self.path("state")
-        self.assertIn("allowed are frames 0 to 11", self.only(TURN, "--state", state, "--only", "3:12", code=2))
+        self.assertIn("its frames must be 0 to 11", self.only(TURN, "--state", state, "--only", "3:12", code=2))
         for wrong in "3", "3:", "5:3", "-1:2", "1:2:3", "a:b":
-            self.assertIn("allowed is FIRST:LAST", self.only(TURN, "--state", state, f"--only={wrong}", code=2))
+            self.assertIn("it must be FIRST:LAST", self.only(TURN, "--state", state, f"--only={wrong}", code=2))
         self.assertIn("--state is missing", self.only(TURN, "--only", "0:1", code=2))
         self.assertIn(
             "--only excludes -o", self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2)

@@ -286,10 +286,10 @@ class Grid(Case):
             (header(format="other"), 'has not the format "kerrd-grid"'),
             (header(spin=None), "header.spin is no number from -1 to 1"),
             (header(azimuth="?"), "header.azimuth is neither"),
-            (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3", allowed is "cm^-3"'),
+            (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3"; it must be "cm^-3"'),
             (
                 header(units={k: v for k, v in UNITS.items() if k != "b_con_r"}),
-                'header.units.b_con_r is missing, allowed is "G"',
+                'header.units.b_con_r is missing; it must be "G"',
             ),
             ({"r": numpy.linspace(2, 20, 6)}, "in even steps of their logarithm, here"),
             ({"r": r[::-1]}, "r 0 is 20"),
@@ -297,16 +297,16 @@ class Grid(Case):
             ({"theta": theta * 0.5}, "theta does not go from pole to pole"),
             ({"theta": theta[:1]}, "theta is no list of 2 numbers or more"),
             ({"density": None}, "density is missing"),
-            ({"density": numpy.ones((4, 6))}, "allowed is the shape (6, 4) of r, theta"),
+            ({"density": numpy.ones((4, 6))}, "it must have the shape (6, 4) of r, theta"),
             ({"density": numpy.ones((6, 4), ">f8")}, "the element type is >f8"),
             ({"density": numpy.asfortranarray(numpy.ones((6, 4)))}, "Fortran order"),
-            (array(-1), "density[2, 1] is -1, allowed are 0 to 1e+30 cm^-3"),
+            (array(-1), "density[2, 1] is -1; it must be 0 to 1e+30 cm^-3"),
             (array(numpy.nan, "temperature"), "temperature[2, 1] is"),
             (array(numpy.inf, "b_con_r"), "b_con_r[2, 1] is inf"),
-            (array(-1e9, "u_con_theta"), "u_con_theta[2, 1] is -1e+09, allowed are -1e+06 to 1e+06 c/M over r"),
+            (array(-1e9, "u_con_theta"), "u_con_theta[2, 1] is -1e+09; it must be -1e+06 to 1e+06 c/M over r"),
             ({"u_con_t": numpy.ones((6, 4))}, "the velocity's u.u at u_con_t"),
             ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi does not go round once"),
-            ({"phi": numpy.arange(4) * numpy.pi / 2}, "allowed is the shape (6, 4, 4) of r, theta and phi"),
+            ({"phi": numpy.arange(4) * numpy.pi / 2}, "it must have the shape (6, 4, 4) of r, theta and phi"),
             (
                 {"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024},
                 "is 4096 x 1024 x 1 nodes: it must be at most 2097152 in all",
@@ -327,7 +327,7 @@ class Grid(Case):
         )
         self.bad(
             2,
-            "volume.grid is matter round a hole of the spin 0.5, and spacetime.spin is 0.6; allowed is the same (at /volume/grid)",
+            "volume.grid is matter round a hole of the spin 0.5, and spacetime.spin is 0.6; it must be the same (at /volume/grid)",
             "scene",
             "--set",
             "spacetime.spin=0.6",
@@ -337,7 +337,7 @@ class Grid(Case):
         )
         self.bad(
             2,
-            "sky.image is a grid of matter of 6 x 4 x 4 nodes, allowed is a picture of the whole sky",
+            "sky.image is a grid of matter of 6 x 4 x 4 nodes; it must be a picture of the whole sky",
             "scene",
             "--asset",
             "g=" + path,

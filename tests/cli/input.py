@@ -58,7 +58,7 @@ class Usage(Case):
         self.assertEqual(image["tile"], {"left": 10, "top": 7, "width": 64, "height": 32})
         for tile in "64", "64x32", "64x32+1", "64x32+1+", "64x32+1+2+3", "64x32-1+2", "64x32+1+2 ", "x32+1+2":
             self.bad(2, "as in 512x512+1024+0", "scene", "--tile", tile)
-        self.bad(2, "allowed are up to 1279", "scene", "--tile", "1280x720+1+0")
+        self.bad(2, "it must be at most 1279", "scene", "--tile", "1280x720+1+0")
 
     def test_assets(self):
         """Those that nothing names; tests/cli/render.py has one that is shown."""
@@ -94,7 +94,7 @@ class Usage(Case):
     def test_numbers_as_they_were_given(self):
         self.bad(
             2,
-            "r is 1.2, allowed is above the horizon at 1.43588989",
+            "r is 1.2; it must be above the horizon at 1.43588989",
             "orbit",
             "--spin",
             "0.9",

@@ -87,7 +87,7 @@ class LightCurve(Case):
         self.bad(2, "areas of the others are not to scale", "light-curve", "--preset", "photon-rings", "--end", "1")
         self.bad(
             2,
-            "spots.1.r is 2 M, allowed is at least",
+            "spots.1.r is 2 M; it must be at least",
             "light-curve",
             "--set",
             "spot2.brightness=1",

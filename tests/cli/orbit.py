@@ -54,7 +54,7 @@ class Orbit(Case):
         ]:
             self.bad(2, f"(at {pointer})", "orbit", "--p", "8", "--e", "0.5", option, value)
         for e, words in [
-            ("1", "e is 1, allowed are 0 up to, not including, 1"),
+            ("1", "e is 1; it must be 0 up to, not including, 1"),
             ("-1", "not including"),
             ("half", "a number is wanted"),
         ]:

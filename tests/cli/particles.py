@@ -66,14 +66,14 @@ class Particles(Case):
     def test_refused(self):
         self.bad(
             2,
-            'disk.model is "novikov-thorne", allowed for a list of particles is "particles" (at /disk/model)',
+            'disk.model is "novikov-thorne"; for a list of particles it must be "particles" (at /disk/model)',
             "particles",
             "-o",
             self.path("b.npy"),
         )
         self.bad(
             2,
-            "stride is 0, allowed are whole numbers from 1 to 150000",
+            "stride is 0; it must be a whole number from 1 to 150000",
             "particles",
             *SCENE,
             "--stride",

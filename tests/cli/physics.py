@@ -49,7 +49,7 @@ class Physics(Case):
         self.bad(2, "heard are 20 to 20000 Hz", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
         self.bad(
             2,
-            "spin is a range of 3 values, allowed in a sound is one",
+            "spin is a range of 3 values; in a sound it must be one",
             "physics",
             "qnm",
             "--spin",
@@ -57,7 +57,7 @@ class Physics(Case):
             "-o",
             path,
         )
-        self.bad(2, 'format is "wav", allowed for kerr', "physics", "kerr", "-o", path)
+        self.bad(2, 'format is "wav", and for kerr must be', "physics", "kerr", "-o", path)
 
     def test_forms(self):
         options = ["physics", "disk-flux", "--mass-msun", "10", "--r", "5:25:5"]

@@ -124,7 +124,7 @@ class Pictures(Case):
         self.assertEqual(again, self.read("a.png"))
         self.bad(
             2,
-            'sky.image is "orion", and there is no such asset here; allowed are null and names of --asset NAME=FILE',
+            'sky.image is "orion", and there is no such asset here; it must be null and names of --asset NAME=FILE',
             "render",
             *named,
             "-o",
@@ -212,7 +212,7 @@ class Pictures(Case):
         self.assertIn(b'"layers":["r"]', text(self.read("a.png"))[b"kerrd:scene"])
         self.bad(
             2,
-            "image.layers holds 2, allowed in a file of the format png is one",
+            "image.layers holds 2; in a file of the format png it must be one",
             "render",
             *SMALL,
             "--set",

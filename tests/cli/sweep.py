@@ -408,7 +408,7 @@ class Sweep(support.Case):
             ("--axis is missing", *out),
             ("-o FILE is missing", "-x", "time=0,1"),
             ("the name must end in", "-x", "time=0,1", "-o", "a.png"),
-            ("spacetime.spin is 2, allowed", "-x", "spacetime.spin=0,2", *out),
+            ("spacetime.spin is 2; it must be", "-x", "spacetime.spin=0,2", *out),
             ("no cube has pictures of several sizes", "-x", "image.width=32,64", *out),
             (
                 "with spacetime.spin 0 and disk.inner 2: disk.inner is 2 M",

@@ -52,7 +52,7 @@ def of_an_axis(label, problem):
         label in ("POST /v1/jobs", "POST /v1/plan")
         and name
         and re.match(
-            r"(axes/)?%s(/\d+)? (is|holds) .*, allowed (is|are) " % re.escape(name[1]), problem["detail"], re.DOTALL
+            r"(axes/)?%s(/\d+)? (is|holds) .*[;,:] .*must (be|have) " % re.escape(name[1]), problem["detail"], re.DOTALL
         )
     )
 

@@ -214,17 +214,17 @@ static void test_refused(void **state)
     static const struct {
         const char *name, *text, *pointer, *fragment;
     } bad[] = {
-        { "stride", "0", "/stride", "stride is 0, allowed are whole numbers from 1 to 30000" },
+        { "stride", "0", "/stride", "stride is 0; it must be a whole number from 1 to 30000" },
         { "stride", "30001", "/stride", "30000" },
         { "first", "30000", "/first", "from 0 to 29999" },
         { "first", "-1", "/first", "-1" },
         { "count", "1.5", "/count", "count is 1.5" },
         { "count", "", "/count", "count is " },
         { "count", "nan", "/count", "count is nan" },
-        { "time", "1e13", "/time", "time is 1e13, allowed are -1e12 to 1e12 M" },
+        { "time", "1e13", "/time", "time is 1e13; it must be -1e12 to 1e12 M" },
         { "time", "soon", "/time", "time is soon" },
         { "fields", "x,mass", "/fields",
-          "fields is \"x,mass\", allowed are, each once and with commas between, x,y,z,r,phi" },
+          "fields is \"x,mass\"; it must hold some of these, each once, with commas between: x,y,z,r,phi" },
         { "fields", "x,y,x", "/fields", "each once" },
         { "fields", "", "/fields", "each once" },
         { "fields", "x,", "/fields", "each once" },
@@ -244,10 +244,10 @@ static void test_refused(void **state)
     set(&list, "stride", "3");
     set(&list, "count", "10001");
     assert_int_equal(kd_particle_list_settle(&list, 0, &why), KD_EINVAL);
-    assert_non_null(strstr(why.message, "count is 10001, allowed are 1 to 10000"));
+    assert_non_null(strstr(why.message, "count is 10001; it must be 1 to 10000"));
     set(&list, "count", "10000");
     assert_int_equal(kd_particle_list_settle(&list, 12 * 9999, &why), KD_EINVAL);
-    assert_non_null(strstr(why.message, "count is 10000 with 12 bytes a particle, allowed are 1 to 9999"));
+    assert_non_null(strstr(why.message, "count is 10000 with 12 bytes a particle; it must be 1 to 9999"));
     OK(kd_particle_list_settle(&list, 12 * 10000, &error));
     scene.disk.model = KD_DISK_NONE;
     assert_int_equal(kd_particle_list_init(&list, &scene, &why), KD_EINVAL);

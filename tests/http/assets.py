@@ -233,7 +233,7 @@ class Assets(Case):
             self.assertProblem(self.daemon.post("/v1/plan", scene), 422, pointer="/volume/grid")["detail"],
         )
         self.assertIn(
-            "allowed is a picture of the whole sky",
+            "it must be a picture of the whole sky",
             self.assertProblem(
                 self.daemon.post("/v1/plan", {"sky": {"model": "image", "image": asset["sha256"]}}),
                 422,
@@ -243,7 +243,7 @@ class Assets(Case):
         picture = self.made(png(64, 32))
         scene["volume"]["grid"] = picture["sha256"]
         self.assertIn(
-            "allowed is a grid of matter",
+            "it must be a grid of matter",
             self.assertProblem(self.daemon.post("/v1/plan", scene), 422, pointer="/volume/grid")["detail"],
         )
         self.delete(picture)
@@ -578,7 +578,7 @@ class Scenes(Case):
             for answer, at in self.answers(image):
                 problem = self.assertProblem(answer, 422, pointer=at)
                 self.assertIn(
-                    f'sky.image is "{image}", and there is no such asset here; allowed are null and the SHA-256 of an asset that PUT /v1/assets has taken',
+                    f'sky.image is "{image}", and there is no such asset here; it must be null and the SHA-256 of an asset that PUT /v1/assets has taken',
                     problem["detail"],
                 )
 
@@ -587,7 +587,7 @@ class Scenes(Case):
         for answer, at in self.answers(asset["sha256"]):
             problem = self.assertProblem(answer, 422, pointer=at)
             self.assertIn(
-                "sky.image is a picture of 64 x 36 pixels, allowed is one of the whole sky: twice as wide as it is high, of 16 to 4096 rows",
+                "sky.image is a picture of 64 x 36 pixels; it must be one of the whole sky: twice as wide as it is high, of 16 to 4096 rows",
                 problem["detail"],
             )
         self.delete(asset)

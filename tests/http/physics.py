@@ -215,7 +215,7 @@ class Physics(daemon.Case):
             self.daemon.get("/v1/physics/qnm?stretch=1e5&format=wav"), 422, "invalid-parameters"
         )
         self.assertEqual(problem["pointer"], "/stretch")
-        most = re.search("allowed for this one is 1 to ([0-9]*)", problem["detail"])[1]
+        most = re.search("it must be 1 to ([0-9]*)", problem["detail"])[1]
         self.assertLess(len(self.sound(f"?stretch={most}&format=wav")) / 48000, 60)
         self.assertProblem(
             self.daemon.get(f"/v1/physics/qnm?stretch={1.001 * float(most)}&format=wav"), 422, "invalid-parameters"
@@ -632,7 +632,7 @@ class Integrals(daemon.Case):
 
     def test_refused(self):
         for document, pointer, words in (
-            ({"spin": 1}, "/spin", "spin is 1, allowed are numbers above -1 and below 1"),
+            ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
             ({"inclination_deg": 90}, "/inclination_deg", "edge on"),
             ({"inner": 3}, "/inner", "within the ISCO"),
             ({"inner": "horizon"}, "/inner", '"isco"'),

@@ -289,7 +289,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.strike(session, "").json()["scene"]["style"]["ringdown"], 0.25)
         revision = self.status(session)["revision"]
         for body, status, pointer, word in (
-            ('{"amplitude": 1.01}', 422, "/amplitude", "amplitude is 1.01, allowed are 0 to 1"),
+            ('{"amplitude": 1.01}', 422, "/amplitude", "amplitude is 1.01; it must be 0 to 1"),
             ('{"amplitude": -1}', 422, "/amplitude", "0 to 1"),
             ('{"amplitude": "1"}', 422, "/amplitude", '"1"'),
             ('{"amplitude": 1e999}', 422, "/amplitude", "0 to 1"),
@@ -319,7 +319,7 @@ class Sessions(daemon.Owned):
             self.patch(session, {"motion": {"time_rate": rate}})
             problem = self.assertProblem(self.strike(session), 409, "conflict")
             self.assertEqual(problem["pointer"], "/motion/time_rate")
-            self.assertIn(f"motion.time_rate is {rate}, allowed", problem["detail"])
+            self.assertIn(f"motion.time_rate is {rate}; for a hole to be struck it must be", problem["detail"])
         self.patch(session, {"motion": {"time_rate": 1}, "style": None, "spacetime": {"spin": 0.99999}})
         self.assertEqual(self.assertProblem(self.strike(session), 422, "invalid-scene")["pointer"], "/style/ringdown")
 
@@ -353,7 +353,7 @@ class Sessions(daemon.Owned):
     def test_particles_refused(self):
         session = self.open({**SCENE, "disk": {"model": "particles", "particles": 5000}})
         for query, pointer, word in (
-            ("stride=0", "/stride", "stride is 0, allowed are whole numbers from 1 to 5000"),
+            ("stride=0", "/stride", "stride is 0; it must be a whole number from 1 to 5000"),
             ("count=5001", "/count", "5000"),
             ("count=2501&stride=2", "/count", "1 to 2500"),
             ("first=5000", "/first", "0 to 4999"),
@@ -373,7 +373,7 @@ class Sessions(daemon.Owned):
         problem = self.assertProblem(
             self.daemon.get(self.at(session, "/particles?fields=x,y,z,energy")), 422, "invalid-parameters"
         )
-        self.assertIn("count is 10000000 with 16 bytes a particle, allowed are 1 to 8388608", problem["detail"])
+        self.assertIn("count is 10000000 with 16 bytes a particle; it must be 1 to 8388608", problem["detail"])
         head = self.daemon.request("HEAD", self.at(session, "/particles"))  # all of them, in x, y and z
         self.assertEqual(
             (head.status, head.header("Kerrd-Count"), head.header("Kerrd-Fields"), head.body),
@@ -383,7 +383,7 @@ class Sessions(daemon.Owned):
         problem = self.assertProblem(self.daemon.get(self.at(session, "/particles")), 409, "conflict")
         self.assertEqual(problem["pointer"], "/disk/model")
         self.assertIn(
-            'disk.model is "novikov-thorne", allowed for a list of particles is "particles"', problem["detail"]
+            'disk.model is "novikov-thorne"; for a list of particles it must be "particles"', problem["detail"]
         )
         self.assertProblem(self.daemon.get("/v1/sessions/0123456789abcdef/particles"), 404, "not-found")
         self.assertProblem(self.daemon.post(self.at(session, "/particles"), {}), 405)

@@ -235,7 +235,7 @@ class Plans(Case):
         self.assertIn("scene 1", too_large["detail"])
         self.assertProblem(self.daemon.post("/v1/plan", '{"axes":{"time":[0]}'), 400, "malformed-json")
         scene = self.assertProblem(self.daemon.post("/v1/plan", "{}" + " " * (2 << 20)), 400, "malformed-json")
-        self.assertIn("allowed are 1048576", scene["detail"])
+        self.assertIn("it must have at most 1048576", scene["detail"])
         for body, pointer in (({"disk": {"axes": [0]}}, "/disk/axes"), ({"sky": {"model": "axes"}}, "/sky/model")):
             self.assertProblem(self.daemon.post("/v1/plan", body), 422, "invalid-scene", pointer)
 

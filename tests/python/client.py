@@ -101,7 +101,7 @@ class Said(Case):
                 lambda: self.hole.render({"spots": []}, **{"spots.x.r": 1}),
             ),
             (
-                "spots.1.r: 1 is no place in a list of 1, allowed are 0 to 0",
+                "spots.1.r: 1 is no place in a list of 1; it must be 0 to 0",
                 KeyError,
                 lambda: self.hole.render({"spots": [{}]}, **{"spots.1.r": 1}),
             ),
@@ -208,7 +208,7 @@ class Blocking(Case):
             self.hole.render(image={"width": -4})
         problem = caught.exception
         self.assertEqual((problem.status, problem.pointer), (422, "/image/width"))
-        self.assertEqual(problem.allowed, "whole numbers from 1 to 32768 pixels")
+        self.assertEqual(problem.allowed, "a whole number from 1 to 32768 pixels")
         self.assertIn("-4", str(problem))
         again = pickle.loads(pickle.dumps(problem))
         self.assertEqual((again.status, again.pointer, str(again)), (422, "/image/width", str(problem)))

@@ -309,7 +309,7 @@ class Notebook(unittest.TestCase):
         number = self.page.locator('.kerrd input[type=number][data-path="spacetime.spin"]').first
         number.fill("7")
         number.press("Enter")
-        self.page.get_by_text("spacetime.spin is 7, allowed are").first.wait_for()
+        self.page.get_by_text("spacetime.spin is 7; it must be").first.wait_for()
         self.assertEqual((self.where()[3], self.box("spacetime.spin")), (0.9, 0.9))
         self.page.screenshot(path=SHOTS / "refused.png")
         number.fill("0.75")

@@ -126,7 +126,7 @@ static void what_cannot_be(void **state)
     refuse(wish, true, "/accuracy/steps", "takes no steps");
     wish.engine = KD_ENGINE_MINO_RKN6;
     wish.steps = 6;
-    refuse(wish, true, "/accuracy/steps", "multiples of 4");
+    refuse(wish, true, "/accuracy/steps", "a multiple of 4");
     wish.steps = 8;
     wish.precision = KD_PRECISION_F64;
     refuse(wish, false, "/accuracy/precision", "f64");

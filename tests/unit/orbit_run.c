@@ -70,7 +70,7 @@ static void refusals(void **state)
         { "{\"spin\":1,\"orbit\":{\"p\":9,\"e\":0}}", "/spin", "below 1" },
         { "{\"spin\":1.5,\"orbit\":{\"p\":9,\"e\":0}}", "/spin", "below 1" },
         { "{\"orbit\":{\"energy\":0.9,\"angular_momentum\":4,\"r\":1.5}}", "/orbit/r", "horizon" },
-        { "{\"orbit\":{\"energy\":0.9,\"angular_momentum\":4,\"carter\":-1}}", "/orbit/carter", "0 and above" },
+        { "{\"orbit\":{\"energy\":0.9,\"angular_momentum\":4,\"carter\":-1}}", "/orbit/carter", "0 or more" },
         { "{\"orbit\":{\"energy\":0.95,\"angular_momentum\":4,\"r\":1000}}", "/orbit/r", "cannot be" },
         { "{\"orbit\":{\"position\":{\"r\":1.5}}}", "/orbit/position/r", "horizon" },
         { "{\"orbit\":{\"position\":{\"r\":5},\"velocity\":{\"v_r\":0.9,\"v_phi\":0.9}}}", "/orbit/velocity", "light" },

@@ -166,7 +166,7 @@ static void bad_requests(void **state)
         { "a/b~", "1", "/a~1b~0", "a/b~" },
         { "digits", "0", "/digits", "1 to 17" },
         { "digits", "2.5", "/digits", "\"2.5\"" },
-        { "digits", "2:6:3", "/digits", "whole numbers" },
+        { "digits", "2:6:3", "/digits", "a whole number" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_quantity_request request, before;

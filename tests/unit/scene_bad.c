@@ -93,9 +93,9 @@ static const struct bad syntax[] = {
 
 static const struct bad fields[] = {
     { "[]", "", "the document is an array" },
-    { "1", "", "the document is 1," },
+    { "1", "", "the document is 1; it" },
     { "null", "", "the document is null" },
-    { "{\"version\":2}", "/version", "version is 2, allowed is 1" },
+    { "{\"version\":2}", "/version", "version is 2; it must be 1" },
     { "{\"version\":\"1\"}", "/version", "version is \"1\"" },
     { "{\"version\":1.5}", "/version", "version is 1.5" },
     { "{\"version\":null}", "/version", "version is null" },
@@ -104,8 +104,8 @@ static const struct bad fields[] = {
     { "{\"camera\":{},\"disk\":{},\"camera\":{}}", "/camera", "camera is given twice" },
     { "{\"camera\":{\"r\":9,\"r\":9}}", "/camera/r", "camera.r is given twice" },
     { "{\"camera\":{\"r\":9,\"\\u0072\":9}}", "/camera/r", "camera.r is given twice" },
-    { "{\"camera\":{\"r\":9},\"disk\":{\"outer\":0}}", "/disk/outer", "disk.outer is 0, allowed are 1 to 1000000 M" },
-    { "{\"camera\":5}", "/camera", "camera is 5, allowed is an object" },
+    { "{\"camera\":{\"r\":9},\"disk\":{\"outer\":0}}", "/disk/outer", "disk.outer is 0; it must be 1 to 1000000 M" },
+    { "{\"camera\":5}", "/camera", "camera is 5; it must be an object" },
     { "{\"camera\":null}", "/camera", "camera is null" },
     { "{\"camera\":[]}", "/camera", "camera is an array" },
     { "{\"camera\":\"r\"}", "/camera", "camera is \"r\"" },
@@ -120,31 +120,31 @@ static const struct bad fields[] = {
     { "{\"a/b~c\":1}", "/a~1b~0c", "unknown field a/b~c" },
     { "{\"\\u001b[31m\":1}", "/\x1b[31m", "unknown field ?[31m" },
     { "{\"spacetime\":{\"spin\":1.0000001}}", "/spacetime/spin",
-      "spacetime.spin is 1.0000001, allowed are -0.999999999999 to 0.999999999999 M" },
+      "spacetime.spin is 1.0000001; it must be -0.999999999999 to 0.999999999999 M" },
     { "{\"spacetime\":{\"spin\":\"0.9\"}}", "/spacetime/spin",
-      "spacetime.spin is \"0.9\", a string where a number is wanted, allowed" },
+      "spacetime.spin is \"0.9\", a string where a number is wanted; it must be" },
     { "{\"spacetime\":{\"spin\":true}}", "/spacetime/spin", "spacetime.spin is true where a number is wanted" },
     { "{\"spacetime\":{\"spin\":null}}", "/spacetime/spin", "spacetime.spin is null" },
     { "{\"spacetime\":{\"mass_msun\":1e999}}", "/spacetime/mass_msun", "is a number beyond 1e308" },
-    { "{\"camera\":{\"r\":1e999}}", "/camera/r", "beyond 1e308, allowed are 0.01 to 10000000 M, and \"infinity\"" },
-    { "{\"camera\":{\"r\":\"Infinity\"}}", "/camera/r", "camera.r is \"Infinity\", allowed are" },
+    { "{\"camera\":{\"r\":1e999}}", "/camera/r", "beyond 1e308; it must be 0.01 to 10000000 M, or \"infinity\"" },
+    { "{\"camera\":{\"r\":\"Infinity\"}}", "/camera/r", "camera.r is \"Infinity\"; it must be" },
     { "{\"camera\":{\"r\":\"50\"}}", "/camera/r", "camera.r is \"50\", a string where a number is wanted" },
     { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer",
-      "allowed are \"static\", \"zamo\", \"keplerian\", \"retrograde\", \"infall\" and \"velocity\"" },
+      "it must be \"static\", \"zamo\", \"keplerian\", \"retrograde\", \"infall\" or \"velocity\"" },
     { "{\"image\":{\"width\":0}}", "/image/width",
-      "image.width is 0, allowed are whole numbers from 1 to 32768 pixels" },
+      "image.width is 0; it must be a whole number from 1 to 32768 pixels" },
     { "{\"image\":{\"width\":1e9}}", "/image/width", "image.width is 1000000000" },
     { "{\"image\":{\"width\":12.5}}", "/image/width", "image.width is 12.5" },
-    { "{\"style\":{\"ringdown\":1.5}}", "/style/ringdown", "style.ringdown is 1.5, allowed are 0 to 1" },
+    { "{\"style\":{\"ringdown\":1.5}}", "/style/ringdown", "style.ringdown is 1.5; it must be 0 to 1" },
     { "{\"style\":{\"ringdown\":true}}", "/style/ringdown", "style.ringdown is true" },
-    { "{\"style\":{\"ringdown_time\":1e13}}", "/style/ringdown_time", "allowed are -1000000000000 to 1000000000000 M" },
-    { "{\"spots\":5}", "/spots", "spots is 5, allowed is an array of up to 16 objects with fields" },
-    { "{\"spots\":null}", "/spots", "spots is null, allowed is an array" },
-    { "{\"spots\":[5]}", "/spots/0", "spots.0 is 5, allowed is an object with fields" },
-    { "{\"spots\":[{},null]}", "/spots/1", "spots.1 is null, allowed is an object with fields" },
+    { "{\"style\":{\"ringdown_time\":1e13}}", "/style/ringdown_time", "it must be -1000000000000 to 1000000000000 M" },
+    { "{\"spots\":5}", "/spots", "spots is 5; it must be an array of up to 16 objects with fields" },
+    { "{\"spots\":null}", "/spots", "spots is null; it must be an array" },
+    { "{\"spots\":[5]}", "/spots/0", "spots.0 is 5; it must be an object with fields" },
+    { "{\"spots\":[{},null]}", "/spots/1", "spots.1 is null; it must be an object with fields" },
     { "{\"spots\":[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]}", "/spots/16",
-      "spots has 17 elements, allowed are at most 16" },
-    { "{\"spots\":[{},{},{},{\"r\":0.5}]}", "/spots/3/r", "spots.3.r is 0.5, allowed are 1 to 1000000 M" },
+      "spots has 17 elements; it must have at most 16" },
+    { "{\"spots\":[{},{},{},{\"r\":0.5}]}", "/spots/3/r", "spots.3.r is 0.5; it must be 1 to 1000000 M" },
     { "{\"spots\":[{},{\"r\":2,\"r\":2}]}", "/spots/1/r", "spots.1.r is given twice" },
     { "{\"spots\":[{},{\"q\":2}]}", "/spots/1/q", "unknown field spots.1.q" },
     { "{\"spots\":[{},{\"brightnes\":2}]}", "/spots/1/brightnes", "did you mean spots.1.brightness?" },
@@ -156,15 +156,15 @@ static const struct bad fields[] = {
       "there is no spots.3: the list has 2 elements, and the next free index is 2" },
     { "{\"spots\":{\"16\":{}}}", "/spots/16", "there is no spots.16" },
     { "{\"spots\":{\"01\":{}}}", "/spots/01", "there is no spots.01" },
-    { "{\"spots\":{\"0\":null}}", "/spots/0", "spots.0 is null, allowed is an object with fields" },
+    { "{\"spots\":{\"0\":null}}", "/spots/0", "spots.0 is null; it must be an object with fields" },
     { "{\"spot1\":null}", "/spots/0", "spots.0 is null" },
-    { "{\"spot2\":{\"r\":0}}", "/spots/1/r", "spots.1.r is 0, allowed are 1 to 1000000 M" },
+    { "{\"spot2\":{\"r\":0}}", "/spots/1/r", "spots.1.r is 0; it must be 1 to 1000000 M" },
     { "{\"spot2\":{},\"spot2\":{}}", "/spot2", "spot2 is given twice" },
     { "{\"spots\":[],\"spot2\":{}}", "/spot2",
-      "spot2 is an old name of spots.1, and spots is given too; allowed is one of them" },
+      "spot2 is an old name of spots.1, and spots is given too; only one of them may be given" },
     { "{\"spot2\":{},\"spots\":{\"0\":{}}}", "/spot2", "spot2 is an old name of spots.1" },
     { "{\"spot4\":{}}", "/spot4", "did you mean spots?" },
-    { "{\"style\":{\"dither\":1}}", "/style/dither", "style.dither is 1, allowed are true and false" },
+    { "{\"style\":{\"dither\":1}}", "/style/dither", "style.dither is 1; it must be true or false" },
 };
 
 static void syntax_is_strict(void **state)
@@ -213,8 +213,8 @@ static void bombs_are_refused(void **state)
     struct kd_scene scene;
     kd_scene_defaults(&scene);
     assert_int_equal(kd_scene_from_json(&scene, text, size, NULL), KD_OK);
-    expect_refused(text, size + 1, "", "the document has 1048577 bytes, allowed are 1048576");
-    expect_refused(text, 2 * size, "", "allowed are 1048576");
+    expect_refused(text, size + 1, "", "the document has 1048577 bytes; it must have at most 1048576");
+    expect_refused(text, 2 * size, "", "it must have at most 1048576");
     free(text);
 }
 
@@ -286,7 +286,7 @@ static void long_names_are_cut(void **state)
         strcat(text, "\xe2\x82\xac");
     strcat(text, "\"}}");
     assert_int_equal(support_parse(&scene, text, &error), KD_EINVAL);
-    assert_non_null(strstr(error.message, "\xe2\x82\xac...\", allowed are"));
+    assert_non_null(strstr(error.message, "\xe2\x82\xac...\"; it must be"));
 }
 
 static size_t mutate(char *text, size_t length, size_t capacity, uint64_t *seed)

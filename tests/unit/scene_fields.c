@@ -30,7 +30,7 @@ static void expect(const struct kd_field *field, const char *json, const char *t
             assert_int_equal(status, KD_EINVAL);
             assert_string_equal(error.pointer, pointer);
             assert_non_null(strstr(error.message, path));
-            assert_non_null(strstr(error.message, "allowed are"));
+            assert_non_null(strstr(error.message, "it must be"));
             if (*field->unit && strcmp(field->unit, "1"))
                 assert_non_null(strstr(error.message, field->unit));
             assert_memory_equal(scene, &before, sizeof before);

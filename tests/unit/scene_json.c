@@ -285,7 +285,7 @@ static void sections_stand_in_sections(void **state)
     } bad[] = {
         { "{\"gas\":{}}", "/gas", "did you mean disk.gas?" },
         { "{\"disk.gas\":{}}", "/disk.gas", "unknown field disk.gas" },
-        { "{\"disk\":{\"gas\":3}}", "/disk/gas", "disk.gas is 3, allowed is an object" },
+        { "{\"disk\":{\"gas\":3}}", "/disk/gas", "disk.gas is 3; it must be an object" },
         { "{\"disk\":{\"gas\":{\"sed\":3}}}", "/disk/gas/sed", "did you mean disk.gas.seed?" },
         { "{\"disk\":{\"gas\":{\"seed\":0.5}}}", "/disk/gas/seed", "disk.gas.seed is 0.5" },
         { "{\"disk\":{\"gas\":{},\"gas\":{}}}", "/disk/gas", "disk.gas is given twice" },
@@ -348,11 +348,11 @@ static void a_field_in_microarcseconds(void **state)
     patched(&scene, "{\"camera\":{\"field_uas\":1e10}}");
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/camera/field_uas");
-    assert_non_null(strstr(error.message, "camera.field_uas is 10000000000 microarcseconds, allowed are "));
+    assert_non_null(strstr(error.message, "camera.field_uas is 10000000000 microarcseconds; it must be "));
     assert_non_null(strstr(error.message, "camera.field_m 1e-6 to 10000000, at this spacetime.mass_msun"));
     assert_int_equal(support_parse(&scene, "{\"camera\":{\"field_uas\":0}}", &error), KD_EINVAL);
-    assert_non_null(strstr(error.message, "camera.field_uas is 0, allowed are 1e-12 to 1000000000000 "
-                                          "microarcseconds, and \"none\""));
+    assert_non_null(strstr(error.message, "camera.field_uas is 0; it must be 1e-12 to 1000000000000 "
+                                          "microarcseconds, or \"none\""));
 }
 
 static void canonical_form_is_stable(void **state)

@@ -151,7 +151,7 @@ static void assets_are_resolved(void **state)
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/0/texture");
     assert_string_equal(error.message,
-                        "bodies.0.texture is \"ground\", and there is no such asset here; allowed are null and sky");
+                        "bodies.0.texture is \"ground\", and there is no such asset here; it must be null and sky");
     assert_memory_equal(&scene, &same, sizeof scene);
     assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "", &error), KD_OK); /* none */
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
@@ -257,7 +257,7 @@ static void assets_have_names(void **state)
             continue;
         assert_string_equal(error.pointer, "/stops/0/sound");
         assert_non_null(strstr(
-            error.message, "allowed are null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter"));
+            error.message, "it must be null, the SHA-256 of an asset as 64 hexadecimal digits, or a name: a letter"));
     }
 }
 

@@ -119,7 +119,7 @@ static void bad_files(void **state)
     struct kd_buffer square = file(32, 32, 8, pixels, NULL, 0), flat = file(14, 7, 8, pixels, NULL, 0),
                      off = file(33, 16, 8, pixels, NULL, 0), good = file(64, 32, 8, pixels, NULL, 0);
     refuse(square.data, square.size,
-           "a picture of 32 x 32 pixels; allowed is one of the whole sky, twice as wide as it is high, of 16 to 4096 "
+           "a picture of 32 x 32 pixels; it must be one of the whole sky, twice as wide as it is high, of 16 to 4096 "
            "rows");
     refuse(flat.data, flat.size, "14 x 7 pixels");
     refuse(off.data, off.size, "33 x 16 pixels");

@@ -135,11 +135,11 @@ static void what_is_no_path_is_refused(void **state)
         const char *scene, *keys, *pointer, *says;
     } wrong[] = {
         { "{}", "[{\"at\":1,\"proper_time\":1}]", "/keyframes/0/proper_time",
-          "is 1, allowed is 0 unless camera.observer stays" },
+          "is 1; it must be 0 unless camera.observer stays" },
         { "{\"camera\":{\"r\":9}}", "[{\"at\":1,\"proper_time\":\"end\"}]", "/keyframes/0/proper_time",
           "of an observer that falls" },
         { RAIN, "[{\"at\":1,\"proper_time\":\"soon\"}]", "/keyframes/0/proper_time", "\"horizon\" or \"end\"" },
-        { RAIN, "[{\"at\":1,\"proper_time\":-1}]", "/keyframes/0/proper_time", "is -1, allowed is 0 to" },
+        { RAIN, "[{\"at\":1,\"proper_time\":-1}]", "/keyframes/0/proper_time", "is -1; it must be 0 to" },
         { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":1}},\"proper_time\":\"horizon\"}]", "/keyframes/0/proper_time",
           "from further out" },
         { RAIN, "[{\"at\":1,\"scene\":{\"motion\":{\"proper_time_rate\":1}},\"proper_time\":1}]",
@@ -151,7 +151,7 @@ static void what_is_no_path_is_refused(void **state)
         { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame",
           "known are at, scene, proper_time, ease, look_at" },
         { RAIN, "[{\"at\":1}]", "/keyframes/0", "a scene, a proper_time or a look_at" },
-        { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":0}}}]", "/keyframes/0/scene/camera/r", "allowed" },
+        { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":0}}}]", "/keyframes/0/scene/camera/r", "it must be" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct kd_timeline t = { 0 };

@@ -115,9 +115,9 @@ class Pages(Browser):
             self.assertEqual(answer.status, 422)
             detail = answer.json()["detail"]
             told = page.evaluate('async detail => (await import("./web/it.js")).refusal(detail)', detail)
-            self.assertNotRegex(told or "allowed", r"allowed|\{|undefined| is | of |degrees|masses", detail)
+            self.assertNotRegex(told or "must", r"must|\{|undefined| is | of |degrees|masses", detail)
         self.assertEqual(
-            page.evaluate('async () => (await import("./web/it.js")).refusal("what is this, allowed are none")'), None
+            page.evaluate('async () => (await import("./web/it.js")).refusal("what is this; it must be none")'), None
         )
 
     def test_what_shines_is_told_in_italian(self):

@@ -41,7 +41,7 @@ uint32_t kd_engine_most_steps(enum kd_engine engine)
 enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, struct kd_error *error)
 {
     return kd_error_field(error, "/accuracy/steps",
-                          "steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for the engine's default",
+                          "steps is %u, and for %s must be a multiple of 4 up to %u, or 0 for the engine's default",
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
@@ -63,7 +63,7 @@ static enum kd_status by_tolerance(const struct kd_wish *wish, const struct kd_a
     struct kd_accuracy_choice choice;
     if (wish->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "steps is %u beside a tolerance, which chooses them: allowed is 0", wish->steps);
+                              "steps is %u beside a tolerance, which chooses them: it must be 0", wish->steps);
     if (wish->engine == KD_ENGINE_CLOSED)
         return kd_error_field(
             error, "/accuracy/tolerance",
@@ -109,11 +109,11 @@ enum kd_status kd_setting_of(const struct kd_wish *wish, const struct kd_accurac
         *out = by_profile(wish, float64);
     if (!status && out->precision == KD_PRECISION_F64 && !float64 && out->engine != KD_ENGINE_CLOSED)
         return kd_error_field(error, "/accuracy/precision",
-                              "precision is f64, which this device has not: allowed are f32, and "
+                              "precision is f64, which this device has not: it must be f32, or "
                               "the engine \"closed\"");
     if (!status && out->engine == KD_ENGINE_CLOSED && wish->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "the closed engine takes no steps: allowed is 0, or another engine");
+                              "the closed engine takes no steps: steps must be 0, or the engine another one");
     if (!status && (wish->steps % 4 || wish->steps > kd_engine_most_steps(out->engine)))
         return kd_engine_steps_error(out->engine, wish->steps, error);
     return status;

@@ -53,7 +53,7 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
     const struct kd_accuracy_row *found = NULL, *best = NULL;
     if (!(tolerance > 0 && tolerance < 1))
         return kd_error_field(error, "/accuracy/tolerance",
-                              "tolerance is %.9g, allowed are numbers above 0 and below 1", tolerance);
+                              "tolerance is %.9g; it must be a number above 0 and below 1", tolerance);
     for (uint32_t i = 0; i < table->n; i++) {
         const struct kd_accuracy_row *row = &table->rows[i];
         if (!within(limits, row) || isinf(kd_accuracy_holds(row)))

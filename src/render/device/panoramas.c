@@ -13,7 +13,7 @@ static enum kd_status take(const struct kd_assets *assets, const char *hash, str
     if (assets && assets->take(assets->user, hash, out))
         return KD_OK;
     return kd_error_field(error, "/sky/image",
-                          "sky.image is \"%s\", and the bytes of this asset are not here; allowed are %s", hash,
+                          "sky.image is \"%s\", and the bytes of this asset are not here; it must be %s", hash,
                           assets ? assets->allowed : "none where there are no assets");
 }
 

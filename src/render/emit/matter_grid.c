@@ -65,7 +65,7 @@ static enum kd_status check_units(const cJSON *units, struct kd_error *error)
         if (!strcmp(is, unit))
             continue;
         snprintf(name, sizeof name, "header.units.%s", of);
-        snprintf(what, sizeof what, "%s%.60s%s, allowed is \"%s\"", *is ? "is \"" : "is missing", is, *is ? "\"" : "",
+        snprintf(what, sizeof what, "%s%.60s%s; it must be \"%s\"", *is ? "is \"" : "is missing", is, *is ? "\"" : "",
                  unit);
         return kd_matter_refuse(name, what, error);
     }
@@ -123,7 +123,7 @@ static enum kd_status check_even(const char *name, const struct kd_matter_array 
                      want = first + step * (double)i;
         if (value >= least && value <= most && fabs(at - want) <= EVEN * step)
             continue;
-        snprintf(what, sizeof what, "%zu is %.9g, allowed are numbers from %.4g to %.4g in even steps%s, here %.9g", i,
+        snprintf(what, sizeof what, "%zu is %.9g; it must be a number from %.4g to %.4g in even steps%s, here %.9g", i,
                  value, least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
         return kd_matter_refuse(name, what, error);
     }
@@ -212,8 +212,9 @@ static enum kd_status check_shape(const struct kd_matter_grid *g, const char *na
     char what[200];
     if ((flat || round) && a->shape[0] == g->rows && a->shape[1] == g->columns)
         return KD_OK;
-    snprintf(what, sizeof what, "has %zu numbers in %zu dimensions, allowed is the shape (%u, %u%s%.0u) of r, theta%s",
-             a->n, a->dimensions, g->rows, g->columns, g->layers > 1 ? ", " : "", g->layers > 1 ? g->layers : 0,
+    snprintf(what, sizeof what,
+             "has %zu numbers in %zu dimensions; it must have the shape (%u, %u%s%.0u) of r, theta%s", a->n,
+             a->dimensions, g->rows, g->columns, g->layers > 1 ? ", " : "", g->layers > 1 ? g->layers : 0,
              g->layers > 1 ? " and phi" : "");
     return kd_matter_refuse(name, what, error);
 }
@@ -227,7 +228,7 @@ static enum kd_status refuse_number(const struct kd_matter_grid *g, const char *
         snprintf(at, sizeof at, "%s[%zu, %zu, %zu]", name, row, column, layer);
     else
         snprintf(at, sizeof at, "%s[%zu, %zu]", name, row, column);
-    snprintf(what, sizeof what, "is %.9g, allowed %s", value, allowed);
+    snprintf(what, sizeof what, "is %.9g; it must be %s", value, allowed);
     return kd_matter_refuse(at, what, error);
 }
 
@@ -244,7 +245,7 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
         g->nodes[KD_MATTER_FLOATS * i + kind] = (float)value;
         return KD_OK;
     }
-    snprintf(allowed, sizeof allowed, "are %.4g to %.4g %s%s", kinds[kind].least, kinds[kind].most, kinds[kind].unit,
+    snprintf(allowed, sizeof allowed, "%.4g to %.4g %s%s", kinds[kind].least, kinds[kind].most, kinds[kind].unit,
              scale > 0   ? " over r"
              : scale < 0 ? " times r"
                          : "");

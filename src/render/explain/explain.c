@@ -258,7 +258,7 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
         kd_text_clip(shown, sizeof shown, text);
         return kd_error_field(
             error, "/at",
-            "at is \"%s\", allowed is X,Y: pixels from the upper left corner, below %u across and %u down", shown,
+            "at is \"%s\"; it must be X,Y: pixels from the upper left corner, below %u across and %u down", shown,
             width, plan->height);
     }
     kd_plan_follow_all(plan);
@@ -299,7 +299,7 @@ enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct k
     kd_text_clip(shown, sizeof shown, text);
     if (strcmp(text, "steps"))
         return kd_error_field(error, "/trace",
-                              "trace is \"%s\", allowed is \"steps\": those of the engine along the ray", shown);
+                              "trace is \"%s\"; it must be \"steps\": those of the engine along the ray", shown);
     plan->told.steps = true;
     return KD_OK;
 }

@@ -18,10 +18,10 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
 {
     if (plan->eyes == 2)
         return kd_error_field(error, "/camera/stereo",
-                              "camera.stereo is \"pair\", allowed with motion_blur is \"none\"");
+                              "camera.stereo is \"pair\"; with motion_blur it must be \"none\"");
     if (plan->cut.width)
         return kd_error_field(error, "/image/tile/width",
-                              "image.tile.width is %u, allowed with motion_blur is 0: the whole picture",
+                              "image.tile.width is %u; with motion_blur it must be 0: the whole picture",
                               plan->cut.width);
     if (plan->strips)
         return kd_error_set(error, KD_ETOOBIG,
@@ -31,7 +31,7 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
     if (!plan->picture || plan->n_layers)
         return kd_error_field(
             error, "/image/layers",
-            "image.layers names numbers, allowed with motion_blur is \"rgb\": only light has a mean that can be seen");
+            "image.layers names numbers; with motion_blur it must be \"rgb\": only light has a mean that can be seen");
     bring_light(plan);
     plan->blur.samples = samples;
     plan->blur.shutter = shutter;

@@ -66,8 +66,8 @@ done:
 static enum kd_status refuse(const struct search *s, const char *why, double jy)
 {
     return kd_error_field(s->error, "/volume/normalise_to_jy",
-                          "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are "
-                          "0, and what this matter shines with at some density",
+                          "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; it must be "
+                          "0, or what this matter shines with at some density",
                           s->target, why, jy);
 }
 

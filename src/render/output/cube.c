@@ -34,7 +34,7 @@ enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *erro
             if (kd_scene_same_path(sweep->axes[i].path, shapes[k])) {
                 snprintf(pointer, sizeof pointer, "/axes/%s", shapes[k]);
                 return kd_error_field(error, pointer,
-                                      "%s is an axis, and no cube has pictures of several sizes or layers; allowed are "
+                                      "%s is an axis, and no cube has pictures of several sizes or layers; they need "
                                       "files of their own, as "
                                       "\"pictures\" or \"fits\"",
                                       shapes[k]);
@@ -181,7 +181,7 @@ static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buf
             goto done;
     if (*there && texts->n == KD_CUBE_TEXTS)
         KD_TRY(kd_error_set(error, KD_ETOOBIG,
-                            "the scenes tell more than %d different texts in %.6s, allowed are as many", KD_CUBE_TEXTS,
+                            "the scenes tell more than %d different texts in %.6s: no more can be held", KD_CUBE_TEXTS,
                             key));
     char *copy = *there ? strdup((const char *)text.data) : NULL;
     if (*there && !copy)

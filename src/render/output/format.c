@@ -36,7 +36,7 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
         return KD_OK;
     return kd_error_field(
         error, "/image/layers",
-        "image.layers holds %d, allowed in a file of the format %s is one; fits, exr, npz and npy hold all",
+        "image.layers holds %d; in a file of the format %s it must hold one; fits, exr, npz and npy hold all",
         scene->image.layers.count, format->name);
 }
 

@@ -9,7 +9,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     const struct kd_frame *frame = picture->frame;
     (void)effort, (void)memory;
     if (kd_frame_bit_depth(frame) != 8)
-        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8",
+        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel; it must have 8",
                             kd_frame_bit_depth(frame));
     return kd_jpeg_encode(frame->width, frame->height, kd_frame_pixels(frame), picture->lossy, out, error);
 }

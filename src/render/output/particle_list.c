@@ -40,7 +40,7 @@ enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct
         return KD_OK;
     const struct kd_word word = kd_field_word(kd_field_find("disk", "model"), scene->disk.model);
     return kd_error_field(error, "/disk/model",
-                          "disk.model is \"%.*s\", allowed for a list of particles is \"particles\"", word.length,
+                          "disk.model is \"%.*s\"; for a list of particles it must be \"particles\"", word.length,
                           word.text);
 }
 
@@ -70,7 +70,8 @@ static enum kd_status set_fields(struct kd_particle_list *list, const char *text
             kd_particle_list_names(&every, all);
             kd_text_clip(name, sizeof name, text);
             return kd_error_field(error, "/fields",
-                                  "fields is \"%s\", allowed are, each once and with commas between, %s", name, all);
+                                  "fields is \"%s\"; it must hold some of these, each once, with commas between: %s",
+                                  name, all);
         }
         list->columns[list->n_columns++] = (enum kd_particle_column)k;
         at += n;
@@ -90,7 +91,7 @@ enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *n
         return set_fields(list, text, error);
     if (!strcmp(name, "time")) {
         if (!number(text, &value) || !(fabs(value) <= 1e12))
-            return kd_error_field(error, "/time", "time is %s, allowed are -1e12 to 1e12 M", given);
+            return kd_error_field(error, "/time", "time is %s; it must be -1e12 to 1e12 M", given);
         list->scene.top.time = value;
         return KD_OK;
     }
@@ -102,7 +103,7 @@ enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *n
     }
     if (!number(text, &value) || !(value >= least && value <= most) || value != floor(value))
         return kd_error_field(error, pointer,
-                              "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles", name,
+                              "%s is %s; it must be a whole number from %g to %.0f of the scene's %u particles", name,
                               given, least, most, list->grid.count);
     if (count)
         list->n = (size_t)value;
@@ -125,11 +126,11 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
     list->n = list->n ? list->n : there;
     if (list->n > there)
         return kd_error_field(error, "/count",
-                              "count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u", list->n,
+                              "count is %zu; it must be 1 to %zu: from the %u particles, first %u, stride %u", list->n,
                               there, list->grid.count, list->first, list->stride);
     if (most && list->n * row > most)
         return kd_error_field(error, "/count",
-                              "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or "
+                              "count is %zu with %zu bytes a particle; it must be 1 to %llu: the rest with first, or "
                               "fewer with stride",
                               list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);

@@ -50,7 +50,7 @@ static enum kd_status encode_live(const struct kd_frame *frame, void **memory, s
 {
     struct kd_png_live *live = *memory;
     if (kd_frame_bit_depth(frame) != 8)
-        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8",
+        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel; it must have 8",
                             kd_frame_bit_depth(frame));
     enum kd_status status = live ? KD_OK : kd_png_live_create(kd_deflate_fastest(), &live, error);
     if (status)

@@ -49,19 +49,19 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
                               "sky.model is not \"catalogue\": the stars of no other sky have names");
     if (scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", which has no stars to name: allowed are the others");
+                              "camera.projection is \"ring\", which has no stars to name: it must be another one");
     if (kd_scene_has_tile(scene))
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %d, allowed is 0 where stars are named: places are those of the whole picture",
+            "image.tile.width is %d; it must be 0 where stars are named: places are those of the whole picture",
             scene->tile.width);
     if (scene->camera.stereo == KD_STEREO_PAIR)
         return kd_error_field(error, "/camera/stereo",
-                              "camera.stereo is \"pair\", allowed is \"none\" where stars are named: places in a "
+                              "camera.stereo is \"pair\"; it must be \"none\" where stars are named: places in a "
                               "picture are those of one eye");
     if (scene->camera.stereo != KD_STEREO_NONE)
         return kd_error_field(error, "/camera/stereo",
-                              "camera.stereo is \"pair\", whose stars are not named: allowed is \"none\"");
+                              "camera.stereo is \"pair\", whose stars are not named: it must be \"none\"");
     scene->image.samples = 1;
     scene->image.critical_factor = 1;
     scene->image.layers = (struct kd_words) { 2, { { KD_LAYER_sky_theta, -1 }, { KD_LAYER_sky_phi, -1 } } };

@@ -86,36 +86,37 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     kd_layer_name(layer, name);
     if (layer.order >= scene->accuracy.orders)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s, allowed are image orders below accuracy.orders, %d", name,
+                              "image.layers holds %s; its image orders must be below accuracy.orders, %d", name,
                               scene->accuracy.orders);
     if ((kd_emit_along(scene) || kd_emit_met(scene)) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT &&
         layer.order >= 0)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s, allowed where there are volumes or bodies is %.*s: their light "
+                              "image.layers holds %s; where there it must be volumes or bodies is %.*s: their light "
                               "is between the crossings",
                               name, (int)strlen(kd_layer_kinds[layer.kind].name), name);
     if (kd_layer_is_polarized(layer.kind) && scene->polarization.model == KD_POLARIZATION_NONE)
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s with polarization.model \"none\", where no light is polarised: "
-                              "allowed are the other words of it",
+                              "it must be another",
                               name);
     if (layer.kind == KD_LAYER_stokes_v && scene->polarization.model != KD_POLARIZATION_TRANSFER)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds stokes_v, allowed with polarization.model \"transfer\": other light "
+                              "image.layers holds stokes_v, which needs polarization.model \"transfer\": other light "
                               "is not polarised circularly");
     if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
-        return kd_error_field(
-            error, "/image/layers",
-            "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others",
-            name);
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s with camera.projection \"ring\", where a picture has no up: it "
+                              "must hold other layers",
+                              name);
     if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity ||
          layer.kind == KD_LAYER_jy_per_pixel) &&
         !kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/image/layers",
-                              "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: "
-                              "volume.model \"gold\", \"riaf\", \"torus\" or \"grid\", "
-                              "disk.model and sky.model \"none\", no jets, spots or bodies",
-                              name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers holds %s, which needs a scene where nothing but a volume at a radio frequency shines: "
+            "volume.model \"gold\", \"riaf\", \"torus\" or \"grid\", "
+            "disk.model and sky.model \"none\", no jets, spots or bodies",
+            name);
     if (layer.kind == KD_LAYER_jy_per_pixel && !kd_layers_have_flux(scene))
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s, which must be of one picture from camera.r \"infinity\", not in "
@@ -125,12 +126,11 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s, which is of the place where a thin disk is crossed, with "
-                              "disk.height %.9g: allowed is 0",
+                              "disk.height %.9g: it must be 0",
                               name, scene->disk.height);
     if (kd_emit_along(scene) && layer.kind == KD_LAYER_optical_depth)
-        return kd_error_field(
-            error, "/image/layers",
-            "image.layers holds %s, which is that of one crossing, allowed where there are no volumes", name);
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s, which is that of one crossing: there must be no volumes", name);
     if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE && !kd_emit_met(scene))
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s with disk.model \"none\", where nothing has a temperature", name);
@@ -143,14 +143,14 @@ static enum kd_status check_scale(const struct kd_scene *scene, struct kd_plan_l
     bool one_above_zero = kd_layer_kinds[layer.kind].scale.logarithmic;
     if (isfinite(low) && isfinite(high) && low >= high)
         return kd_error_field(error, "/image/layer_min",
-                              "image.layer_min is %.9g, allowed is less than image.layer_max, %.9g", low, high);
+                              "image.layer_min is %.9g; it must be less than image.layer_max, %.9g", low, high);
     if (one_above_zero && isfinite(low) && low <= 0)
         return kd_error_field(error, "/image/layer_min",
-                              "image.layer_min is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
+                              "image.layer_min is %.9g; it must be more than 0: %s is shown on a logarithmic scale",
                               low, kd_layer_kinds[layer.kind].name);
     if (one_above_zero && isfinite(high) && high <= 0)
         return kd_error_field(error, "/image/layer_max",
-                              "image.layer_max is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
+                              "image.layer_max is %.9g; it must be more than 0: %s is shown on a logarithmic scale",
                               high, kd_layer_kinds[layer.kind].name);
     return KD_OK;
 }

@@ -42,7 +42,7 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     if (needs->light && needs->unseen)
         KD_TRY(kd_error_field(
             error, "/camera/stereo",
-            "camera.stereo is \"pair\", allowed is \"none\" where light is measured: there is one flux for each eye"));
+            "camera.stereo is \"pair\"; it must be \"none\" where light is measured: there is one flux for each eye"));
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);

@@ -226,9 +226,9 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
     if (outside(scene) || by->engine == KD_ENGINE_CLOSED)
         return KD_OK;
     return kd_error_field(error, "/accuracy/engine",
-                          "accuracy.engine is \"%s\" in %s, allowed inside the ergosphere, camera.r %.9g, are "
-                          "\"auto\", \"closed\" and the Mino "
-                          "engines in f32; or move the camera out of %.9g M",
+                          "accuracy.engine is \"%s\" in %s; inside the ergosphere, camera.r %.9g, it must be "
+                          "\"auto\", \"closed\" or a Mino engine "
+                          "in f32, or the camera outside %.9g M",
                           kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r,
                           ergosphere(scene));
 }
@@ -240,7 +240,7 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
 {
     if (wish->precision == KD_PRECISION_F32)
         return kd_error_field(error, "/accuracy/precision",
-                              "accuracy.precision is \"f32\", allowed in the ring projection are \"f64\" and \"auto\"");
+                              "accuracy.precision is \"f32\", and in the ring projection must be \"f64\" or \"auto\"");
     wish->precision = KD_PRECISION_F64;
     wish->profile = KD_PROFILE_REFERENCE;
     if (wish->engine < 0 && !wish->steps) {
@@ -271,15 +271,15 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
     struct kd_setting *by = &plan->setting;
     if (kd_emit_slow_along(scene))
         return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true, allowed within the horizon, camera.r %.9g, is false: no far "
+                              "disk.slow_light is true; within the horizon, camera.r %.9g, it must be false: no far "
                               "clock tells when light "
                               "of the gas arrives there",
                               scene->camera.r);
     if (plan->path != KD_LENS_MAP)
         return kd_error_field(
             error, "/accuracy/engine",
-            "accuracy.engine is \"%s\" in %s, allowed within the horizon, camera.r %.9g, are the Mino engines in "
-            "f32, and no delay of light",
+            "accuracy.engine is \"%s\" in %s; within the horizon, camera.r %.9g, it must be a Mino engine in "
+            "f32, without delay of light",
             kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);
     for (double quicker = (1 + 6 / scene->camera.r) / 4; quicker > 1.2 && !wish->steps && by->steps < 1024;
          quicker /= 4)
@@ -308,13 +308,13 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     if (plan->ring && by->precision == KD_PRECISION_F32)
         return kd_error_field(
             error, "/accuracy/tolerance",
-            "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
+            "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; it must be "
             "\"profile\"",
             wish.tolerance);
     if (closed32 && !closed_form)
         return kd_error_field(error, "/accuracy/precision",
                               "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of "
-                              "light, and knows no delay of light: allowed is f64",
+                              "light, and knows no delay of light: it must be f64",
                               beyond_orbits(scene));
     if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
         plan->path = KD_LENS_CLOSED;
@@ -339,7 +339,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
                               scene->camera.r);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene))
         return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false",
+                              "disk.slow_light is true; inside the ergosphere, camera.r %.9g, it must be false",
                               scene->camera.r);
     return map ? KD_OK : may_list(scene, by, error);
 }
@@ -402,15 +402,15 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && !kd_scene_is_flat(scene))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are "
-                              "\"plane\" and \"pinhole\" where light is "
+                              "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\"; it must be "
+                              "\"plane\" or \"pinhole\" where light is "
                               "measured: areas of the others are not to scale");
     enum kd_status status;
     if (plan.ring && (kd_emit_along(scene) || kd_emit_met(scene)))
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\", whose rays are listed, where light is followed through "
                               "volumes and to bodies: "
-                              "allowed are the others");
+                              "it must be another");
     KD_TRY(kd_layers_check(scene, error));
     KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));

@@ -16,7 +16,7 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
     double horizon = kd_kerr_horizon(p->spin);
     if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
         return kd_error_field(error, "/observer/r",
-                              "r is %.16g, allowed are \"infinity\" and radii above that of the horizon, %.9g at this "
+                              "r is %.16g; it must be \"infinity\" or a radius above that of the horizon, %.9g at this "
                               "spin, up to %g",
                               p->r, horizon, KD_RAYS_FAR);
     if (!(p->r > 0))
@@ -34,11 +34,12 @@ static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_e
     if ((unsigned)p->engine >= KD_ENGINE_COUNT || (unsigned)p->precision > KD_PRECISION_F64)
         return kd_error_field(error, "/accuracy", "there is no such engine or precision");
     if (closed && p->precision != KD_PRECISION_F64)
-        return kd_error_field(error, "/accuracy/precision",
-                              "the closed engine works in double precision: allowed is \"f64\", or another engine");
+        return kd_error_field(
+            error, "/accuracy/precision",
+            "the closed engine works in double precision: precision must be \"f64\", or the engine another one");
     if (closed && p->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "the closed engine takes no steps: allowed is 0, or another engine");
+                              "the closed engine takes no steps: steps must be 0, or the engine another one");
     if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
         return kd_engine_steps_error(p->engine, p->steps, error);
     return KD_OK;
@@ -50,7 +51,7 @@ static enum kd_status check_number(double value, size_t ray, int component, stru
     if (fabs(value) <= KD_RAYS_FAR)
         return KD_OK;
     snprintf(pointer, sizeof pointer, "/rays/%zu/%d", ray, component);
-    return kd_error_field(error, pointer, "%s of ray %zu is %.16g, allowed are -1e7 to 1e7 M",
+    return kd_error_field(error, pointer, "%s of ray %zu is %.16g; it must be -1e7 to 1e7 M",
                           component ? "beta" : "alpha", ray, value);
 }
 
@@ -79,7 +80,7 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
     KD_TRY(check_observer(p, error));
     KD_TRY(check_accuracy(p, error));
     if (!n || n > KD_RAYS_MAX)
-        KD_TRY(kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX));
+        KD_TRY(kd_error_field(error, "/rays", "there are %zu rays; there must be 1 to %d", n, KD_RAYS_MAX));
     for (size_t i = 0; i < n && p->observer; i++)
         KD_TRY(check_direction(alpha_beta + 2 * i, i, error));
     if (p->observer)

@@ -9,10 +9,10 @@
 
 /* A horizon is above 1 M whatever the spin: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
 const struct kd_rays_field kd_rays_fields[KD_RAYS_FIELDS] = {
-    { "", "spin", "/spin", KD_RAYS_REAL, -1, 1, KD_RAYS_OPEN, 0, NULL, "numbers above -1 and below 1",
+    { "", "spin", "/spin", KD_RAYS_REAL, -1, 1, KD_RAYS_OPEN, 0, NULL, "a number above -1 and below 1",
       "of the hole, a/M", AT(params.spin) },
     { "observer", "r", "/observer/r", KD_RAYS_REAL_OR_WORD, 1, KD_RAYS_FAR, KD_RAYS_OPEN_BELOW, 0, "infinity",
-      "numbers and \"infinity\"", "from which the rays are followed back, M: outside the horizon", AT(params.r) },
+      "a number or \"infinity\"", "from which the rays are followed back, M: outside the horizon", AT(params.r) },
     { "observer", "inclination_deg", "/observer/inclination_deg", KD_RAYS_REAL, 0, 180, KD_RAYS_CLOSED, 0, NULL,
       "0 to 180 degrees", "from the hole's axis", AT(params.inclination_deg) },
     { "observer", "motion", "/observer/motion", KD_RAYS_WORD_OR_NONE, 0, 0, KD_RAYS_CLOSED, 0, NULL, NULL,
@@ -26,24 +26,24 @@ const struct kd_rays_field kd_rays_fields[KD_RAYS_FIELDS] = {
     { "observer", "velocity_phi", "/observer/velocity_phi", KD_RAYS_REAL, -1, 1, KD_RAYS_CLOSED, 0, NULL, "-1 to 1",
       "motion velocity: as camera.velocity_phi", AT(params.velocity[2]) },
     { "observer", "infall_from", "/observer/infall_from", KD_RAYS_REAL_OR_WORD, 1, 1e7, KD_RAYS_CLOSED, 0, "infinity",
-      "1 to 1e7 M, and \"infinity\"", "motion infall: as camera.infall_from, M", AT(params.fall_from) },
+      "1 to 1e7 M, or \"infinity\"", "motion infall: as camera.infall_from, M", AT(params.fall_from) },
     { "observer", "infall_energy", "/observer/infall_energy", KD_RAYS_REAL_OR_WORD, -100, 1000, KD_RAYS_CLOSED, 0,
-      "rest", "-100 to 1000, and \"rest\"", "motion infall: as camera.infall_energy", AT(params.fall_energy) },
+      "rest", "-100 to 1000, or \"rest\"", "motion infall: as camera.infall_energy", AT(params.fall_energy) },
     { "observer", "infall_momentum", "/observer/infall_momentum", KD_RAYS_REAL, -1e4, 1e4, KD_RAYS_CLOSED, 0, NULL,
       "-10000 to 10000 M", "motion infall: as camera.infall_momentum, M", AT(params.fall_momentum) },
     { "", "orders", "/orders", KD_RAYS_WHOLE, 1, KD_RAYS_MAX_ORDERS, KD_RAYS_CLOSED, 0, NULL,
-      "whole numbers from 1 to 16", "crossings of the equatorial plane that are wanted", AT(params.orders) },
+      "a whole number from 1 to 16", "crossings of the equatorial plane that are wanted", AT(params.orders) },
     { "accuracy", "profile", "/accuracy/profile", KD_RAYS_PROFILE, 0, 0, KD_RAYS_CLOSED, 0, NULL, NULL,
       "as in a scene; without it, and without an engine, the closed form", AT(wish.profile) },
     { "accuracy", "tolerance", "/accuracy/tolerance", KD_RAYS_REAL_OR_WORD, 0, 1, KD_RAYS_OPEN, 0, "profile",
-      "numbers above 0 and below 1, and \"profile\"",
+      "a number above 0 and below 1, or \"profile\"",
       "relative error of the crossing radii to be held, instead of the profile", AT(wish.tolerance) },
     { "accuracy", "engine", "/accuracy/engine", KD_RAYS_WORD_OR_AUTO, 0, 0, KD_RAYS_CLOSED, 0, NULL, NULL,
       "auto: by profile or tolerance", AT(wish.engine) },
     { "accuracy", "precision", "/accuracy/precision", KD_RAYS_WORD_OR_AUTO, 0, 0, KD_RAYS_CLOSED, 0, NULL, NULL,
       "of the arithmetic; the closed form has f64 alone", AT(wish.precision) },
     { "accuracy", "steps", "/accuracy/steps", KD_RAYS_WHOLE, 0, KD_STEPS_MAX, KD_RAYS_CLOSED, 4, NULL,
-      "multiples of 4 up to 2048, and 0 for the engine's default",
+      "a multiple of 4 up to 2048, or 0 for the engine's default",
       "a half period of the radial motion; some engines take fewer", AT(wish.steps) },
 };
 _Static_assert(KD_RAYS_MAX_ORDERS == 16 && KD_STEPS_MAX == 2048, "the sentences say so");
@@ -69,5 +69,5 @@ enum kd_status kd_rays_field_check(const char *name, double value, struct kd_err
          below = f->open == KD_RAYS_OPEN ? value < f->most : value <= f->most;
     if (above && below)
         return KD_OK;
-    return kd_error_field(error, f->pointer, "%s is %.16g, allowed are %s", name, value, f->allowed);
+    return kd_error_field(error, f->pointer, "%s is %.16g; it must be %s", name, value, f->allowed);
 }

@@ -115,11 +115,11 @@ static enum kd_status wrong(struct reader *r, int component, const char *given)
     char pointer[64];
     if (component < 0) {
         snprintf(pointer, sizeof pointer, "/rays/%zu", r->ray);
-        return kd_error_field(r->error, pointer, "ray %zu is %s, allowed is a pair of numbers [alpha, beta]", r->ray,
+        return kd_error_field(r->error, pointer, "ray %zu is %s; it must be a pair of numbers [alpha, beta]", r->ray,
                               given);
     }
     snprintf(pointer, sizeof pointer, "/rays/%zu/%d", r->ray, component);
-    return kd_error_field(r->error, pointer, "%s of ray %zu is %s, allowed is a number", component ? "beta" : "alpha",
+    return kd_error_field(r->error, pointer, "%s of ray %zu is %s; it must be a number", component ? "beta" : "alpha",
                           r->ray, given);
 }
 

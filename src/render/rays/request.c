@@ -83,7 +83,7 @@ static enum kd_status put(struct kd_rays_request *request, const struct kd_rays_
     kd_value_describe(value, given);
     if (!field->allowed)
         kd_value_allowed(kd_rays_field_words(field), words);
-    return kd_error_field(error, field->pointer, "%s is %s%s, allowed are %s", field->name, given,
+    return kd_error_field(error, field->pointer, "%s is %s%s; it must be %s", field->name, given,
                           field->kind == KD_RAYS_REAL || field->kind == KD_RAYS_WHOLE ? kd_value_unwanted(value) : "",
                           field->allowed ? field->allowed : words);
 }
@@ -164,7 +164,7 @@ static enum kd_status wrong_type(struct document *d, const cJSON *item, const ch
     char given[KD_VALUE_SIZE];
     struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
-    return kd_error_field(d->error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given,
+    return kd_error_field(d->error, pointer, "%s is %s; it must be %s", *pointer ? pointer + 1 : "the document", given,
                           allowed);
 }
 
@@ -251,7 +251,7 @@ static enum kd_status read_without_rays(struct document *d, const char *text, si
 {
     size_t kept = start < end ? 2 : 0, rest_length = start + kept + length - end;
     if (rest_length > KD_SCENE_JSON_MAX)
-        return kd_error_set(d->error, KD_EINVAL, "the document has %zu bytes besides its rays, allowed are %u",
+        return kd_error_set(d->error, KD_EINVAL, "the document has %zu bytes besides its rays; it must have at most %u",
                             rest_length, KD_SCENE_JSON_MAX);
     enum kd_status status = kd_scan_json_part(text, 0, start, d->error);
     if (!status)
@@ -277,7 +277,8 @@ enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char 
     size_t start, end;
     enum kd_status status = KD_OK;
     if (length > KD_RAYS_BODY_MAX)
-        return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, KD_RAYS_BODY_MAX);
+        return kd_error_set(error, KD_EINVAL, "the document has %zu bytes; it must have at most %zu", length,
+                            KD_RAYS_BODY_MAX);
     kd_scan_skip_mark(&text, &length);
     start = end = length;
     if (kd_rays_list_find(text, length, &start)) {
@@ -306,7 +307,7 @@ static enum kd_status read_pairs(const void *data, size_t size, struct kd_npy *a
     if (array->n_dimensions != 2 || array->shape[1] != 2)
         return kd_error_set(error, KD_EINVAL, "the shape of the array is not (n, 2)");
     if (array->shape[0] > KD_RAYS_MAX)
-        return kd_error_set(error, KD_EINVAL, "there are %llu rays, allowed are 1 to %d",
+        return kd_error_set(error, KD_EINVAL, "there are %llu rays; there must be 1 to %d",
                             (unsigned long long)array->shape[0], KD_RAYS_MAX);
     return KD_OK;
 }

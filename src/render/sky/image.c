@@ -112,7 +112,7 @@ enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture
     KD_TRY(kd_png_look(data, size, &about, &why)); /* its size, before memory is taken for it */
     if (!kd_asset_is_panorama(about.width, about.height))
         KD_TRY(kd_error_set(&why, KD_EINVAL,
-                            "a picture of %u x %u pixels; allowed is one of the whole sky, twice as wide as it is "
+                            "a picture of %u x %u pixels; it must be one of the whole sky, twice as wide as it is "
                             "high, of %d to %d rows",
                             about.width, about.height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST));
     KD_TRY(kd_png_decode(data, size, &png, &why));

@@ -59,7 +59,7 @@ static enum kd_status read_query(const struct kd_target *target, struct kd_quant
         else if (!strcmp(value, "json") || !strcmp(value, "csv") || !strcmp(value, "wav"))
             *form = *value == 'c' ? FORM_CSV : *value == 'w' ? FORM_WAV : FORM_JSON;
         else
-            KD_TRY(kd_error_field(error, "/format", "format is \"%.40s\", allowed are \"json\", \"csv\"%s", value,
+            KD_TRY(kd_error_field(error, "/format", "format is \"%.40s\"; it must be \"json\", \"csv\"%s", value,
                                   quantity->quantity->sound ? ", \"wav\"" : ""));
     }
     if (*form == FORM_WAV)

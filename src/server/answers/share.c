@@ -189,7 +189,7 @@ static bool width_of(const struct kd_request *request, int32_t *width, struct kd
         if (kd_target_whole(&request->target, names[i], KD_SHARED_WIDTH, 1000000, &most[i]) &&
             most[i] >= (uint64_t)least)
             continue;
-        kd_error_set(error, KD_EINVAL, "%s is \"%.40s\", allowed is %d to 1000000", names[i],
+        kd_error_set(error, KD_EINVAL, "%s is \"%.40s\"; it must be %d to 1000000", names[i],
                      kd_target_value(&request->target, names[i]), least);
         return false;
     }

@@ -75,7 +75,7 @@ enum kd_status kd_play_read_step(const char *text, size_t length, double *by, st
         given = true;
     }
     if (!given || !(*by > 0))
-        KD_TRY(kd_error_field(error, "/by", "by is %s, allowed are numbers above 0", given ? "0" : "missing"));
+        KD_TRY(kd_error_field(error, "/by", "by is %s; it must be a number above 0", given ? "0" : "missing"));
 done:
     cJSON_Delete(tree);
     return status;

@@ -57,7 +57,7 @@ bool kd_shared_preview(const struct kd_request *request, struct kd_scene *scene,
     uint64_t width;
     if (!kd_target_whole(&request->target, KD_SHARED_WIDTH_NAME, KD_SHARED_WIDTH, KD_SHARED_WIDTH, &width) ||
         width < KD_SHARED_NARROWEST) {
-        kd_error_field(error, "/" KD_SHARED_WIDTH_NAME, "width is \"%.40s\", allowed is %d to %d",
+        kd_error_field(error, "/" KD_SHARED_WIDTH_NAME, "width is \"%.40s\"; it must be %d to %d",
                        kd_target_value(&request->target, KD_SHARED_WIDTH_NAME), KD_SHARED_NARROWEST, KD_SHARED_WIDTH);
         refuse(problem, error);
         problem->type = KD_PROBLEM_INVALID_PARAMETERS;

@@ -53,7 +53,7 @@ static enum kd_status read_path(const struct kd_request *request, const struct k
             "keyframes is missing: say what changes, as in \"keyframes\": [{\"at\": 10, \"scene\": {\"time\": 100}}]"));
     KD_TRY(kd_timeline_read(&items, &by_second, assets, now, out, error));
     if (!(kd_timeline_end(out) > 0))
-        KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s, allowed is later"));
+        KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s; it must be later"));
 done:
     cJSON_Delete(root);
     return status;
@@ -73,7 +73,7 @@ static enum kd_status check_motion(const struct kd_timeline *path, struct kd_err
     }
     if (fallen && rates)
         return kd_error_field(error, "/keyframes",
-                              "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 "
+                              "proper_time is given, which needs motion.time_rate and motion.azimuth_rate_deg 0 "
                               "alone: time and azimuth go on "
                               "as they do on the observer's way");
     return KD_OK;

@@ -144,7 +144,7 @@ static enum kd_status read_number(const struct kd_request *request, const char *
         return KD_OK;
     snprintf(pointer, sizeof pointer, "/%s", name);
     if (!(number >= low && number <= high))
-        return kd_error_field(error, pointer, "%s is %.20s, allowed are %g to %g", name, text, low, high);
+        return kd_error_field(error, pointer, "%s is %.20s; it must be %g to %g", name, text, low, high);
     *value = number;
     return KD_OK;
 }
@@ -237,7 +237,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     *order = 0;
     if (text && (!kd_target_whole(&request->target, "order", 0, KD_ORDER_MAX, order) || !*order))
         return kd_error_field(error, "/order",
-                              "order is %.20s, allowed is a whole number from 1 to 2^53, higher with each patch", text);
+                              "order is %.20s; it must be a whole number from 1 to 2^53, higher with each patch", text);
     return KD_OK;
 }
 
@@ -359,7 +359,7 @@ static enum kd_status read_strike(const struct kd_buffer *body, double *amplitud
         else if (item != tree->child)
             KD_TRY(kd_error_field(error, pointer, "amplitude is given twice"));
         else if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble <= 1))
-            KD_TRY(kd_error_field(error, pointer, "amplitude is %s, allowed are 0 to 1", given));
+            KD_TRY(kd_error_field(error, pointer, "amplitude is %s; it must be 0 to 1", given));
         else
             *amplitude = item->valuedouble;
     }
@@ -388,7 +388,7 @@ static enum MHD_Result strike(struct kd_request *request, struct kd_session *ses
         return patch(request, session, text, strlen(text));
     kd_number_format(time, rate);
     snprintf(detail, sizeof detail,
-             "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what "
+             "motion.time_rate is %s; for a hole to be struck it must be more than 0 M per second: what "
              "rings, rings as time goes on",
              time);
     return kd_reply_problem(

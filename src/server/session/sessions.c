@@ -83,12 +83,12 @@ enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_
 {
     if (plan->n_layers + plan->picture > 1)
         return kd_error_field(error, "/image/layers",
-                              "image.layers holds %zu, allowed in a session, which shows a picture, is one",
+                              "image.layers holds %zu; in a session, which shows a picture, it must hold one",
                               plan->n_layers + plan->picture);
     if (plan->cut.width)
         return kd_error_field(
             error, "/image/tile/width",
-            "image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size",
+            "image.tile.width is %u; it must be 0 in a session, which shows whole pictures of any size",
             plan->cut.width);
     if (plan->estimate_ms <= all->params.longest_s * 1e3)
         return KD_OK;

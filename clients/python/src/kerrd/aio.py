@@ -285,7 +285,7 @@ class AsyncClient:
         """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among
         them."""
         if frames < 2:
-            raise ValueError(f"frames is {frames}, allowed is 2 and above: the first and the last moment")
+            raise ValueError(f"frames is {frames}; it must be at least 2: the first and the last moment")
         document = {
             "output": "light-curve",
             "scene": scene_of(scene, {**changes, "time": times[0]}),
@@ -308,7 +308,7 @@ class AsyncClient:
         "camera.inclination_deg": "10:80:15"}."""
         document = scene_of(scene, changes)
         if isinstance(layers, str):
-            raise TypeError(f"layers is {layers!r}, allowed is a list, as in [{layers!r}]")
+            raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
         document["image"] = {**(document.get("image") or {}), "layers": list(layers)}
         values = {
             path: value if isinstance(value, str) else np.asarray(value).tolist()

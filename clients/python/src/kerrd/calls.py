@@ -212,7 +212,7 @@ def render(scene: Document, preset: str | None) -> Call[Frame]:
 
 def layers(scene: Document, preset: str | None, names: Sequence[str]) -> Call[dict[str, NDArray[np.float32]]]:
     if isinstance(names, str):
-        raise TypeError(f"layers is {names!r}, allowed is a list, as in [{names!r}]")
+        raise TypeError(f"layers is {names!r}; it must be a list, as in [{names!r}]")
     document = {**scene, "image": {**scene.get("image", {}), "layers": list(names)}}
     return post("/v1/render", document, _npz, accept=NPZ, params=over(preset))
 
@@ -262,7 +262,7 @@ def pixel(scene: Document, preset: str | None, x: float, y: float) -> Call[answe
 def rays(pairs: ArrayLike, settings: Mapping[str, Any]) -> Call[NDArray[Any]]:
     listed = np.ascontiguousarray(pairs, dtype="<f8")
     if listed.ndim != 2 or listed.shape[1] != 2:
-        raise ValueError(f"pairs has the shape {listed.shape}, allowed is (n, 2): alpha and beta of each ray")
+        raise ValueError(f"pairs has the shape {listed.shape}; it must be (n, 2): alpha and beta of each ray")
     body = io.BytesIO()
     np.save(body, listed, allow_pickle=False)
     params = {name: str(value) for name, value in settings.items() if value is not None}

@@ -51,7 +51,7 @@ class Servers(WorkerPlugin):
         known = [name for name in inspect.signature(local).parameters]
         unknown = [name for name in options if name not in known]
         if unknown:
-            raise TypeError(f"{unknown[0]} is no option of a server, allowed are {', '.join(known)}")
+            raise TypeError(f"{unknown[0]} is no option of a server; the options are {', '.join(known)}")
         self.options = options
         self.name = f"kerrd-{hashlib.sha256(repr(sorted(options.items())).encode()).hexdigest()[:12]}"
 
@@ -172,14 +172,14 @@ def sweep(
     is done by others, and by the same one again at most `retries` times.
     """
     if isinstance(layers, str):
-        raise TypeError(f"layers is {layers!r}, allowed is a list, as in [{layers!r}]")
+        raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
     if batch is not None and batch < 1:
-        raise ValueError(f"batch is {batch}, allowed is 1 scene and above, or None")
+        raise ValueError(f"batch is {batch}; it must be at least 1 scene, or None")
     cluster = client if client is not None else get_client()
     servers = Servers(**options)
     documents = [scene_of(scene, {}) for scene in scenes]
     if not documents:
-        raise ValueError("there are no scenes, allowed is one and above")
+        raise ValueError("there are no scenes; there must be at least one")
     cluster.register_plugin(servers)
     if zarr is not None:
         return _into_zarr(cluster, servers.name, documents, preset, layers or ("rgb",), zarr, retries, batch)

@@ -71,7 +71,7 @@ def _place(here: Any, name: str, path: str) -> Any:
         return name
     if not name.isdigit() or int(name) >= len(here):
         raise KeyError(
-            f"{path}: {name} is no place in a list of {len(here)}, allowed are "
+            f"{path}: {name} is no place in a list of {len(here)}; it must be "
             + (f"0 to {len(here) - 1}" if here else "none")
         )
     return int(name)
@@ -95,7 +95,7 @@ Window: TypeAlias = tuple[int, int, int, int]
 def windows(width: int, height: int, side: int) -> list[Window]:
     """Left, top, width and height of tiles of at most side x side pixels that cover a picture, row by row."""
     if side < 1:
-        raise ValueError(f"tile is {side}, allowed is 1 pixel and above")
+        raise ValueError(f"tile is {side}; it must be at least 1 pixel")
     return [
         (left, top, min(side, width - left), min(side, height - top))
         for top in range(0, height, side)

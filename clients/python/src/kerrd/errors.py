@@ -53,7 +53,7 @@ class Problem(KerrdError):
         self.detail: str = str(document.get("detail", ""))
         pointer = document.get("pointer")
         self.pointer: str | None = None if pointer is None else str(pointer)
-        found = re.search(r"allowed\b[^,;]*? (?:is|are) (.+)$", self.detail, re.S)
+        found = re.search(r"must (?:be|have|hold) (.+)$", self.detail, re.S)
         self.allowed: str | None = found[1] if found else None
         self.retry_after = retry_after
         self._made_of = (status, document, retry_after)

@@ -63,7 +63,7 @@ def film(
     rendered by others.
     """
     if batch < 1:
-        raise ValueError(f"batch is {batch}, allowed is 1 frame and above")
+        raise ValueError(f"batch is {batch}; it must be at least 1 frame")
     cluster = client if client is not None else get_client()
     request = json.dumps(plain(document), allow_nan=False).encode()
     folder = str(Path(state).resolve())

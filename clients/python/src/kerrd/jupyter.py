@@ -91,7 +91,7 @@ class Widget(anywidget.AnyWidget):
     ) -> None:
         if client is not None and not isinstance(client, (Client, str)):
             raise KerrdError(
-                f"client is a {type(client).__name__}; allowed are a kerrd.Client, kerrd.local() and the address of a server"
+                f"client is a {type(client).__name__}; it must be a kerrd.Client, kerrd.local() or the address of a server"
             )
         hole = Client(client) if isinstance(client, str) else client or own_server()
         self._fields = Fields(hole.schema())
