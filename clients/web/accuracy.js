@@ -110,6 +110,20 @@ function lessened({ narrow, part }) {
   return '';
 }
 
+// One word of a picture's state, what it shows in numbers, and why it is small; goes_on: by itself.
+export function brief(frame, goes_on) {
+  const state =
+    goes_on || frame.lossy
+      ? t('Live', 'Dal vivo')
+      : frame.final
+        ? t('Sharp', 'Nitida')
+        : t('Sharpening …', 'Si affina …');
+  const { jy, ghz } = frame.flux,
+    flux = jy == null ? '' : `; ${number(jy)} Jy, ${number(ghz)} GHz`;
+  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${state}${lessened(frame)}${flux}`;
+}
+
+// How a picture was computed.
 export function caption(frame) {
   const worst =
     frame.accuracy.sampled > 0
@@ -126,7 +140,5 @@ export function caption(frame) {
   const pace = frame.pace
     ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
     : '';
-  const { jy, ghz } = frame.flux,
-    flux = jy == null ? '' : `${number(jy)} Jy, ${number(ghz)} GHz; `;
-  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${flux}${worst}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${lossy}`;
+  return `${worst}${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${lossy}`;
 }

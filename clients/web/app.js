@@ -1,7 +1,7 @@
 // The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes
 // no physics.
 import { byId, el } from './dom.js';
-import { caption, showAccuracy } from './accuracy.js';
+import { brief, caption, showAccuracy } from './accuracy.js';
 import { persistent } from './again.js';
 import { buildCarry } from './carry.js';
 import { buildControls } from './controls.js';
@@ -125,7 +125,8 @@ async function watch(scene) {
     followFiner(!frame.final && !scene.goesOn());
     complain('', '');
     if (tells || status.dataset.wrong) {
-      say(caption(frame), frame.final && !scene.goesOn());
+      say(brief(frame, scene.goesOn()), frame.final && !scene.goesOn());
+      byId('exactly-words').textContent = caption(frame);
       showAccuracy(frame, scene);
     }
     followLight();

@@ -3,11 +3,11 @@ import { byId, paced } from './dom.js';
 import { number, said, t } from './i18n.js';
 
 const views = {
-  lensing: t('Lensing', 'Lente'),
+  lensing: t('See', 'Guarda'),
   orbits: t('Orbits', 'Orbite'),
-  physics: t('Physics', 'Fisica'),
-  playground: t('Playground', 'Laboratorio'),
-  scale: t('Real scale', 'Scala reale'),
+  physics: t('Learn', 'Impara'),
+  playground: t('Throw', 'Lancia'),
+  scale: t('Real size', 'Grandezze vere'),
 };
 const seen = {}; // what a view shows, by its name
 

@@ -8,7 +8,12 @@ import { swipe } from './swipe.js';
 // One that has no caption here has its title.
 export const caption = (name, title) => (captions[name] ? t(...captions[name]) : title);
 
-const order = name => (name === first_view ? -1 : name === 'smooth' ? 1 : 0);
+// What people come for stands first, and what tests programs last; between them the server's order.
+const wanted = [first_view, 'gargantua-gas', 'milky-way', 'jet', 'infall', 'm87', 'polarised-ring'];
+function order(name) {
+  if (wanted.includes(name)) return wanted.indexOf(name) - wanted.length;
+  return name === 'smooth' ? 1 : name.startsWith('gold-') ? 2 : 0;
+}
 
 export function buildGallery(scene, select, presets) {
   const strip = byId('gallery'),

@@ -122,7 +122,7 @@ export async function openOrbits() {
     if (began) (last = performance.now()), begin();
   }
   play.addEventListener('click', () => run(!running));
-  // The lines over the picture of the Lensing view follow what the fields say (orbit-lensed.js); its hole spins as this
+  // The lines over the picture of the view See follow what the fields say (orbit-lensed.js); its hole spins as this
   // one does.
   byId('orbit-show').addEventListener('click', () => {
     document.querySelector('nav [data-view=lensing]').click();

@@ -212,7 +212,7 @@ class Pictures(Case):
         self.assertIn(b'"layers":["r"]', text(self.read("a.png"))[b"kerrd:scene"])
         self.bad(
             2,
-            "image.layers holds 2; in a file of the format png it must be one",
+            "image.layers holds 2; in a file of the format png it must hold one",
             "render",
             *SMALL,
             "--set",

@@ -265,7 +265,7 @@ class Hand(Browser):
         page = self.page(self.context(viewport={"width": 900, "height": 520}))
         page.goto(self.base + "#lang=en&pause=1")
         page.wait_for_selector(AT_REST)
-        self.assertIn("computed live", page.inner_text("#welcome"))
+        self.assertIn("Drag it", page.inner_text("#welcome"))
         page.click("#tour-begin")
         self.assertFalse(page.is_visible("#welcome"))
         page.focus("#stage")

@@ -19,7 +19,7 @@ class Lensing(Browser):
         page = self.open(wait=FINE)
         self.shot(page, "lensing")
         self.open_groups(page)
-        self.assertEqual(page.title(), "Lensing: spin 0.7, inclination 82° – kerrd")
+        self.assertEqual(page.title(), "See: spin 0.7, inclination 82° – kerrd")
         self.assertEqual(
             page.get_attribute("#picture", "alt"),
             "A black hole, spin 0.7, inclination 82°, seen from infinity, 46 M across. A thin disk of turbulent gas from the ISCO to 22 M.",

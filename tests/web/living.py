@@ -17,7 +17,7 @@ class Living(Browser):
         )  # it may never be at rest
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5))
-        self.there(page, "pictures a second", "#status")
+        self.there(page, "pictures a second", "#exactly-words", text=True)
 
     def test_time_goes_on_and_stands(self):
         page = self.open("lang=en&preset=living-disk", "#stage[data-final]")

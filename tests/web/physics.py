@@ -234,7 +234,7 @@ class Physics(Browser):
         page = self.open("lang=en&view=scale", "#scale-rows tr")
         self.there(page, "42 µas", "#scale-rows")
         self.assertEqual(page.locator("#scale math").count(), 3)
-        self.assertEqual(page.title(), "Real scale: M87* – kerrd")
+        self.assertEqual(page.title(), "Real size: M87* – kerrd")
         for hole in ("m87", "sgra"):
             page.wait_for_selector(f"#sky-{hole} .beam:not([hidden])")
         self.shot(page, "scale")

@@ -261,7 +261,7 @@ class Sessions(Browser):
         self.assertTrue(daemon.eventually(lambda: tilt() == there()), (tilt(), there()))
         self.assertNotEqual(tilt(), 82)
         self.assertTrue(
-            daemon.eventually(lambda: page.is_hidden("#moving") and "JPEG" not in page.inner_text("#status"))
+            daemon.eventually(lambda: page.is_hidden("#moving") and "JPEG" not in page.text_content("#exactly-words"))
         )
 
     def test_more_pictures_than_one_are_on_their_way_while_it_moves(self):
@@ -283,11 +283,11 @@ class Sessions(Browser):
                 lambda: page.evaluate("0") or any(f.headers.get("content-type") == "image/jpeg" for f in self.frames)
             )
         )
-        self.there(page, "JPEG", "#status")
+        self.there(page, "JPEG", "#exactly-words", text=True)
         self.assertLessEqual(max(most), 6, "of the six connections that a browser opens")
         page.click("#play")
         page.wait_for_selector(AT_REST)
-        self.assertTrue(daemon.eventually(lambda: "JPEG" not in page.inner_text("#status")))
+        self.assertTrue(daemon.eventually(lambda: "JPEG" not in page.text_content("#exactly-words")))
         self.assertTrue(daemon.eventually(lambda: page.is_hidden("#moving")), "what rests is an image, and exact")
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or len(under_way) == 1), "at rest one is enough")
 
