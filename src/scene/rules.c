@@ -213,7 +213,7 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
             return kd_error_field(
                 error, "/camera/eye_distance",
                 "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; it must be "
-                "smaller ones",
+                "smaller",
                 show(camera->eye_distance).text);
     }
     return KD_OK;

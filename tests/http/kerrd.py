@@ -490,7 +490,7 @@ class Kerrd(unittest.TestCase):
             found = self.daemon.post("/v1/plan", {"image": {"samples": samples}})
             self.assertEqual(found.status, status, found.body)
             if status == 422:
-                self.assertIn('1 to 8, and "auto"', found.json()["detail"])
+                self.assertIn('1 to 8, or "auto"', found.json()["detail"])
 
     def test_a_session_that_is_dragged_comes_to_rest_on_them(self):
         session = self.open(
