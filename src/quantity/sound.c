@@ -61,7 +61,7 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
     if (hz >= KD_SOUND_HZ_MIN && hz <= KD_SOUND_HZ_MAX)
         return KD_OK;
     return kd_error_field(error, "/mass_msun",
-                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; what is heard is %g to %g "
+                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; %g to %g "
                           "Hz: it must be %.4g "
                           "to %.4g solar masses, or shift_octaves %.0f to %.0f",
                           mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
