@@ -7,7 +7,7 @@
 
 /* By integral; the spectrum of a disk and that of a volume are one request. */
 static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest", NULL,
-                                                    "VisibilityRequest" };
+                                                    "VisibilityRequest", "CompareRequest" };
 
 void kd_openapi_integral_body(struct kd_json *json, const char *path)
 {
@@ -20,7 +20,7 @@ void kd_openapi_integral_body(struct kd_json *json, const char *path)
 void kd_openapi_integral_schemas(struct kd_json *json)
 {
     static const char *const names[KD_INTEGRALS] = { "LineProfile", "TransferFunction", "DiskSpectrum",
-                                                     "VolumeSpectrum", "Visibilities" };
+                                                     "VolumeSpectrum", "Visibilities", "Comparison" };
     for (int i = 0; i < KD_INTEGRALS; i++) {
         if (requests[i])
             kd_integral_request_schema(json, requests[i], (enum kd_integral)i);
