@@ -103,8 +103,8 @@ static enum kd_status read_observation(const char *path, struct kd_integral_requ
 {
     struct kd_buffer file = { 0 };
     enum kd_status status = kd_file_read(path, KD_OBSERVATION_BYTES, &file, error);
-    if (!status && (status = kd_integral_set_observation(request, file.data ? file.data : (const uint8_t *)"",
-                                                         file.size, error)))
+    if (!status &&
+        (status = kd_integral_set_observation(request, file.data ? file.data : (const uint8_t *)"", file.size, error)))
         kd_cli_prefix(error, path);
     kd_buffer_finish(&file);
     return status;
@@ -208,8 +208,9 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
     options[n++] =
         (struct argp_option) { "format", 'f', "json|csv|npy", 0, "the format, whatever the name of the output", 2 };
     if (what == KD_INTEGRAL_COMPARE)
-        options[n++] = (struct argp_option) { "observation", KEY_OBSERVATION, "FILE", 0,
-                                              "what was observed: uvfits, or the EHT's CSV", 1 };
+        options[n++] = (struct argp_option) {
+            "observation", KEY_OBSERVATION, "FILE", 0, "what was observed: uvfits, or the EHT's CSV", 1
+        };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))

@@ -49,11 +49,9 @@ static const char compare[] = "{\"required\":[\"solve\",\"flux_jy\"],\"propertie
 const char *kd_integral_apart(enum kd_integral what)
 {
     _Static_assert(KD_INTEGRAL_PICTURES == 200 && KD_INTEGRAL_FREQUENCIES == 1000, "the schema of a spectrum says so");
-    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line,
-                                                       [KD_INTEGRAL_TRANSFER] = transfer,
-                                                       [KD_INTEGRAL_SPECTRUM] = spectrum,
-                                                       [KD_INTEGRAL_VOLUME] = spectrum,
-                                                       [KD_INTEGRAL_VISIBILITY] = visibility,
-                                                       [KD_INTEGRAL_COMPARE] = compare };
+    static const char *const schemas[KD_INTEGRALS] = {
+        [KD_INTEGRAL_LINE] = line,       [KD_INTEGRAL_TRANSFER] = transfer,     [KD_INTEGRAL_SPECTRUM] = spectrum,
+        [KD_INTEGRAL_VOLUME] = spectrum, [KD_INTEGRAL_VISIBILITY] = visibility, [KD_INTEGRAL_COMPARE] = compare
+    };
     return schemas[what];
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { PRODUCT, HOUR, STATION, U = STATION + 4, V, DATA, ERROR, MODEL, RESIDUAL }; /* columns */
-enum { FLUX, WORST = 7 };                                                         /* values */
+enum { FLUX, WORST = 7 };                                                          /* values */
 
 bool kd_integral_is_observation(const struct kd_integral_request *r, const char *name)
 {
@@ -62,9 +62,10 @@ enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const
     if (!cJSON_IsString(given))
         return kd_member_refuse(given, "/observation", "the name of an asset", error);
     if (!r->assets)
-        return kd_error_field(error, "/observation",
-                              "observation names an asset, which a server keeps; here it must be given by --observation "
-                              "FILE");
+        return kd_error_field(
+            error, "/observation",
+            "observation names an asset, which a server keeps; here it must be given by --observation "
+            "FILE");
     if (!r->assets->find(r->assets->user, given->valuestring, &found) ||
         !r->assets->take(r->assets->user, found.hash, &bytes))
         return kd_error_field(error, "/observation", "observation names no asset that is here, allowed are %s",
@@ -100,18 +101,18 @@ enum kd_status kd_integral_check_compare(struct kd_integral_request *r, struct k
     enum kd_status status;
     KD_TRY(kd_integral_check_map(r, error));
     if (!r->observation)
-        return kd_error_field(error, "/observation",
-                              "no observation is given, must be one: uvfits, or the EHT's CSV");
+        return kd_error_field(error, "/observation", "no observation is given, must be one: uvfits, or the EHT's CSV");
     if (r->solve && isfinite(r->flux_jy))
         return kd_error_field(error, "/solve", "solve has flux beside flux_jy: allowed is one of the two");
     if (r->solve && !(r->products & 1u << KD_PRODUCT_AMPLITUDE))
         return kd_error_field(error, "/solve", "solve has flux, and products has no amplitude, which tells it");
     KD_TRY(make_comparison(r, error));
     if (r->comparison->rows > KD_INTEGRAL_ROWS || r->comparison->n > KD_INTEGRAL_ROWS)
-        return kd_error_field(error, "/observation",
-                              "%zu visibilities and %zu rows are left to compare, must be at most %u of each: average_s "
-                              "averages them",
-                              r->comparison->n, r->comparison->rows, KD_INTEGRAL_ROWS);
+        return kd_error_field(
+            error, "/observation",
+            "%zu visibilities and %zu rows are left to compare, must be at most %u of each: average_s "
+            "averages them",
+            r->comparison->n, r->comparison->rows, KD_INTEGRAL_ROWS);
     u = &r->u, v = &r->v;
     free(u->at), free(v->at);
     *u = (struct kd_integral_list) { malloc(r->comparison->n * sizeof(double)), r->comparison->n };
@@ -150,7 +151,8 @@ void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
         answer->chi2[0][p] = answer->chi2[1][p] = NAN;
 }
 
-/* What the model is multiplied by; NaN: nobody can tell. Of light without a frequency a map of flux 1 was transformed. */
+/* What the model is multiplied by; NaN: nobody can tell. Of light without a frequency a map of flux 1 was transformed.
+ */
 static double scale_of(const struct kd_integral_answer *answer, const double (*model)[2])
 {
     const struct kd_integral_request *r = answer->request;
@@ -164,17 +166,18 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
 {
     const struct kd_integral_request *r = answer->request;
     struct kd_comparison *c = r->comparison;
-    const double found = scale_of(answer, (const double(*)[2])model),
+    const double found = scale_of(answer, (const double (*)[2])model),
                  scale = isfinite(found) ? found : 1; /* closures do not know it */
     for (size_t i = 0; i < c->n; i++)
         model[i][0] *= scale, model[i][1] *= scale;
-    kd_comparison_judge(c, (const double(*)[2])model, answer->chi2[finer]);
+    kd_comparison_judge(c, (const double (*)[2])model, answer->chi2[finer]);
     for (size_t i = 0; i < c->rows; i++) {
         if (finer && c->row[i].product == KD_PRODUCT_AMPLITUDE)
-            answer->values[WORST] =
-                fmax(answer->values[WORST], KD_INTEGRAL_OF_DIFFERENCE * fabs(c->row[i].model - answer->columns[MODEL][i]));
+            answer->values[WORST] = fmax(answer->values[WORST],
+                                         KD_INTEGRAL_OF_DIFFERENCE * fabs(c->row[i].model - answer->columns[MODEL][i]));
         if (!finer)
-            answer->columns[MODEL][i] = c->row[i].model, answer->columns[RESIDUAL][i] = kd_comparison_residual(&c->row[i]);
+            answer->columns[MODEL][i] = c->row[i].model,
+            answer->columns[RESIDUAL][i] = kd_comparison_residual(&c->row[i]);
     }
     if (!finer && !(r->products & 1u << KD_PRODUCT_AMPLITUDE))
         answer->values[WORST] = NAN;
@@ -226,16 +229,20 @@ void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_an
 void kd_integral_compare_schema(struct kd_json *json)
 {
     static const struct kd_schema_member members[] = {
-        { "source", "{\"type\":\"string\"}", false, NULL }, { "mjd", "{\"type\":\"number\"}", false, NULL },
+        { "source", "{\"type\":\"string\"}", false, NULL },
+        { "mjd", "{\"type\":\"number\"}", false, NULL },
         { "frequency_ghz", "{\"type\":\"number\"}", false, NULL },
         { "stations", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}", false, NULL },
-        { "visibilities", COUNT, false, NULL }, { "flagged", COUNT, false, NULL },
-        { "duplicates", COUNT, false, NULL }, { "averaged", COUNT, false, NULL },
+        { "visibilities", COUNT, false, NULL },
+        { "flagged", COUNT, false, NULL },
+        { "duplicates", COUNT, false, NULL },
+        { "averaged", COUNT, false, NULL },
         { "too_short", COUNT, false, NULL },
     };
     kd_schema_text(json, "chi2",
                    OF_PRODUCTS("chi^2 over the number of data; null of a product that has none", OR_NULL));
-    kd_schema_text(json, "chi2_finer", OF_PRODUCTS("the same of a map 1.5 times as fine; null with check none", OR_NULL));
+    kd_schema_text(json, "chi2_finer",
+                   OF_PRODUCTS("the same of a map 1.5 times as fine; null with check none", OR_NULL));
     kd_schema_text(json, "n", OF_PRODUCTS("number of data", COUNT));
     kd_schema_strict(json, "observation", members, sizeof members / sizeof *members);
 }

@@ -106,9 +106,10 @@ const struct kd_integral_field kd_integral_fields[] = {
     WORD(closures, maximal, "minimal|maximal", COMPARE,
          "minimal: triangles and quadrangles that others do not follow from, about the first station; maximal: all"),
     WORD(pulse, pulse, "triangle|rectangle|point", COMPARE, "what light a pixel of the map stands for"),
-    OR_WORD(flux_jy, "Jy", 1e-12, 1e12, "auto", COMPARE,
-            "of the whole map, which is made brighter or darker; auto: as the scene is, or, where its light is of no "
-            "frequency, as amplitudes fit best"),
+    { "flux_jy", "Jy",
+      "of the whole map, which is made brighter or darker; auto: as the scene is, or, where its light is of no "
+      "frequency, as amplitudes fit best",
+      KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE, true },
     WORDS(solve, "flux", 0, COMPARE, "what is chosen so that chi^2 of the amplitudes is least"),
     WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
           "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison"),

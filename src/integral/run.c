@@ -180,7 +180,8 @@ static void put_model(struct kd_integral_run *run, const double sum[2])
 {
     const struct kd_integral_request *r = run->answer.request;
     const double turns = 1e9 * run->grid.pixel,
-                 scale = run->scale * kd_pulse_at(r->pulse, r->u.at[run->baseline] * turns, r->v.at[run->baseline] * turns);
+                 scale =
+                     run->scale * kd_pulse_at(r->pulse, r->u.at[run->baseline] * turns, r->v.at[run->baseline] * turns);
     run->model[run->baseline][0] = scale * sum[0], run->model[run->baseline][1] = -scale * sum[1];
 }
 

@@ -186,8 +186,7 @@ static void add_listed(struct kd_json *json, const char *name, const struct kd_i
         kd_json_string(json, "description", list[i].help);
         raw(json, "type", type);
         if (!strcmp(type, "\"array\""))
-            raw(json, "items",
-                list[i].words ? "{\"type\":[\"string\",\"null\"]}" : "{\"type\":[\"number\",\"null\"]}");
+            raw(json, "items", list[i].words ? "{\"type\":[\"string\",\"null\"]}" : "{\"type\":[\"number\",\"null\"]}");
         kd_json_end(json);
     }
     kd_schema_end_strict(json, names, n);
@@ -211,18 +210,18 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         raw(json, names[n++] = f->name,
             f->kind == KD_INTEGRAL_WORD    ? "{\"type\":\"string\"}"
             : f->kind == KD_INTEGRAL_WORDS ? STRINGS
-            : f->lacks                  ? "{\"type\":[\"number\",\"null\"]}"
-                                        : "{\"type\":\"number\"}");
+            : f->lacks                     ? "{\"type\":[\"number\",\"null\"]}"
+                                           : "{\"type\":\"number\"}");
     }
     kd_schema_end_strict(json, names, n);
 }
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral", "parameters", "values",         "columns",
-                                           "units",    "sources",    "approximations", "scene",
-                                           "chi2",     "chi2_finer", "n",              "observation" };
-    const size_t n = sizeof members / sizeof *members - (what == KD_INTEGRAL_COMPARE    ? 0
+    static const char *const members[] = { "integral", "parameters",     "values", "columns", "units",
+                                           "sources",  "approximations", "scene",  "chi2",    "chi2_finer",
+                                           "n",        "observation" };
+    const size_t n = sizeof members / sizeof *members - (what == KD_INTEGRAL_COMPARE     ? 0
                                                          : kd_integral_is_pictured(what) ? 4
                                                                                          : 5);
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);

@@ -46,9 +46,9 @@ static bool amplitude_of(const struct kd_comparison *c, const struct kd_comparis
     for (int k = 0; k < 4; k++) {
         const struct kd_measured *m = &c->at[row->at[k]];
         const double measured = hypot(m->re, m->im),
-                     amplitude = p->measured            ? measured
+                     amplitude = p->measured           ? measured
                                  : measured > m->sigma ? sqrt((measured - m->sigma) * (measured + m->sigma))
-                                                        : m->sigma,
+                                                       : m->sigma,
                      over_snr2 = m->sigma / amplitude * (m->sigma / amplitude);
         sum += (k < 2 ? 1 : -1) * (log(amplitude) + (p->measured ? 0 : 0.5 * over_snr2));
         variance += over_snr2;
@@ -57,9 +57,8 @@ static bool amplitude_of(const struct kd_comparison *c, const struct kd_comparis
     return isfinite(sum) && isfinite(variance) && 1 / row->error >= p->snr_cut;
 }
 
-static enum kd_status add_triangle(struct kd_comparison *c, const struct table *t,
-                                   const struct kd_comparison_params *p, struct kd_comparison_row *row,
-                                   struct kd_error *error)
+static enum kd_status add_triangle(struct kd_comparison *c, const struct table *t, const struct kd_comparison_params *p,
+                                   struct kd_comparison_row *row, struct kd_error *error)
 {
     const uint8_t *s = row->station;
     return find(t, row, 0, s[0], s[1]) && find(t, row, 1, s[1], s[2]) && find(t, row, 2, s[2], s[0]) &&

@@ -47,10 +47,10 @@ static enum kd_status add_amplitude(struct kd_comparison *c, const struct kd_com
                                     struct kd_error *error)
 {
     const struct kd_measured *m = &c->at[i];
-    const double measured = hypot(m->re, m->im),
-                 amplitude = p->measured           ? measured
-                             : measured > m->sigma ? sqrt((measured - m->sigma) * (measured + m->sigma))
-                                                   : 0;
+    const double measured = hypot(m->re, m->im), amplitude = p->measured ? measured
+                                                             : measured > m->sigma
+                                                                 ? sqrt((measured - m->sigma) * (measured + m->sigma))
+                                                                 : 0;
     const struct kd_comparison_row row = { .product = KD_PRODUCT_AMPLITUDE,
                                            .hour = m->hour,
                                            .station = { m->station[0], m->station[1] },

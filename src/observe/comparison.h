@@ -43,7 +43,6 @@ struct kd_comparison {
     size_t n, too_short;
     struct kd_comparison_row *row; /* products one after the other, each by time */
     size_t rows, room, of[KD_PRODUCTS];
-
 };
 
 enum { KD_COMPARISON_ROWS = 100000 };

@@ -72,8 +72,9 @@ static enum kd_status read_head(const struct line *line, struct kd_observation *
         o->source[i] = value[i] >= ' ' && value[i] <= '~' ? value[i] : '?';
     if (!find_value(line, "DATE(MJD):", &value, &length) || !read_number(value, length, &o->mjd) || o->mjd < 0 ||
         o->mjd > 1e6 || o->mjd != floor(o->mjd))
-        return kd_error_set(error, KD_EINVAL, "line 1 must have a date, a whole number of days up to 1000000, as in "
-                                              "DATE(MJD):57848");
+        return kd_error_set(error, KD_EINVAL,
+                            "line 1 must have a date, a whole number of days up to 1000000, as in "
+                            "DATE(MJD):57848");
     if (!find_value(line, "FREQ:", &value, &length) || length < 4 || memcmp(value + length - 3, "GHz", 3) ||
         !read_number(value, length - 3, &o->frequency_hz) || !(o->frequency_hz > 0 && o->frequency_hz < 1e9))
         return kd_error_set(error, KD_EINVAL, "line 1 must have a frequency above 0, as in FREQ:227.0707GHz");
@@ -169,8 +170,8 @@ enum kd_status kd_observation_read_csv(const char *text, size_t size, struct kd_
     enum kd_status status = KD_OK;
     while (!status && next_line(&at, end, &line)) {
         if (line.length > LINE_MAX_BYTES)
-            status = kd_error_set(error, KD_EINVAL, "it has %zu bytes, must have at most %d", line.length,
-                                  LINE_MAX_BYTES);
+            status =
+                kd_error_set(error, KD_EINVAL, "it has %zu bytes, must have at most %d", line.length, LINE_MAX_BYTES);
         else if (line.number == 1)
             status = read_head(&line, out, error);
         else if (line.length == sizeof COLUMNS - 1 && !memcmp(line.text, COLUMNS, line.length))

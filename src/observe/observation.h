@@ -22,10 +22,10 @@
 #define KD_STATION_NAME 12u /* bytes, with the NUL */
 
 struct kd_measured {
-    double hour; /* UTC, from mjd on */
-    double u, v; /* wavelengths */
+    double hour;          /* UTC, from mjd on */
+    double u, v;          /* wavelengths */
     double re, im, sigma; /* Jy */
-    uint8_t station[2]; /* by their place in the list, the first before the second */
+    uint8_t station[2];   /* by their place in the list, the first before the second */
 };
 
 struct kd_observation {

@@ -162,9 +162,7 @@ static double real(const uint8_t *at, bool is_double)
     return (double)x;
 }
 
-struct stations {
-    uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each of the list */
-};
+struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each of the list */ };
 
 static enum kd_status read_stations(const struct file *f, const struct hdu *hdu, struct kd_observation *o,
                                     struct stations *out)
@@ -263,8 +261,8 @@ static void find_parameter(const struct groups *g, const char *name, int which, 
 
 static enum kd_status find_parameters(const struct file *f, struct groups *g)
 {
-    static const char *const u[] = { "UU---SIN", "UU", "UU--", "UU---NCP" },
-                             *const v[] = { "VV---SIN", "VV", "VV--", "VV---NCP" };
+    static const char *const u[] = { "UU---SIN", "UU", "UU--", "UU---NCP" }, *const v[] = { "VV---SIN", "VV", "VV--",
+                                                                                            "VV---NCP" };
     for (int i = 0; i < 4 && !(g->u.there && g->v.there); i++)
         find_parameter(g, u[i], 0, &g->u), find_parameter(g, v[i], 0, &g->v);
     find_parameter(g, "BASELINE", 0, &g->baseline);
@@ -274,8 +272,9 @@ static enum kd_status find_parameters(const struct file *f, struct groups *g)
         find_parameter(g, "_DATE", 0, &g->date[1]);
     return g->u.there && g->v.there && g->baseline.there && g->date[0].there
                ? KD_OK
-               : kd_error_set(f->error, KD_EINVAL,
-                              "the groups of the uvfits must have the parameters UU---SIN, VV---SIN, BASELINE and DATE");
+               : kd_error_set(
+                     f->error, KD_EINVAL,
+                     "the groups of the uvfits must have the parameters UU---SIN, VV---SIN, BASELINE and DATE");
 }
 
 static enum kd_status read_axis(const struct file *f, struct groups *g, int axis)
@@ -293,7 +292,8 @@ static enum kd_status read_axis(const struct file *f, struct groups *g, int axis
         numbered(key, "CRVAL", axis);
         const double first = number_or(&g->hdu, key, 0);
         if (first != -1 && first != 1)
-            return kd_error_set(f->error, KD_EINVAL, "%s of the uvfits is %g, must be -1 (RR, LL) or 1 (I)", key, first);
+            return kd_error_set(f->error, KD_EINVAL, "%s of the uvfits is %g, must be -1 (RR, LL) or 1 (I)", key,
+                                first);
         g->hands = size, g->hand_step = g->elements, g->circular = first < 0;
     } else if (!strcmp(kind, "FREQ")) {
         g->channels = size, g->channel_step = g->elements;
@@ -337,8 +337,8 @@ static enum kd_status open_groups(const struct file *f, struct groups *g)
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
         return kd_error_set(f->error, KD_EINVAL,
                             "the uvfits has %zu groups of %zu bytes behind byte %zu, must have %llu bytes, and has %zu",
-                            g->n, group, g->hdu.begin,
-                            (unsigned long long)((uint64_t)group * g->n + g->hdu.begin), f->size);
+                            g->n, group, g->hdu.begin, (unsigned long long)((uint64_t)group * g->n + g->hdu.begin),
+                            f->size);
     g->hdu.size = group * g->n;
 done:
     return status;
@@ -369,8 +369,8 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* In single precision, as weights are, and as ehtim has it: where an amplitude is no larger than its error, sqrt(|V|^2 -
- * sigma^2) tells the difference. */
+/* In single precision, as weights are, and as ehtim has it: where an amplitude is no larger than its error, sqrt(|V|^2
+ * - sigma^2) tells the difference. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
 /* Stokes I and its error; false: no weight. */

@@ -53,7 +53,18 @@ class Compare(Case):
 
     def test_the_flux_that_fits_best(self):
         """No other flux has a smaller chi^2; a thin disk, whose light is of no frequency, has it without being asked."""
-        options = ["--observation", compared.CSV, "-p", "m87", "--pixels", "64", "--average-s", "600", "--check", "none"]
+        options = [
+            "--observation",
+            compared.CSV,
+            "-p",
+            "m87",
+            "--pixels",
+            "64",
+            "--average-s",
+            "600",
+            "--check",
+            "none",
+        ]
         best, asked = self.told(*options), self.told(*options, "--solve", "flux")
         self.assertEqual(best["chi2"], asked["chi2"])
         flux = best["values"]["flux_jy"]

@@ -208,7 +208,9 @@ print(json.dumps(told))
                 self.assertEqual(done.returncode, 0, done.stderr)
                 theirs = json.loads(done.stdout.splitlines()[-1])
                 ours = json.loads(self.good("compare", *compared.options(case)))
-                print(at, json.dumps(theirs), json.dumps({k: ours["chi2"][k] / v - 1 for k, v in theirs["chi2"].items()}))
+                print(
+                    at, json.dumps(theirs), json.dumps({k: ours["chi2"][k] / v - 1 for k, v in theirs["chi2"].items()})
+                )
                 self.assertEqual(theirs["n"], ours["n"])
                 for name, value in theirs["chi2"].items():
                     self.assertAlmostEqual(ours["chi2"][name] / value, 1, delta=1e-6, msg=name)

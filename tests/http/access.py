@@ -26,6 +26,7 @@ QUESTIONS = {
     "/v1/spectrum": {},
     "/v1/transfer-function": {},
     "/v1/visibility": {"scene": SCENE},
+    "/v1/compare": {"scene": SCENE, "observation": 64 * "0"},
 }
 ID, HASH = "0123456789abcdef", 64 * "a"
 CHANGES = [

@@ -98,9 +98,9 @@ static void test_chi2_is_that_of_ehtim(void **state)
             struct kd_error error = { 0 };
             double chi2[KD_PRODUCTS];
             assert_int_equal(kd_comparison_make(&o, &by_ehtim[i].params, &c, &error), KD_OK);
-            double(*model)[2] = malloc(c.n * sizeof *model);
+            double (*model)[2] = malloc(c.n * sizeof *model);
             transform(&c, model);
-            kd_comparison_judge(&c, (const double(*)[2])model, chi2);
+            kd_comparison_judge(&c, (const double (*)[2])model, chi2);
             for (int p = 0; p < KD_PRODUCTS; p++) {
                 const double off = chi2[p] / by_ehtim[i].chi2[p] - 1, bound = !f ? 1e-6 : p < 2 || i ? 1e-3 : 0.2;
                 assert_int_equal(c.of[p], by_ehtim[i].n[p]);
@@ -150,12 +150,12 @@ static void test_the_flux_that_fits(void **state)
     double chi2[KD_PRODUCTS];
     assert_int_equal(
         kd_comparison_make(&o, &(struct kd_comparison_params) { .products = 7, .measured = true }, &c, &error), KD_OK);
-    double(*model)[2] = malloc(c.n * sizeof *model);
+    double (*model)[2] = malloc(c.n * sizeof *model);
     for (size_t i = 0; i < c.n; i++)
         model[i][0] = 0.25 * c.at[i].re, model[i][1] = 0.25 * c.at[i].im;
-    const double scale = kd_comparison_scale(&c, (const double(*)[2])model);
+    const double scale = kd_comparison_scale(&c, (const double (*)[2])model);
     assert_true(fabs(scale - 4) < 1e-12);
-    kd_comparison_judge(&c, (const double(*)[2])model, chi2);
+    kd_comparison_judge(&c, (const double (*)[2])model, chi2);
     assert_true(chi2[0] > 1 && chi2[1] < 1e-20 && chi2[2] < 1e-20);
     free(model);
     kd_comparison_finish(&c);
@@ -218,7 +218,8 @@ static void test_uvfits_that_is_refused(void **state)
     static const struct {
         const char *key, *card, *why;
     } cards[] = {
-        { "GCOUNT  =", "GCOUNT  =        1099511627776", "GCOUNT of the uvfits is 1099511627776, must be 1 to 1048576" },
+        { "GCOUNT  =", "GCOUNT  =        1099511627776",
+          "GCOUNT of the uvfits is 1099511627776, must be 1 to 1048576" },
         { "GCOUNT  =", "GCOUNT  =                  NaN", "GCOUNT of the uvfits is nan" },
         { "GCOUNT  =", "GCOUNT  =                 1900", "must have 168240 bytes, and has 149760" },
         { "PCOUNT  =", "PCOUNT  =        1099511627776", "PCOUNT of the uvfits is 1099511627776, must be 4 to 32" },
@@ -303,8 +304,8 @@ static void test_files_that_are_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_chi2_is_that_of_ehtim), cmocka_unit_test(test_both_files_say_the_same),
-        cmocka_unit_test(test_the_flux_that_fits),    cmocka_unit_test(test_csv_that_is_refused),
+        cmocka_unit_test(test_chi2_is_that_of_ehtim),  cmocka_unit_test(test_both_files_say_the_same),
+        cmocka_unit_test(test_the_flux_that_fits),     cmocka_unit_test(test_csv_that_is_refused),
         cmocka_unit_test(test_uvfits_that_is_refused), cmocka_unit_test(test_files_that_are_cut),
         cmocka_unit_test(test_files_that_are_damaged),
     };
