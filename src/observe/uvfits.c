@@ -1,6 +1,6 @@
 /* uvfits: visibilities as random groups of the primary HDU, stations in the binary table "AIPS AN" (E. W. Greisen 2020,
  * AIPS Memo 117; FITS Standard 4.0, 6 and 7.3). A reader of our own instead of CFITSIO, because of the whole of FITS
- * this takes two HDUs (docs/decisions/0018-observations-are-read-by-our-own-readers.md).
+ * this takes two HDUs (docs/decisions/0020-observations-are-read-here.md).
  *
  * Stokes I is the mean of RR and LL, or either where the other has no weight; channels and IFs are averaged by their
  * weights, at the frequency of the table of stations, as ehtim does. */
@@ -119,7 +119,7 @@ static size_t width_of(char type)
 static enum kd_status find_column(const struct file *f, const struct hdu *hdu, const char *name, size_t row,
                                   struct column *out)
 {
-    size_t fields, at = 0;
+    size_t fields = 0, at = 0;
     enum kd_status status = read_whole(f, hdu, "TFIELDS", 1, 999, &fields);
     *out = (struct column) { 0 };
     for (int i = 1; !status && i <= (int)fields; i++) {
@@ -169,7 +169,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
 {
     struct column name, number, sefd;
     double noise[KD_OBSERVATION_STATIONS] = { 0 };
-    size_t row, rows;
+    size_t row = 0, rows = 0;
     enum kd_status status;
     KD_TRY(read_whole(f, hdu, "NAXIS1", 1, 1 << 16, &row));
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
@@ -280,7 +280,7 @@ static enum kd_status find_parameters(const struct file *f, struct groups *g)
 static enum kd_status read_axis(const struct file *f, struct groups *g, int axis)
 {
     char key[KEY], kind[24];
-    size_t size;
+    size_t size = 0;
     enum kd_status status;
     numbered(key, "CTYPE", axis);
     read_text(&g->hdu, key, kind, sizeof kind);
@@ -312,7 +312,7 @@ done:
 
 static enum kd_status open_groups(const struct file *f, struct groups *g)
 {
-    size_t axes;
+    size_t axes = 0;
     double bitpix;
     enum kd_status status;
     *g = (struct groups) { .elements = 1, .channels = 1, .ifs = 1 };
