@@ -58,7 +58,7 @@ struct kd_integral_request {
                                            whoever runs it, its visibilities are u and v */
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
     int measured, maximal;
-    enum kd_pulse pulse;
+    enum kd_pixel_shape pulse;
     double flux_jy;           /* NaN: the scene's own, or if it has none what fits best */
     uint32_t products, solve; /* a bit each: enum kd_product; 1: the flux */
     uint64_t seen;            /* which fields were given, a bit each */

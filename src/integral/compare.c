@@ -68,8 +68,8 @@ enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const
             "FILE");
     if (!r->assets->find(r->assets->user, given->valuestring, &found) ||
         !r->assets->take(r->assets->user, found.hash, &bytes))
-        return kd_error_field(error, "/observation", "observation names no asset that is here, allowed are %s",
-                              r->assets->allowed);
+        return kd_error_field(error, "/observation",
+                              "observation names no asset that is here, must be the SHA-256 of one");
     enum kd_status status = kd_integral_set_observation(r, bytes.data, bytes.size, error);
     r->assets->give_back(r->assets->user, &bytes);
     return status;

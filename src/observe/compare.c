@@ -164,13 +164,13 @@ void kd_comparison_judge(struct kd_comparison *c, const double (*model)[2], doub
 }
 
 /* Along one axis, x turns a pixel. */
-static double along(enum kd_pulse pulse, double x)
+static double along(enum kd_pixel_shape pulse, double x)
 {
     const double sinc = fabs(x) < 1e-9 ? 1 : sin(M_PI * x) / (M_PI * x);
     return pulse == KD_PULSE_POINT ? 1 : pulse == KD_PULSE_RECTANGLE ? sinc : sinc * sinc;
 }
 
-double kd_pulse_at(enum kd_pulse pulse, double u_pixel, double v_pixel)
+double kd_pulse_at(enum kd_pixel_shape pulse, double u_pixel, double v_pixel)
 {
     return along(pulse, u_pixel) * along(pulse, v_pixel);
 }

@@ -62,7 +62,7 @@ double kd_comparison_residual(const struct kd_comparison_row *row);
 
 /* How the image's pixels are seen at this baseline, whose length along each axis is so many turns a pixel: the Fourier
  * transform of a pixel. */
-enum kd_pulse { KD_PULSE_TRIANGLE, KD_PULSE_RECTANGLE, KD_PULSE_POINT };
-double kd_pulse_at(enum kd_pulse pulse, double u_pixel, double v_pixel);
+enum kd_pixel_shape { KD_PULSE_TRIANGLE, KD_PULSE_RECTANGLE, KD_PULSE_POINT };
+double kd_pulse_at(enum kd_pixel_shape pulse, double u_pixel, double v_pixel);
 
 #endif

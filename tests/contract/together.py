@@ -249,7 +249,7 @@ TOGETHER = [
     (
         "POST /v1/compare",
         (
-            "observation names no asset that is here, allowed are %s",
+            "observation names no asset that is here, must be the SHA-256 of one",
             "solve has flux, and products has no amplitude, which tells it",
             "nothing is left to compare of %zu visibilities, %zu of which are too short: uv_min_gl and snr_cut must leave some",
             "%zu visibilities and %zu rows are left to compare, must be at most %u of each: average_s averages them",
