@@ -129,6 +129,7 @@ TOLD = (
     "DiskSpectrum",
     "VolumeSpectrum",
     "Visibilities",
+    "Comparison",
     "PresetTold",
     "Device",
     "Session",

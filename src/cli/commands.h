@@ -24,6 +24,7 @@
     X("transfer-function", transfer_function, "how rings of a thin disk are seen, by redshift") \
     X("spectrum", spectrum, "what a thin disk, or a volume, sends, by frequency") \
     X("visibility", visibility, "what an interferometer measures of a scene, by baseline") \
+    X("compare", compare, "a scene beside an observation of the EHT: chi^2, by baseline and closure") \
     X("playground", playground, "bodies round the hole that pull one another, merge, are torn") \
     X("physics", physics, "numbers of a hole, an orbit, a disk: one point or a curve") \
     X("plan", plan, "what a scene costs on this device") \

@@ -11,12 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_FIRST = 256, FIELDS_MAX = 64 };
+enum { KEY_FIRST = 256, FIELDS_MAX = 64, KEY_OBSERVATION = KEY_FIRST + FIELDS_MAX };
 
 struct arguments {
     enum kd_integral what;
     const char *input, *output, *format;
     const char *given[FIELDS_MAX]; /* as the table of fields */
+    const char *observation;       /* the file, of a comparison */
     struct kd_scene_options scene; /* of those that may have one */
     const char *device;
 };
@@ -40,6 +41,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
             state->child_inputs[0] = &arguments->scene, state->child_inputs[1] = &arguments->device;
         return 0;
     case 'o': arguments->output = text; return 0;
+    case KEY_OBSERVATION: arguments->observation = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "npy"))
             argp_error(state, "--format %s: json, csv or npy", text);
@@ -97,6 +99,17 @@ done:
     return status;
 }
 
+static enum kd_status read_observation(const char *path, struct kd_integral_request *request, struct kd_error *error)
+{
+    struct kd_buffer file = { 0 };
+    enum kd_status status = kd_file_read(path, KD_OBSERVATION_BYTES, &file, error);
+    if (!status &&
+        (status = kd_integral_set_observation(request, file.data ? file.data : (const uint8_t *)"", file.size, error)))
+        kd_cli_prefix(error, path);
+    kd_buffer_finish(&file);
+    return status;
+}
+
 static enum kd_status load(struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -107,6 +120,8 @@ static enum kd_status load(struct arguments *arguments, struct kd_integral_reque
     for (size_t i = 0; i < kd_n_integral_fields; i++)
         if (arguments->given[i])
             KD_TRY(kd_integral_request_set(request, kd_integral_fields[i].name, arguments->given[i], error));
+    if (arguments->observation)
+        KD_TRY(read_observation(arguments->observation, request, error));
     KD_TRY(kd_integral_request_check(request, error));
 done:
     return status;
@@ -192,18 +207,23 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
         (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .csv and .npy choose those formats", 2 };
     options[n++] =
         (struct argp_option) { "format", 'f', "json|csv|npy", 0, "the format, whatever the name of the output", 2 };
+    if (what == KD_INTEGRAL_COMPARE)
+        options[n++] = (struct argp_option) {
+            "observation", KEY_OBSERVATION, "FILE", 0, "what was observed: uvfits, or the EHT's CSV", 1
+        };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
             continue;
         snprintf(names[i], sizeof names[i], "%s", f->name);
-        for (char *c = names[i]; (c = strchr(c, '_'));)
+        for (char *c = names[i]; *(c += strcspn(c, "_."));)
             *c = '-';
         const bool word = f->kind == KD_INTEGRAL_REAL && f->words;
         snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "",
                  word ? "; a number or " : "", word ? f->words : "");
         snprintf(values[i], sizeof values[i], "X|%s", word ? f->words : "");
         const char *value = f->kind == KD_INTEGRAL_WORD      ? f->words
+                            : f->kind == KD_INTEGRAL_WORDS   ? "WORD,..."
                             : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..."
                             : word                           ? values[i]
                                                              : "X";
@@ -214,7 +234,7 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
 /* The options of one of them, and the texts that they point into. */
 struct table {
     struct argp argp;
-    struct argp_option options[FIELDS_MAX + 3];
+    struct argp_option options[FIELDS_MAX + 4];
     char names[FIELDS_MAX][32], helps[FIELDS_MAX][240], values[FIELDS_MAX][40], doc[400];
 };
 
@@ -285,6 +305,13 @@ int kd_cli_visibility(int argc, char **argv)
 {
     return run(KD_INTEGRAL_VISIBILITY, kd_cli_visibility_argp(), argc, argv);
 }
+
+const struct argp *kd_cli_compare_argp(void)
+{
+    static struct table table;
+    return make_argp(KD_INTEGRAL_COMPARE, &table);
+}
+int kd_cli_compare(int argc, char **argv) { return run(KD_INTEGRAL_COMPARE, kd_cli_compare_argp(), argc, argv); }
 
 const struct argp *kd_cli_spectrum_argp(void)
 {

@@ -6,10 +6,13 @@
 #include "integral/request.h"
 #include "render/plan/plan.h"
 
-enum { KD_INTEGRAL_COLUMNS = 10, KD_INTEGRAL_VALUES = 8 };
+enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 8 };
 
 /* What an integral's answer holds besides its parameters. */
-struct kd_integral_column { const char *name, *unit, *help; /* unit NULL: that of the answer's light */ };
+struct kd_integral_column {
+    const char *name, *unit, *help; /* unit NULL: that of the answer's light */
+    bool words;                     /* its numbers stand for words: kd_integral_word */
+};
 struct kd_integral_kind_of {
     const char *title;
     struct kd_integral_column values[KD_INTEGRAL_VALUES], columns[KD_INTEGRAL_COLUMNS]; /* up to one without a name */
@@ -20,6 +23,8 @@ const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what);
 struct kd_integral_answer {
     const struct kd_integral_request *request;
     double values[KD_INTEGRAL_VALUES];
+    double map_jy;               /* flux of the last map, as its scene has it; NaN: its light is of no frequency */
+    double chi2[2][KD_PRODUCTS]; /* of a comparison: of the map, and of the finer one */
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* rows of each; one allocation, that of the first */
     const char *light;                    /* unit of columns that are of light */
@@ -35,6 +40,8 @@ enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_
  * leaves nothing to finish. Some 10 to 100 ms; of a spin and an inclination that were asked for lately, less. */
 enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer,
                                    struct kd_error *error);
+/* What a number of a column of words stands for; NULL: nothing. */
+const char *kd_integral_word(const struct kd_integral_answer *answer, size_t column, double number);
 void kd_integral_answer_finish(struct kd_integral_answer *answer);
 
 /* JSON: {"integral", "scene" where it has one, "parameters", "values", "columns", "units", "sources",

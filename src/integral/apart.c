@@ -42,15 +42,16 @@ static const char visibility[] = "{\"anyOf\":["
     ALONE("u") HAS("v") "]}}," ALONE("v") HAS("u") "]}},"
     "{\"required\":[\"u\"],\"anyOf\":[" HAS("lengths") "," HAS("length_max") ","
         HAS("baselines") "," HAS("angles_deg") "]}]}";
+static const char compare[] = "{\"required\":[\"solve\",\"flux_jy\"],\"properties\":{\"solve\":{\"minItems\":1},"
+    "\"flux_jy\":{\"type\":\"number\"}}}";
 /* clang-format on */
 
 const char *kd_integral_apart(enum kd_integral what)
 {
     _Static_assert(KD_INTEGRAL_PICTURES == 200 && KD_INTEGRAL_FREQUENCIES == 1000, "the schema of a spectrum says so");
-    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line,
-                                                       [KD_INTEGRAL_TRANSFER] = transfer,
-                                                       [KD_INTEGRAL_SPECTRUM] = spectrum,
-                                                       [KD_INTEGRAL_VOLUME] = spectrum,
-                                                       [KD_INTEGRAL_VISIBILITY] = visibility };
+    static const char *const schemas[KD_INTEGRALS] = {
+        [KD_INTEGRAL_LINE] = line,       [KD_INTEGRAL_TRANSFER] = transfer,     [KD_INTEGRAL_SPECTRUM] = spectrum,
+        [KD_INTEGRAL_VOLUME] = spectrum, [KD_INTEGRAL_VISIBILITY] = visibility, [KD_INTEGRAL_COMPARE] = compare
+    };
     return schemas[what];
 }

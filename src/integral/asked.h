@@ -2,6 +2,7 @@
 #ifndef KD_INTEGRAL_ASKED_H
 #define KD_INTEGRAL_ASKED_H
 
+#include "observe/comparison.h"
 #include "physics/line_profile.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
@@ -10,13 +11,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* VOLUME is what SPECTRUM becomes when a scene is given. These last two are made of pictures (integral/run.h). */
+/* VOLUME is what SPECTRUM becomes when a scene is given. It and those behind it are made of pictures (integral/run.h).
+ */
 enum kd_integral {
     KD_INTEGRAL_LINE,
     KD_INTEGRAL_TRANSFER,
     KD_INTEGRAL_SPECTRUM,
     KD_INTEGRAL_VOLUME,
     KD_INTEGRAL_VISIBILITY,
+    KD_INTEGRAL_COMPARE,
     KD_INTEGRALS
 };
 
@@ -50,21 +53,30 @@ struct kd_integral_request {
         angles_deg;    /* of a visibility, Gl: a list of baselines, or lengths by angles, which become one */
     double length_max; /* NaN: half of what the pixels resolve */
     uint32_t baselines, orders;
-    uint64_t seen; /* which fields were given, a bit each */
+    struct kd_observation *observation; /* of a comparison: malloc'd; NULL: none is given */
+    struct kd_comparison *comparison;   /* malloc'd, of a request that has been checked; its models are filled in by
+                                           whoever runs it, its visibilities are u and v */
+    double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
+    int measured, maximal;
+    enum kd_pixel_shape pulse;
+    double flux_jy;           /* NaN: the scene's own, or if it has none what fits best */
+    uint32_t products, solve; /* a bit each: enum kd_product; 1: the flux */
+    uint64_t seen;            /* which fields were given, a bit each */
 };
 
-/* Whether it is made of pictures. */
+/* Whether it is made of pictures, and of the maps of light that are transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
+static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
 /* Fields for whoever lists them. */
-enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_WHOLE, KD_INTEGRAL_WORD, KD_INTEGRAL_NUMBERS };
+enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_WHOLE, KD_INTEGRAL_WORD, KD_INTEGRAL_WORDS, KD_INTEGRAL_NUMBERS };
 struct kd_integral_field {
-    const char *name, *unit, *help;
+    const char *name, *unit, *help; /* a name with a dot is a member of an object: systematic.amplitude */
     enum kd_integral_kind kind;
     size_t offset;
     double least, most;
     bool open;         /* neither end is allowed */
-    const char *words; /* "a|b": WORD; REAL: a word that stands for NaN */
+    const char *words; /* "a|b": WORD; WORDS: some of them, at least `least`; REAL: a word that stands for NaN */
     unsigned of;       /* a bit for each integral that has it */
     bool lacks;        /* a request that has been checked may have no number for it */
 };

@@ -56,6 +56,21 @@ static const char *const visibility_approximations[] = {
     "no telescope: no beam, no noise, no gaps, and no averaging over time or bandwidth",
     NULL,
 };
+static const char *const compare_sources[] = {
+    "A. A. Chael et al. 2018, ApJ 857, 23, 2.2 and appendix C (closures, chi^2), as ehtim 1.3.2 has them with ttype "
+    "\"direct\"",
+    "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. "
+    "3.7, 9.3 (debiasing), 10.3 (closures)",
+    "A. E. E. Rogers et al. 1974, ApJ 193, 293 (closure phases)",
+    NULL,
+};
+static const char *const compare_approximations[] = {
+    "nothing lies beyond the map's border: edge_share tells how bright it is there",
+    "each pixel is light of the shape of pulse: baselines beyond nyquist_gl are told too little of",
+    "errors of closures that have a baseline in common are taken as independent, and as Gaussian",
+    "the model is of one time and frequency, those of the scene; no interstellar scattering",
+    NULL,
+};
 static const char *const volume_sources[] = {
     "G. B. Rybicki & A. P. Lightman 1979, Radiative Processes in Astrophysics, 1.3, 4.9 (flux, and I/nu^3)",
     NULL,
@@ -140,6 +155,36 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                    { "error", NULL, "estimated, of re and im: by a map 1.5 times as fine" } },
                                  visibility_sources,
                                  visibility_approximations },
+    [KD_INTEGRAL_COMPARE] = { "a scene beside an interferometer's observation",
+                              { { "flux_jy", "Jy", "of the whole map as it is compared; null: nothing tells it",
+                                  false },
+                                { "pixel_uas", "uas", "from a pixel to the next", false },
+                                { "width_uas", "uas", "of the map", false },
+                                { "height_uas", "uas", "of the map", false },
+                                { "nyquist_gl", "Gl", "longest baseline that pixels so wide tell", false },
+                                { "edge_share", "1",
+                                  "what a sky as bright as the map's border would send over all of the map, of what "
+                                  "the map sends",
+                                  false },
+                                { "undefined", "pixels", "whose light was no number, and counts as none", false },
+                                { "model_error", "Jy",
+                                  "estimated, the largest of the models of amplitudes: by a map 1.5 times as fine",
+                                  false } },
+                              { { "product", "", "amplitude, closure_phase or log_closure_amplitude", true },
+                                { "hour", "h", "UTC, from the observation's mjd on", false },
+                                { "station_1", "", "of the baseline, triangle or quadrangle", true },
+                                { "station_2", "", "the same", true },
+                                { "station_3", "", "of a triangle or quadrangle", true },
+                                { "station_4", "", "of a quadrangle, of 12 34 / 14 23", true },
+                                { "u_gl", "Gl", "of an amplitude's baseline, in units of 1e9 wavelengths", false },
+                                { "v_gl", "Gl", "the same", false },
+                                { "data", "Jy, deg, 1", "of an amplitude, a closure phase, a log closure amplitude",
+                                  false },
+                                { "error", "Jy, deg, 1", "of the datum, with what is systematic", false },
+                                { "model", "Jy, deg, 1", "of the scene", false },
+                                { "residual", "1", "data less model, over the error", false } },
+                              compare_sources,
+                              compare_approximations },
 };
 
 const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what) { return &kinds[what]; }

@@ -14,6 +14,7 @@
 #define SPECTRUM (1u << KD_INTEGRAL_SPECTRUM)
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
+#define COMPARE (1u << KD_INTEGRAL_COMPARE)
 #define ALL (LINE | TRANSFER | SPECTRUM)
 #define REAL(name, unit, least, most, of, help) \
     { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of, false }
@@ -23,6 +24,10 @@
     { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of, false }
 #define WHOLE(name, least, most, of, help) \
     { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of, false }
+#define WORDS(name, words, least, of, help) \
+    { #name, "", help, KD_INTEGRAL_WORDS, AT(name), least, 0, false, words, of, false }
+#define MEMBER(name, member, unit, least, most, of, help) \
+    { #name, unit, help, KD_INTEGRAL_REAL, AT(member), least, most, false, NULL, of, false }
 #define NUMBERS(name, unit, least, most, of, help) \
     { #name, unit, help, KD_INTEGRAL_NUMBERS, AT(name), least, most, false, NULL, of, false }
 
@@ -82,17 +87,41 @@ const struct kd_integral_field kd_integral_fields[] = {
       KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
     WHOLE(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY,
           "number of image orders, from 0 on, whose light is told apart too"),
-    WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY,
-          "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility"),
-    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY,
+    WORDS(products, "amplitude|closure_phase|log_closure_amplitude", 1, COMPARE, "what is compared"),
+    REAL(average_s, "s", 0, 86400, COMPARE,
+         "visibilities are averaged in bins of so many seconds, counted from 1960-01-01; 0: they are not"),
+    REAL(
+        uv_min_gl, "Gl", 0, 1e6, COMPARE,
+        "baselines shorter than this are left out, in units of 1e9 wavelengths: those within one site, which see light "
+        "that the map has not"),
+    REAL(snr_cut, "", 0, 1e6, COMPARE, "amplitudes and closures of less signal over noise are left out"),
+    MEMBER(systematic.visibility, systematic_visibility, "", 0, 1, COMPARE,
+           "share of each visibility's amplitude that is added to its error in quadrature, before all else"),
+    MEMBER(systematic.amplitude, systematic_amplitude, "", 0, 1, COMPARE,
+           "share of each station, sqrt(2) of which is added to an amplitude's error in quadrature"),
+    MEMBER(systematic.closure_phase_deg, systematic_closure_phase_deg, "deg", 0, 180, COMPARE,
+           "added to the error of a closure phase in quadrature"),
+    WORD(debias, measured, "yes|no", COMPARE,
+         "yes: amplitudes are sqrt(|V|^2 - sigma^2), and closures are made of such; no: as they are measured"),
+    WORD(closures, maximal, "minimal|maximal", COMPARE,
+         "minimal: triangles and quadrangles that others do not follow from, about the first station; maximal: all"),
+    WORD(pulse, pulse, "triangle|rectangle|point", COMPARE, "what light a pixel of the map stands for"),
+    { "flux_jy", "Jy",
+      "of the whole map, which is made brighter or darker; auto: as the scene is, or, where its light is of no "
+      "frequency, as amplitudes fit best",
+      KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE, true },
+    WORDS(solve, "flux", 0, COMPARE, "what is chosen so that chi^2 of the amplitudes is least"),
+    WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
+          "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison"),
+    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE,
          "what tells the error: the same picture with half as many pixels more along each side, or nothing"),
 };
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line", "transfer-function", "spectrum", "spectrum",
-                                                     "visibility" };
+    static const char *const names[KD_INTEGRALS] = { "line",     "transfer-function", "spectrum",
+                                                     "spectrum", "visibility",        "compare" };
     return names[what];
 }
 
@@ -131,6 +160,9 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200,
         .length_max = NAN,
         .baselines = 200,
+        .products = (1u << KD_PRODUCTS) - 1,
+        .uv_min_gl = 0.1,
+        .flux_jy = NAN,
     };
 }
 
@@ -154,18 +186,30 @@ static void write_word(struct kd_json *json, const char *name, const char *words
     kd_json_string(json, name, text);
 }
 
+static void write_words(struct kd_json *json, const char *name, const char *words, uint32_t set)
+{
+    size_t n;
+    kd_json_array(json, name);
+    for (int i = 0; word_at(words, i, &n); i++)
+        if (set & 1u << i)
+            write_word(json, NULL, words, i);
+    kd_json_end(json);
+}
+
 void kd_integral_field_write(struct kd_json *json, const struct kd_integral_request *request,
                              const struct kd_integral_field *field)
 {
     const char *at = (const char *)request + field->offset;
+    const char *dot = strchr(field->name, '.'), *own = dot ? dot + 1 : field->name;
     int word;
     switch (field->kind) {
-    case KD_INTEGRAL_REAL: kd_json_number(json, field->name, *(const double *)(const void *)at); break;
+    case KD_INTEGRAL_REAL: kd_json_number(json, own, *(const double *)(const void *)at); break;
     case KD_INTEGRAL_WHOLE: kd_json_number(json, field->name, *(const uint32_t *)(const void *)at); break;
     case KD_INTEGRAL_WORD:
         memcpy(&word, at, sizeof word);
         write_word(json, field->name, field->words, word);
         break;
+    case KD_INTEGRAL_WORDS: write_words(json, own, field->words, *(const uint32_t *)(const void *)at); break;
     case KD_INTEGRAL_NUMBERS: break;
     }
 }
@@ -223,13 +267,25 @@ static void add_list(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_end(json);
 }
 
+static void add_set(struct kd_json *json, const struct kd_integral_field *f)
+{
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems", f->least);
+    kd_json_bool(json, "uniqueItems", true);
+    kd_json_object(json, "items");
+    add_words(json, f->words);
+    kd_json_end(json);
+}
+
 static void add_field(struct kd_json *json, const struct kd_integral_field *f, enum kd_integral what)
 {
     char help[240];
     snprintf(help, sizeof help, "%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "");
-    kd_json_object(json, f->name);
+    kd_json_object(json, strchr(f->name, '.') ? strchr(f->name, '.') + 1 : f->name);
     kd_json_string(json, "description", help);
-    if (f->kind == KD_INTEGRAL_WORD)
+    if (f->kind == KD_INTEGRAL_WORDS)
+        add_set(json, f);
+    else if (f->kind == KD_INTEGRAL_WORD)
         add_words(json, f->words);
     else if (!strcmp(f->name, "inclination_deg"))
         add_inclination(json, what);
@@ -253,6 +309,22 @@ static void add_presets(struct kd_json *json)
     kd_json_end(json);
 }
 
+static void begin_object(struct kd_json *json, const char *name)
+{
+    char object[40];
+    snprintf(object, sizeof object, "%.*s", (int)strcspn(name, "."), name);
+    kd_json_object(json, object);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    kd_json_object(json, "properties");
+}
+
+static void end_object(struct kd_json *json)
+{
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
 /* The schema of a spectrum is that of both: of a disk, or of a scene. */
 void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
@@ -262,14 +334,27 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     kd_json_object(json, "properties");
-    if (of & (VOLUME | VISIBILITY)) {
+    if (of & (VOLUME | VISIBILITY | COMPARE)) {
         add_presets(json);
         kd_json_raw(json, "scene", scene, sizeof scene - 1);
     }
-    for (size_t i = 0; i < kd_n_integral_fields; i++)
-        if (kd_integral_fields[i].of & of)
-            add_field(json, &kd_integral_fields[i], what);
+    if (of & COMPARE)
+        kd_schema_text(json, "observation",
+                       "{\"type\":\"string\",\"minLength\":1,\"maxLength\":64,\"description\":\"SHA-256 of an asset "
+                       "of the server: uvfits, or the EHT's CSV\"}");
+    bool inside = false; /* the object of fields whose names have dots, which stand together */
+    for (size_t i = 0; i < kd_n_integral_fields; i++) {
+        const struct kd_integral_field *f = &kd_integral_fields[i];
+        if (!(f->of & of))
+            continue;
+        if (!strchr(f->name, '.') != !inside)
+            inside = !inside, inside ? begin_object(json, f->name) : end_object(json);
+        add_field(json, f, what);
+    }
     kd_json_end(json);
-    kd_schema_text(json, "not", kd_integral_apart(what));
+    if (kd_integral_apart(what))
+        kd_schema_text(json, "not", kd_integral_apart(what));
+    if (of & COMPARE)
+        kd_schema_text(json, "required", "[\"observation\"]");
     kd_json_end(json);
 }

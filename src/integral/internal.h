@@ -33,6 +33,15 @@ bool kd_integral_is_scene_member(const struct kd_integral_request *request,
 /* Takes both from a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
+
+/* compare.c */
+bool kd_integral_is_observation(const struct kd_integral_request *request, const char *name); /* of a comparison */
+enum kd_status kd_integral_read_observation(struct kd_integral_request *request, const cJSON *root,
+                                            struct kd_error *error);
+void kd_integral_drop_observation(struct kd_integral_request *request);
+enum kd_status kd_integral_check_map(struct kd_integral_request *request, struct kd_error *error); /* scene.c */
+enum kd_status kd_integral_check_compare(struct kd_integral_request *request, struct kd_error *error);
+
 enum kd_status kd_integral_check_volume(struct kd_integral_request *request, struct kd_error *error);
 
 #endif

@@ -38,7 +38,7 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
     scene.image.width = (int32_t)fmax(1, rint(w * size)), scene.image.height = (int32_t)fmax(1, rint(h * size));
     scene.style.beam_uas = 0; /* no telescope */
     scene.style.bloom = 0;
-    if (r->what == KD_INTEGRAL_VISIBILITY) {
+    if (kd_integral_is_mapped(r->what)) {
         scene.image.layers = layers_of(r);
     } else { /* matter of a given flux is the same at all frequencies: it has that flux at the scene's own */
         scene.volume.normalise_ghz =
@@ -93,7 +93,7 @@ const struct kd_format *kd_integral_picture_format(enum kd_integral what)
                                            .magic = "",
                                            .carries = KD_CARRIES_LIGHT,
                                            .encode = encode_flux };
-    return what == KD_INTEGRAL_VISIBILITY ? &maps : &flux;
+    return kd_integral_is_mapped(what) ? &maps : &flux;
 }
 
 enum kd_status kd_integral_plan(const struct kd_integral_request *r, struct kd_scene *scene,

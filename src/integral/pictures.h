@@ -11,6 +11,10 @@ enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
     1.5 /* times as many pixels along each side: not 2, where what a coarse grid mistakes for short baselines could \
            fall on the same place */
 
+/* What a picture is off by falls as the square of its pixels: of that the difference from a finer one, 1.5 times as
+ * fine, is 1 - 1/1.5^2. */
+#define KD_INTEGRAL_OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
+
 /* A request that has been checked needs so many pictures; 0: it is made of none. */
 unsigned kd_integral_pictures(const struct kd_integral_request *request);
 /* The scene of one, as a picture of the format below is made of it. With `check` finer every other one is finer, and

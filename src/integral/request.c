@@ -2,6 +2,7 @@
 #include "integral/request.h"
 
 #include "base/slip.h"
+#include "scene/members.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
@@ -22,6 +23,7 @@ void kd_integral_request_finish(struct kd_integral_request *request)
     }
     free(request->scene);
     request->scene = NULL;
+    kd_integral_drop_observation(request);
 }
 
 static bool has(const struct kd_integral_request *request, const struct kd_integral_field *field)
@@ -66,7 +68,7 @@ static void describe_allowed(const struct kd_integral_field *f, char out[KD_ALLO
     char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
     kd_number_format(low, f->least);
     kd_number_format(high, f->most);
-    if (f->kind == KD_INTEGRAL_WORD) {
+    if (f->kind == KD_INTEGRAL_WORD || f->kind == KD_INTEGRAL_WORDS) {
         char one[64];
         size_t used = 0;
         for (const char *word = f->words; *word;
@@ -90,7 +92,8 @@ static enum kd_status refuse(const struct kd_integral_field *f, const struct kd_
     kd_value_describe(value, given);
     describe_allowed(f, allowed);
     return kd_error_field(error, pointer, "%s is %s%s; it must be %s", f->name, given,
-                          f->kind == KD_INTEGRAL_WORD ? "" : kd_value_unwanted(value), allowed);
+                          f->kind == KD_INTEGRAL_WORD || f->kind == KD_INTEGRAL_WORDS ? "" : kd_value_unwanted(value),
+                          allowed);
 }
 
 static bool inside(const struct kd_integral_field *f, const struct kd_value *value)
@@ -101,18 +104,25 @@ static bool inside(const struct kd_integral_field *f, const struct kd_value *val
     return f->open ? x > f->least && x < f->most : x >= f->least && x <= f->most;
 }
 
-static bool store_word(void *at, const char *words, const char *text)
+/* The place of a word in "a|b|c"; -1: it is none of them. */
+static int word_place(const char *words, const char *text)
 {
     int i = 0;
     for (const char *word = words; *word; i++) {
         size_t n = strcspn(word, "|");
-        if (strlen(text) == n && !strncmp(word, text, n)) {
-            memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
-            return true;
-        }
+        if (strlen(text) == n && !strncmp(word, text, n))
+            return i;
         word += n + (word[n] == '|');
     }
-    return false;
+    return -1;
+}
+
+static bool store_word(void *at, const char *words, const char *text)
+{
+    const int i = word_place(words, text);
+    if (i >= 0)
+        memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
+    return i >= 0;
 }
 
 static bool store(struct kd_integral_request *request, const struct kd_integral_field *f, const struct kd_value *value)
@@ -133,6 +143,7 @@ static bool store(struct kd_integral_request *request, const struct kd_integral_
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
     case KD_INTEGRAL_WORD: return value->kind == KD_VALUE_STRING && store_word(at, f->words, value->text);
+    case KD_INTEGRAL_WORDS:
     case KD_INTEGRAL_NUMBERS: break;
     }
     return false;
@@ -201,6 +212,48 @@ done:
     return status;
 }
 
+/* One more of a set of words. */
+static enum kd_status put_word(struct kd_integral_request *request, const struct kd_integral_field *f,
+                               const struct kd_value *value, const char *pointer, struct kd_error *error)
+{
+    uint32_t *set = (uint32_t *)(void *)((char *)request + f->offset);
+    const int i = value->kind == KD_VALUE_STRING ? word_place(f->words, value->text) : -1;
+    if (i < 0)
+        return refuse(f, value, pointer, error);
+    if (*set & 1u << i)
+        return kd_error_field(error, pointer, "%s has %s twice", f->name, value->text);
+    *set |= 1u << i;
+    return KD_OK;
+}
+
+/* Words of an array, or with commas between them. */
+static enum kd_status read_words(struct kd_integral_request *request, const struct kd_integral_field *f,
+                                 const cJSON *item, const char *text, const char *pointer, struct kd_error *error)
+{
+    uint32_t *set = (uint32_t *)(void *)((char *)request + f->offset);
+    enum kd_status status = KD_OK;
+    *set = 0;
+    if (item && !cJSON_IsArray(item)) {
+        struct kd_value value = kd_tree_value(item);
+        char given[KD_VALUE_SIZE];
+        kd_value_describe(&value, given);
+        return kd_error_field(error, pointer, "%s is %s; it must be an array of words", f->name, given);
+    }
+    for (const cJSON *one = item ? item->child : NULL; one; one = one->next) {
+        struct kd_value value = kd_tree_value(one);
+        KD_TRY(put_word(request, f, &value, pointer, error));
+    }
+    for (const char *c = text; c && *c; c += strcspn(c, ","), c += *c == ',') {
+        char one[64];
+        const struct kd_value value = { .kind = KD_VALUE_STRING, .text = part(c, ",", one) };
+        KD_TRY(put_word(request, f, &value, pointer, error));
+    }
+    if (!*set && f->least > 0)
+        return kd_error_field(error, pointer, "%s has no words, must have one at least", f->name);
+done:
+    return status;
+}
+
 const struct kd_integral_field *kd_integral_field_named(const struct kd_integral_request *request, const char *name)
 {
     for (size_t i = 0; i < kd_n_integral_fields; i++)
@@ -209,21 +262,56 @@ const struct kd_integral_field *kd_integral_field_named(const struct kd_integral
     return NULL;
 }
 
-static enum kd_status read_item(struct kd_integral_request *request, const cJSON *item, struct kd_error *error)
+/* A field, known by its name, or by that of its object, a dot and its own. */
+static enum kd_status read_named(struct kd_integral_request *request, const cJSON *item, const char *name,
+                                 const char *pointer, struct kd_error *error)
 {
-    char pointer[sizeof error->pointer] = "";
-    kd_text_pointer(pointer, sizeof pointer, item->string);
-    const struct kd_integral_field *f = kd_integral_field_named(request, item->string);
+    const struct kd_integral_field *f = kd_integral_field_named(request, name);
     if (!f)
-        return unknown(request, item->string, pointer, error);
+        return unknown(request, name, pointer, error);
     uint64_t bit = UINT64_C(1) << (f - kd_integral_fields);
     if (request->seen & bit)
         return kd_error_field(error, pointer, "%s is given twice", f->name);
     request->seen |= bit;
     if (f->kind == KD_INTEGRAL_NUMBERS)
         return read_list(request, f, item, pointer, error);
+    if (f->kind == KD_INTEGRAL_WORDS)
+        return read_words(request, f, item, NULL, pointer, error);
     struct kd_value value = kd_tree_value(item);
     return store(request, f, &value) ? KD_OK : refuse(f, &value, pointer, error);
+}
+
+static bool is_object(const struct kd_integral_request *request, const char *name)
+{
+    const size_t n = strlen(name);
+    for (size_t i = 0; i < kd_n_integral_fields; i++)
+        if (has(request, &kd_integral_fields[i]) && !strncmp(kd_integral_fields[i].name, name, n) &&
+            kd_integral_fields[i].name[n] == '.')
+            return true;
+    return false;
+}
+
+static enum kd_status read_item(struct kd_integral_request *request, const cJSON *item, struct kd_error *error)
+{
+    char pointer[sizeof error->pointer] = "", name[80];
+    enum kd_status status = KD_OK;
+    kd_text_pointer(pointer, sizeof pointer, item->string);
+    if (strchr(item->string, '.'))
+        return unknown(request, item->string, pointer, error);
+    if (!is_object(request, item->string))
+        return read_named(request, item, item->string, pointer, error);
+    if (!cJSON_IsObject(item))
+        return kd_member_refuse(item, pointer, "an object", error);
+    for (const cJSON *one = item->child; one; one = one->next) {
+        char inner[sizeof pointer] = "";
+        snprintf(name, sizeof name, "%s.%.60s", item->string, one->string);
+        kd_text_pointer(inner, sizeof inner, one->string);
+        KD_TRY(read_named(request, one, name, inner, error));
+    }
+done:
+    if (status)
+        kd_error_inside(error, pointer);
+    return status;
 }
 
 enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
@@ -235,8 +323,9 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
     if (!cJSON_IsObject(root))
         KD_TRY(kd_error_field(error, "", "the document is no object with fields"));
     KD_TRY(kd_integral_read_scene(request, root, error));
+    KD_TRY(kd_integral_read_observation(request, root, error));
     for (const cJSON *item = root->child; item; item = item->next)
-        if (!kd_integral_is_scene_member(request, item->string))
+        if (!kd_integral_is_scene_member(request, item->string) && !kd_integral_is_observation(request, item->string))
             KD_TRY(read_item(request, item, error));
 done:
     kd_tree_free(root);
@@ -261,6 +350,8 @@ enum kd_status kd_integral_request_set(struct kd_integral_request *request, cons
     request->seen |= UINT64_C(1) << (f - kd_integral_fields);
     if (f->kind == KD_INTEGRAL_NUMBERS)
         return read_typed(request, f, text, pointer, error);
+    if (f->kind == KD_INTEGRAL_WORDS)
+        return read_words(request, f, NULL, text, pointer, error);
     struct kd_value value = kd_value_typed(text);
     return store(request, f, &value) ? KD_OK : refuse(f, &value, pointer, error);
 }

@@ -39,6 +39,9 @@ enum kd_status kd_integral_request_json(struct kd_integral_request *request, con
 /* One field by its name; lists as numbers with commas between them. */
 enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text,
                                        struct kd_error *error);
+/* Takes an observation, of a comparison, from the bytes of its file: KD_EINVAL at /observation. */
+enum kd_status kd_integral_set_observation(struct kd_integral_request *request, const void *data, size_t size,
+                                           struct kd_error *error);
 /* After the last of them: fills in what follows from others, and checks what ties them together. */
 enum kd_status kd_integral_request_check(struct kd_integral_request *request, struct kd_error *error);
 

@@ -1,6 +1,7 @@
 #include "integral/run.h"
 
 #include "base/clock.h"
+#include "integral/compare.h"
 #include "physics/constants.h"
 #include "render/output/wcs.h"
 
@@ -9,9 +10,6 @@
 #include <string.h>
 
 #define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
-/* What a picture is off by falls as the square of its pixels: of that the difference from a finer one, 1.5 times as
- * fine, is 1 - 1/1.5^2. */
-#define OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 #define EDGE 1 /* pixels: the border, whose light tells of what lies beyond it */
 
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
@@ -32,6 +30,10 @@ static void lay_out(struct kd_integral_answer *answer)
         c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]),
         c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
     }
+    if (r->what == KD_INTEGRAL_COMPARE) {
+        kd_integral_compare_lay_out(answer);
+        return;
+    }
     for (size_t row = 0; r->unchecked && row < answer->rows; row++)
         c[r->what == KD_INTEGRAL_VOLUME ? FLUX_ERROR : ERROR][row] = NAN;
 }
@@ -45,7 +47,11 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
     enum kd_status status = kd_integral_make_columns(&run->answer, kd_integral_rows(request), error);
     if (status)
         return status;
-    if (request->what == KD_INTEGRAL_VISIBILITY)
+    if (request->what == KD_INTEGRAL_COMPARE && !(run->model = calloc(request->u.n, sizeof *run->model))) {
+        kd_integral_run_finish(run);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu visibilities", request->u.n);
+    }
+    if (kd_integral_is_mapped(request->what))
         run->answer.light = kd_scene_is_radio_alone(request->scene) ? "Jy" : "1";
     lay_out(&run->answer);
     return KD_OK;
@@ -112,6 +118,7 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                               "nothing shines in the picture of %u x %u pixels, whose visibility was asked for", width,
                               height);
     run->scale = kd_scene_is_radio_alone(scene) ? run->grid.pixel * run->grid.pixel : 1 / sum;
+    run->answer.map_jy = kd_scene_is_radio_alone(scene) ? sum * run->scale : NAN;
     run->baseline = 0;
     free(run->scratch);
     if (!(run->scratch = malloc(2 * width * sizeof(double))))
@@ -134,7 +141,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     kd_buffer_finish(file);
     if (kd_integral_is_finer(r, run->picture)) {
         c[FLUX_ERROR][row] = jy == c[JY][row] ? 0
-                                              : fmin(OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
+                                              : fmin(KD_INTEGRAL_OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
                                                      1); /* 1: the coarser one saw none of it */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
@@ -161,25 +168,39 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
 {
     double *const *c = run->answer.columns;
     if (kd_integral_is_finer(run->answer.request, run->picture)) {
-        c[ERROR][row] = OF_DIFFERENCE * hypot(re - c[RE][row], im - c[IM][row]);
+        c[ERROR][row] = KD_INTEGRAL_OF_DIFFERENCE * hypot(re - c[RE][row], im - c[IM][row]);
         run->answer.values[WORST] = fmax(run->answer.values[WORST], c[ERROR][row]);
         return;
     }
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
+/* Observations have the conjugate of kd_fourier's sign (observe/observation.h). */
+static void put_model(struct kd_integral_run *run, const double sum[2])
+{
+    const struct kd_integral_request *r = run->answer.request;
+    const double turns = 1e9 * run->grid.pixel,
+                 scale =
+                     run->scale * kd_pulse_at(r->pulse, r->u.at[run->baseline] * turns, r->v.at[run->baseline] * turns);
+    run->model[run->baseline][0] = scale * sum[0], run->model[run->baseline][1] = -scale * sum[1];
+}
+
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
 {
     const struct kd_integral_request *r = run->answer.request;
     double sum[1 + KD_INTEGRAL_ORDERS][2];
-    while (r->what == KD_INTEGRAL_VISIBILITY && run->baseline < r->u.n) {
+    while (kd_integral_is_mapped(r->what) && run->baseline < r->u.n) {
         kd_fourier(&run->grid, run->map, bands(run), r->u.at[run->baseline], r->v.at[run->baseline], run->scratch, sum);
-        for (unsigned k = 0; k < bands(run); k++)
+        for (unsigned k = 0; k < bands(run) && r->what == KD_INTEGRAL_VISIBILITY; k++)
             put(run, run->baseline * bands(run) + k, sum[k][0] * run->scale, sum[k][1] * run->scale);
+        if (r->what == KD_INTEGRAL_COMPARE)
+            put_model(run, sum[0]);
         run->baseline++;
         if (kd_clock_ms() > until_ms)
             return true;
     }
+    if (r->what == KD_INTEGRAL_COMPARE)
+        kd_integral_compare_judge(&run->answer, run->model, kd_integral_is_finer(r, run->picture));
     kd_buffer_finish(&run->maps);
     run->picture++;
     return false;
@@ -190,5 +211,6 @@ void kd_integral_run_finish(struct kd_integral_run *run)
     kd_integral_answer_finish(&run->answer);
     kd_buffer_finish(&run->maps);
     free(run->scratch);
+    free(run->model);
     *run = (struct kd_integral_run) { 0 };
 }

@@ -25,6 +25,7 @@ struct kd_integral_run {
     const float *map[1 + KD_INTEGRAL_ORDERS];
     double scale; /* what a sum is multiplied by */
     size_t baseline;
+    double (*model)[2]; /* of a comparison: at each of its visibilities */
     double *scratch;
 };
 

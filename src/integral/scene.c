@@ -188,17 +188,24 @@ static enum kd_status check_orders(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
-enum kd_status kd_integral_check_visibility(struct kd_integral_request *r, struct kd_error *error)
+enum kd_status kd_integral_check_map(struct kd_integral_request *r, struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
-    if (!r->scene)
-        KD_TRY(kd_integral_make_scene(r, error));
+    enum kd_status status = r->scene ? KD_OK : kd_integral_make_scene(r, error);
+    if (status)
+        return status;
     if (!kd_wcs_of(r->scene).far)
         return kd_error_field(error, "/scene/camera",
                               "camera sees no flat map from far away, which visibilities are of; it must be camera.r "
                               "\"infinity\" and the projections auto and plane");
-    KD_TRY(check_orders(r, error));
     r->pixels = r->pixels ? r->pixels : 256;
+    return KD_OK;
+}
+
+enum kd_status kd_integral_check_visibility(struct kd_integral_request *r, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    KD_TRY(kd_integral_check_map(r, error));
+    KD_TRY(check_orders(r, error));
     KD_TRY(check_baselines(r, error));
 done:
     return status;

@@ -4,6 +4,7 @@
 #include "base/schema.h"
 #include "image/npy.h"
 #include "integral/answer.h"
+#include "integral/compare.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -39,13 +40,32 @@ static enum kd_status write_scene(struct kd_json *json, const struct kd_scene *s
     return status;
 }
 
+/* Goes into the object that a field's name has before its dot, out of another. */
+static void enter(struct kd_json *json, const char **object, const char *name)
+{
+    char of[40];
+    const size_t length = strchr(name, '.') ? strcspn(name, ".") : 0;
+    if (length == strcspn(*object, ".") && !strncmp(*object, name, length))
+        return;
+    if (**object)
+        kd_json_end(json);
+    *object = length ? name : "";
+    snprintf(of, sizeof of, "%.*s", (int)length, name);
+    if (length)
+        kd_json_object(json, of);
+}
+
 /* Parameters that are lists stand in the columns. */
 static void write_parameters(struct kd_json *json, const struct kd_integral_request *request)
 {
+    const char *object = "";
     kd_json_object(json, "parameters");
     for (size_t i = 0; i < kd_n_integral_fields; i++)
-        if (kd_integral_fields[i].of & 1u << request->what && kd_integral_fields[i].kind != KD_INTEGRAL_NUMBERS)
+        if (kd_integral_fields[i].of & 1u << request->what && kd_integral_fields[i].kind != KD_INTEGRAL_NUMBERS) {
+            enter(json, &object, kd_integral_fields[i].name);
             kd_integral_field_write(json, request, &kd_integral_fields[i]);
+        }
+    enter(json, &object, "");
     kd_json_end(json);
 }
 
@@ -76,11 +96,17 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, struct
         kd_json_array(&json, kind->columns[i].name);
         for (size_t row = 0; row < answer->rows; row++) {
             kd_pause_every(row, 1024);
-            kd_json_number(&json, NULL, answer->columns[i][row]);
+            const char *word = kind->columns[i].words ? kd_integral_word(answer, i, answer->columns[i][row]) : NULL;
+            if (word)
+                kd_json_string(&json, NULL, word);
+            else
+                kd_json_number(&json, NULL, answer->columns[i][row]);
         }
         kd_json_end(&json);
     }
     kd_json_end(&json);
+    if (answer->request->what == KD_INTEGRAL_COMPARE)
+        kd_integral_compare_write(&json, answer);
     write_units(&json, kind, answer->light);
     write_sentences(&json, "sources", kind->sources, NULL, 0);
     write_sentences(&json, "approximations", kind->approximations, answer->told, answer->n_told);
@@ -101,6 +127,11 @@ static enum kd_status write_csv(const struct kd_integral_answer *answer, struct 
             kd_pause_every(row, 1024);
             char number[1 + KD_DECIMAL_SIZE] = { i ? ',' : '\n' };
             double value = answer->columns[i][row];
+            const char *word = kind->columns[i].words ? kd_integral_word(answer, i, value) : NULL;
+            if (word) {
+                KD_TRY(kd_buffer_printf(out, "%c%s", *number, word));
+                continue;
+            }
             KD_TRY(kd_buffer_append(out, number, 1 + (isfinite(value) ? kd_decimal_print(number + 1, value) : 0)));
         }
     KD_TRY(kd_buffer_printf(out, "\n"));
@@ -133,6 +164,10 @@ enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum k
                                        : write_json(answer, out);
 }
 
+#define SYSTEMATIC \
+    "{\"type\":\"object\",\"additionalProperties\":false,\"properties\":{\"visibility\":{\"type\":\"number\"}," \
+    "\"amplitude\":{\"type\":\"number\"},\"closure_phase_deg\":{\"type\":\"number\"}},\"required\":[" \
+    "\"visibility\",\"amplitude\",\"closure_phase_deg\"]}"
 #define STRINGS "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}"
 
 static void raw(struct kd_json *json, const char *name, const char *text)
@@ -151,7 +186,7 @@ static void add_listed(struct kd_json *json, const char *name, const struct kd_i
         kd_json_string(json, "description", list[i].help);
         raw(json, "type", type);
         if (!strcmp(type, "\"array\""))
-            raw(json, "items", "{\"type\":[\"number\",\"null\"]}");
+            raw(json, "items", list[i].words ? "{\"type\":[\"string\",\"null\"]}" : "{\"type\":[\"number\",\"null\"]}");
         kd_json_end(json);
     }
     kd_schema_end_strict(json, names, n);
@@ -166,18 +201,29 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
+        if (strchr(f->name, '.')) {
+            names[n] = what == KD_INTEGRAL_COMPARE ? "systematic" : f->name;
+            if (!n || strcmp(names[n - 1], names[n]))
+                raw(json, names[n], SYSTEMATIC), n++;
+            continue;
+        }
         raw(json, names[n++] = f->name,
-            f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}"
-            : f->lacks                  ? "{\"type\":[\"number\",\"null\"]}"
-                                        : "{\"type\":\"number\"}");
+            f->kind == KD_INTEGRAL_WORD    ? "{\"type\":\"string\"}"
+            : f->kind == KD_INTEGRAL_WORDS ? STRINGS
+            : f->lacks                     ? "{\"type\":[\"number\",\"null\"]}"
+                                           : "{\"type\":\"number\"}");
     }
     kd_schema_end_strict(json, names, n);
 }
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral", "parameters", "values",         "columns",
-                                           "units",    "sources",    "approximations", "scene" };
+    static const char *const members[] = { "integral", "parameters",     "values", "columns", "units",
+                                           "sources",  "approximations", "scene",  "chi2",    "chi2_finer",
+                                           "n",        "observation" };
+    const size_t n = sizeof members / sizeof *members - (what == KD_INTEGRAL_COMPARE     ? 0
+                                                         : kd_integral_is_pictured(what) ? 4
+                                                                                         : 5);
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
     size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
     kd_schema_begin_strict(json, name);
@@ -192,5 +238,7 @@ void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_i
     raw(json, "approximations", STRINGS);
     if (kd_integral_is_pictured(what))
         raw(json, "scene", "{\"$ref\":\"#/components/schemas/Scene\"}");
-    kd_schema_end_strict(json, members, sizeof members / sizeof *members - !kd_integral_is_pictured(what));
+    if (what == KD_INTEGRAL_COMPARE)
+        kd_integral_compare_schema(json);
+    kd_schema_end_strict(json, members, n);
 }

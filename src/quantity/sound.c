@@ -62,7 +62,7 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
         return KD_OK;
     return kd_error_field(error, "/mass_msun",
                           "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; %g to %g "
-                          "Hz: it must be %.4g "
+                          "Hz can be heard: it must be %.4g "
                           "to %.4g solar masses, or shift_octaves %.0f to %.0f",
                           mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
                           floor(log2(KD_SOUND_HZ_MAX / natural)));

@@ -176,8 +176,9 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
         { "application/json", "application/json", SAY },
         OR(KD_NPY_TYPE),
         OR(KD_PATCH_TYPE),
-        { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE,
-          "an asset must say Content-Type: " KD_ASSET_TYPE " or " KD_ASSET_GRID_TYPE },
+        { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE ", " KD_ASSET_CSV_TYPE,
+          "an asset must say Content-Type: " KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE ", " KD_ASSET_UVFITS_TYPE
+          " or " KD_ASSET_CSV_TYPE },
     };
 #undef OR
 #undef SAY
@@ -186,6 +187,8 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
     const char *type = request->header.content_type;
     *problem =
         (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
+    if (asset && (kd_media_type_is(type, KD_ASSET_UVFITS_TYPE) || kd_media_type_is(type, KD_ASSET_CSV_TYPE)))
+        return false;
     return !kd_media_type_is(type, asset ? KD_ASSET_GRID_TYPE : "application/json") &&
            !kd_media_type_is(type, all[i].other);
 }

@@ -63,6 +63,11 @@ const struct kd_route kd_routes[] = {
     { "/v1/visibility", KD_POST, kd_handle_integral, JSON,
       "Visibilities of a scene's picture: amplitude and phase by baseline, for all its light and by image order",
       KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy", .question = true },
+    { "/v1/compare", KD_POST, kd_handle_integral, JSON,
+      "A scene beside an interferometer's observation: amplitudes, closure phases and log closure amplitudes, and "
+      "chi^2 "
+      "of each",
+      KD_TAKES_INTEGRAL, .also = "text/csv application/x-npy", .question = true },
     { "/v1/sessions", KD_POST, kd_handle_sessions, JSON,
       "A live session of a scene: its id, and the token that changes it", KD_TAKES_SCENE, .status = { 201 },
       .once = true, .own = { "least", "patience_ms" } },
@@ -122,11 +127,12 @@ const struct kd_route kd_routes[] = {
     { "/v1/playground/{id}/fallback", KD_GET, kd_handle_play_fallback, "text/csv",
       "The rate at which debris has come back, beside the line t^(-5/3)", .also = "application/x-npy" },
     { "/v1/assets", KD_GET | KD_PUT, kd_handle_assets, JSON,
-      "How many assets there are, and may be; a picture, or a grid of matter, for scenes to name by its SHA-256, and "
+      "How many assets there are, and may be; a picture, a grid of matter or an observation, to be named by its "
+      "SHA-256, and "
       "the token that deletes it",
       KD_TAKES_ASSET, .status = { 200, 201 } },
     { "/v1/assets/{sha256}", KD_GET | KD_DELETE, kd_handle_asset, "image/png", "The bytes of an asset; its end",
-      .also = "application/x-npz", .status = { 200, 304 }, .parts = true },
+      .also = "application/x-npz application/x-uvfits text/csv", .status = { 200, 304 }, .parts = true },
     { "/v1/jobs", KD_POST, kd_handle_jobs, JSON,
       "A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it", KD_TAKES_JOB,
       .status = { 202 }, .once = true },

@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 import sys
 
+import compared
 import support
 
 PYTHON = pathlib.Path(__file__).resolve().parents[2] / "venv-ehtim/bin/python"
@@ -169,6 +170,51 @@ print(json.dumps({"flux_jy": float(image.total_flux()), "linear": float(abs(imag
         print(json.dumps(found))
         for name, value in fixture["ehtim"].items():
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-5, msg=name)
+
+    def test_chi2(self):
+        """kerrd compare beside ehtim's chisq of the file of the same picture and of the same observation; what
+        tests/cli/compare.py compares where ehtim is not is what ehtim says now."""
+        code = """
+import json, sys
+import ehtim
+from ehtim.imaging import imager_utils
+case = json.loads(sys.argv[3])
+image = ehtim.image.load_fits(sys.argv[1])
+if case["flux_jy"]:
+    image.imvec = image.imvec * case["flux_jy"] / image.total_flux()
+seen = ehtim.obsdata.load_uvfits(sys.argv[2])
+seen = seen.avg_coherent(case["average_s"]) if case["average_s"] else seen
+seen = seen.add_fractional_noise(case["visibility"]) if case["visibility"] else seen
+seen = seen.flag_uvdist(uv_min=case["uv_min_gl"] * 1e9) if case["uv_min_gl"] else seen
+options = dict(ttype="direct", debias=case["debias"], snrcut=case["snr_cut"], systematic_noise=case["amplitude"],
+               systematic_cphase_noise=case["closure_phase_deg"], maxset=case["maximal"])
+told = {"chi2": {}, "n": {}}
+for name, kind in (("amplitude", "amp"), ("closure_phase", "cphase"), ("log_closure_amplitude", "logcamp")):
+    told["chi2"][name] = float(seen.chisq(image, dtype=kind, **options))
+    told["n"][name] = len(imager_utils.chisqdata(seen, image, [], kind, **options)[0])
+print(json.dumps(told))
+"""
+        for at, case in enumerate(compared.CASES):
+            with self.subTest(at):
+                layer = "intensity" if "m87" in case["scene"] else "jy_per_pixel"
+                plain = ["--set", f"image.layers={layer}", "--set", "style.beam_uas=0"]
+                self.good("render", *case["scene"], *plain, "-o", self.path("a.fits"))
+                done = subprocess.run(
+                    [PYTHON, "-I", "-c", code, self.path("a.fits"), compared.UVFITS, json.dumps(case)],
+                    capture_output=True,
+                    text=True,
+                    timeout=200,
+                )
+                self.assertEqual(done.returncode, 0, done.stderr)
+                theirs = json.loads(done.stdout.splitlines()[-1])
+                ours = json.loads(self.good("compare", *compared.options(case)))
+                print(
+                    at, json.dumps(theirs), json.dumps({k: ours["chi2"][k] / v - 1 for k, v in theirs["chi2"].items()})
+                )
+                self.assertEqual(theirs["n"], ours["n"])
+                for name, value in theirs["chi2"].items():
+                    self.assertAlmostEqual(ours["chi2"][name] / value, 1, delta=1e-6, msg=name)
+                    self.assertAlmostEqual(case["ehtim"]["chi2"][name] / value, 1, delta=1e-4, msg=name)
 
     def test_the_python_client(self):
         """kerrd.to_ehtim has what ehtim reads of the file of the same picture."""

@@ -123,6 +123,7 @@ class Installed(Case):
 class Examples(Case):
     def test_they_run(self):
         os.symlink(KERRD, self.path("kerrd"))
+        os.symlink(SOURCES.parent / "data/eht/m87-2017-04-05-lo.csv", self.path("m87.csv"))
         env = {**os.environ, "PATH": self.folder + os.pathsep + os.environ["PATH"]}
         seen = 0
         for context in contexts():

@@ -148,7 +148,7 @@ SESSION = (
     "image.tile.width is %u; it must be 0 in a session, which shows whole pictures of any size",
 )
 
-OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
+OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|playground|visibility|compare|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
 
 # (operations, their sentences)
 TOGETHER = [
@@ -246,9 +246,21 @@ TOGETHER = [
             "nothing shines in the picture of %u x %u pixels, whose visibility was asked for",
         ),
     ),
+    (
+        "POST /v1/compare",
+        (
+            "observation names no asset that is here; it must be the SHA-256 of one",
+            "solve has flux, and products has no amplitude, which tells it",
+            "nothing is left to compare of %zu visibilities, %zu of which are too short: uv_min_gl and snr_cut must leave some",
+            "%zu visibilities and %zu rows are left to compare; it must be at most %u of each: average_s averages them",
+            "the observation has more than %d amplitudes and closures; it must have at most as many: average them for longer, or take a minimal set",
+            'camera sees no flat map from far away, which visibilities are of; it must be camera.r "infinity" and the projections auto and plane',
+            "nothing shines in the picture of %u x %u pixels, whose visibility was asked for",
+        ),
+    ),
     # pictures whose light is measured
     (
-        "POST /v1/(spectrum|visibility|jobs)",
+        "POST /v1/(spectrum|visibility|compare|jobs)",
         (
             'camera.stereo is "pair"; it must be "none" where light is measured: there is one flux for each eye',
             'camera.projection is "ring", "equirectangular" or "fulldome"; it must be "plane" or "pinhole" where light is measured: areas of the others are not to scale',

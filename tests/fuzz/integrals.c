@@ -24,13 +24,25 @@ static void check(struct kd_integral_request *request, enum kd_status status, co
     kd_buffer_finish(&out);
 }
 
+/* A comparison has an observation of three stations before it is asked for. */
+static void begin(struct kd_integral_request *request, enum kd_integral what)
+{
+    static const char seen[] = "#SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz\n"
+                               "#time(UTC),T1,T2,U(lambda),V(lambda),Iamp(Jy),Iphase(d),Isigma(Jy)\n"
+                               "1,AA,LM,1e9,-3e9,0.1,20,0.01\n1,AA,PV,-4e9,-4e9,0.2,-60,0.01\n"
+                               "1,LM,PV,-5e9,-1e9,0.3,170,0.01\n";
+    kd_integral_request_init(request, what);
+    CHECK(what != KD_INTEGRAL_COMPARE || !kd_integral_set_observation(request, seen, sizeof seen - 1, NULL),
+          "the observation is not read");
+}
+
 static void read_lines(enum kd_integral what, const uint8_t *data, size_t size)
 {
     struct kd_integral_request request;
     struct kd_error error = { 0 };
     struct kd_fuzz_text line;
     enum kd_status status = KD_OK;
-    kd_integral_request_init(&request, what);
+    begin(&request, what);
     while (!status && kd_fuzz_next(&data, &size, &line)) {
         char *value = strchr(line.at, '=');
         if (value) {
@@ -48,17 +60,17 @@ static void read_lines(enum kd_integral what, const uint8_t *data, size_t size)
 int kd_fuzz_integrals(const uint8_t *data, size_t size)
 {
     static const enum kd_integral known[] = { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM,
-                                              KD_INTEGRAL_VISIBILITY };
+                                              KD_INTEGRAL_VISIBILITY, KD_INTEGRAL_COMPARE };
     if (!size)
         return 0;
-    const enum kd_integral what = known[*data % 4];
+    const enum kd_integral what = known[*data % 5];
     struct kd_fuzz_text text = kd_fuzz_bare(data + 1, size - 1);
     if (text.size && *text.at != '{')
         read_lines(what, (const uint8_t *)text.at, text.size);
     else {
         struct kd_integral_request request;
         struct kd_error error = { 0 };
-        kd_integral_request_init(&request, what);
+        begin(&request, what);
         const enum kd_status status = kd_integral_request_json(&request, text.at, text.size, &error);
         check(&request, status, &error);
         kd_integral_request_finish(&request);

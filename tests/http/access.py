@@ -26,6 +26,7 @@ QUESTIONS = {
     "/v1/spectrum": {},
     "/v1/transfer-function": {},
     "/v1/visibility": {"scene": SCENE},
+    "/v1/compare": {"scene": SCENE, "observation": 64 * "0"},
 }
 ID, HASH = "0123456789abcdef", 64 * "a"
 CHANGES = [
@@ -158,7 +159,8 @@ class Roles(Access):
             for path, body in QUESTIONS.items():
                 with self.subTest(path):
                     answer = self.ask("POST", path, body, own(token))
-                    self.assertEqual(answer.status, 200, answer.body)
+                    known = path != "/v1/compare"  # what it names is not here: it is asked, and found wanting
+                    self.assertEqual(answer.status, 200 if known else 422, answer.body)
 
     def test_what_stays_takes_the_role(self):
         for method, target in CHANGES:

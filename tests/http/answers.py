@@ -2,12 +2,14 @@
 playground_schema.py."""
 
 import json
+import pathlib
 import urllib.parse
 
 import daemon
 
 schemas = daemon.needed("schemas")
 IMAGE = {"width": 64, "height": 36}
+OBSERVED = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.csv"
 STARS = "application/vnd.kerrd.stars+json"
 # These are described by their media type, or by documents of their own.
 ELSEWHERE = {("get", "/openapi.json"), ("get", "/v1/jobs/{id}/result")}
@@ -177,6 +179,18 @@ class Answers(daemon.Case):
             ("visibility", {"preset": "riaf", "pixels": 16, "u": [0, 3], "v": [1, 2], "check": "none"}),
         ):
             self.send("POST", "/v1/" + name, "/v1/" + name, document)
+        seen = self.daemon.request("PUT", "/v1/assets", OBSERVED.read_bytes(), {"Content-Type": "text/csv"}).json()
+        for document in (
+            {"preset": "m87", "pixels": 16, "average_s": 600},
+            {
+                "preset": "riaf",
+                "pixels": 16,
+                "check": "none",
+                "products": ["closure_phase"],
+                "systematic": {"closure_phase_deg": 2},
+            },
+        ):
+            self.send("POST", "/v1/compare", "/v1/compare", {"observation": seen["sha256"], **document})
         answer = self.daemon.post("/v1/spectrum", {"preset": "riaf", "frequencies": 200, "pixels": 2048})
         self.assertEqual(answer.status, 422, answer.body)
         self.assertIn("400 pictures", answer.json()["detail"])

@@ -143,7 +143,7 @@ class Assets(Case):
     def test_what_there_is(self):
         told = lambda: self.daemon.get(ASSETS).json()
         before = told()
-        self.assertEqual(before["types"], ["image/png", "application/x-npz"])
+        self.assertEqual(before["types"], ["image/png", "application/x-npz", "application/x-uvfits", "text/csv"])
         self.assertEqual(
             before["limits"], {"assets": 64, "bytes": 256 << 20, "asset_bytes": 32 << 20, "asset_pixels": 1 << 28}
         )

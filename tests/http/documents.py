@@ -89,7 +89,7 @@ class Documents(unittest.TestCase):
         curl = programs.joinpath("curl")
         curl.write_text(CURL.format(curl=shutil.which("curl"), port=cls.daemon.port))
         curl.chmod(0o755)
-        for name in "docs", "clients", "venv":  # as in the folder of the repository, which documents speak from
+        for name in "docs", "clients", "data", "venv":  # as in the folder of the repository, which documents speak from
             pathlib.Path(cls.folder.name, name).symlink_to(ROOT / name)
         pathlib.Path(cls.folder.name, "milky-way.png").symlink_to(ROOT / "docs/default.png")  # any picture
         cls.environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
@@ -143,6 +143,9 @@ class Documents(unittest.TestCase):
         table = set(re.findall(r"\d{3}", " ".join(re.findall(r"^\| ((?:\d{3}(?:, )?)+) \|", text, re.M))))
         self.assertGreater(len(problems), 10)
         self.assertEqual(table, problems, "docs/http.md")
+
+    def test_comparing(self):
+        self.made("docs/comparing.md", 2, "chi2.json")
 
     def test_orbits(self):
         self.run_all("docs/orbits.md", 2)

@@ -131,6 +131,8 @@ class OpenApi(daemon.Case):
         state = {"r": 10, "theta_deg": 90, "phi_deg": 0}
         constants = {"energy": 0.96, "angular_momentum": 4, "carter": 0}
         short = {"samples": 2, "duration": {"periods": 1}}
+        data = CONFIG.parents[2].joinpath("data/eht/m87-2017-04-05-lo.csv").read_bytes()
+        seen = self.daemon.request("PUT", "/v1/assets", data, {"Content-Type": "text/csv"}).json()["sha256"]
         for path, *documents in (
             ("orbits", {}, {"orbit": orbit, "orbits": [orbit]}, {"orbits": [orbit]}),
             ("orbits", {"orbits": []}, {"orbit": orbit}),
@@ -267,6 +269,20 @@ class OpenApi(daemon.Case):
                         {"lengths": [1], "length_max": 1},
                         {"lengths": [1], "baselines": 2},
                         {"lengths": [1], "angles_deg": [0]},
+                    )
+                ),
+            ),
+            (
+                "compare",
+                *(
+                    {"observation": seen, "scene": {"image": {"width": 32, "height": 18}}, "pixels": 16, **more}
+                    for more in (
+                        {"solve": ["flux"], "flux_jy": 1},
+                        {"products": []},
+                        {"products": ["amplitude", "amplitude"]},
+                        {"systematic": {"phase": 1}},
+                        {"observation": 1},
+                        {"average_s": 600, "check": "none"},
                     )
                 ),
             ),

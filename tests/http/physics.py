@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import math
+import pathlib
 import re
 import struct
 import threading
@@ -14,6 +15,7 @@ import wave
 import daemon
 
 KERR = "/v1/physics/kerr"
+OBSERVED = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
 
 
 def strict(body):
@@ -629,6 +631,64 @@ class Integrals(daemon.Case):
             ).status,
             422,
         )
+
+    def test_a_scene_beside_an_observation(self):
+        """As kerrd compare has it (tests/cli/compare.py); what is no observation is refused where it is put, and where
+        it is named."""
+        sent = {}
+        for end, kind in (("csv", "text/csv"), ("uvfits", "application/x-uvfits")):
+            data = (OBSERVED / f"m87-2017-04-05-lo.{end}").read_bytes()
+            asset = self.daemon.request("PUT", "/v1/assets", data, {"Content-Type": kind}).json()
+            self.assertEqual((asset["type"], asset["visibilities"], asset["bytes"]), (kind, 1507, len(data)))
+            back = self.daemon.get(f"/v1/assets/{asset['sha256']}")
+            self.assertEqual((back.body, back.header("Content-Type").split(";")[0]), (data, kind))
+            for body, words in ((data[:3000], ""), (data.replace(b"GCOUNT  = ", b"GCOUNT  =x")[:-1] + b"x", "")):
+                refused = self.daemon.request("PUT", "/v1/assets", body, {"Content-Type": kind})
+                self.assertEqual((refused.status, refused.json()["type"]), (422, "urn:kerrd:problem:invalid-asset"))
+            wrong = self.daemon.request("PUT", "/v1/assets", data, {"Content-Type": "image/png"})
+            self.assertIn("by its Content-Type, and its bytes are those of", wrong.json()["detail"])
+            document = {
+                "observation": asset["sha256"],
+                "preset": "m87",
+                "pixels": 64,
+                "average_s": 600,
+                "flux_jy": 0.6,
+                "systematic": {"amplitude": 0.02, "closure_phase_deg": 2},
+                "check": "none",
+            }
+            sent[end] = self.post("compare", document).json()
+            told = sent[end]
+            self.assertEqual((told["integral"], told["n"]["amplitude"]), ("compare", 46))
+            self.assertAlmostEqual(told["values"]["flux_jy"], 0.6, delta=1e-12)
+            self.assertEqual(told["parameters"]["systematic"]["closure_phase_deg"], 2)
+        self.assertAlmostEqual(sent["csv"]["chi2"]["amplitude"] / sent["uvfits"]["chi2"]["amplitude"], 1, delta=1e-4)
+        table = self.post("compare", document, Accept="text/csv")
+        self.assertEqual(table.header("Content-Disposition"), 'attachment; filename="compare.csv"')
+        rows = list(csv.DictReader(io.StringIO(table.body.decode())))
+        self.assertEqual([row["product"] for row in rows], told["columns"]["product"])
+        for change, pointer, words in (
+            ({"observation": "0" * 64}, "/observation", "names no asset that is here"),
+            ({"observation": 3}, "/observation", "name of an asset"),
+            ({"observation": None}, "/observation", "name of an asset"),
+            ({"products": []}, "/products", "must have one at least"),
+            ({"products": ["phase"]}, "/products", 'it must be "amplitude"'),
+            ({"products": "amplitude"}, "/products", "array of words"),
+            ({"systematic": 1}, "/systematic", "an object"),
+            ({"systematic": {"amplitude": -1}}, "/systematic/amplitude", "0 to 1"),
+            ({"systematic": {"phase": 1}}, "/systematic/phase", "no field systematic.phase"),
+            ({"systematic.amplitude": 1}, "/systematic.amplitude", "no field systematic.amplitude"),
+            ({"solve": ["flux"]}, "/solve", "beside flux_jy"),
+            ({"uv_min_gl": 1e5}, "/observation", "nothing is left to compare"),
+            ({"average_s": -1}, "/average_s", "0 to 86400"),
+            ({"orders": 1}, "/orders", "no field orders"),
+        ):
+            with self.subTest(change):
+                answer = self.post("compare", {**document, **change})
+                problem = answer.json()
+                self.assertEqual((answer.status, problem.get("pointer")), (422, pointer), problem)
+                self.assertIn(words, problem["detail"])
+        missing = self.post("compare", {"preset": "m87"}).json()
+        self.assertEqual((missing["status"], missing["pointer"]), (422, "/observation"))
 
     def test_refused(self):
         for document, pointer, words in (

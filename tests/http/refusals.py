@@ -6,6 +6,7 @@ that are damaged or beyond each limit.
 
 import io
 import os
+import pathlib
 import re
 import struct
 import zipfile
@@ -17,6 +18,7 @@ import memory
 REPEATS = int(os.environ.get("REPEATS", "2"))
 WARM = 2  # what is made once, and heaps that find their size
 NPZ = "application/x-npz"
+UVFITS = "application/x-uvfits"
 MEMBERS = (
     "header",
     "r",
@@ -125,6 +127,22 @@ def pictures():
     yield "too many pixels", assets.png(30000, 9000, colour=0, pixels=bytes(30000 * 9000))
 
 
+def observations():
+    """Files of M87* that are cut, and whose cards are other numbers."""
+    folder = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
+    uvfits, text = (folder / "m87-2017-04-05-lo.uvfits").read_bytes(), (folder / "m87-2017-04-05-lo.csv").read_bytes()
+    for size in (100, 2880, 8640, 50000, 140000):
+        yield f"uvfits of {size} bytes", UVFITS, uvfits[:size]
+    for card in ("GCOUNT", "PCOUNT", "NAXIS", "NAXIS2", "NAXIS3", "BITPIX", "PSCAL5", "TFIELDS", "FREQ"):
+        for value in ("1099511627776", "NaN", "-1"):
+            begin = uvfits.index(f"{card:8}= ".encode())
+            yield f"{card} {value}", UVFITS, uvfits[:begin] + f"{card:8}= {value:>20}".encode() + uvfits[begin + 30 :]
+    for size in (6, 60, 120, 200):
+        yield f"a CSV of {size} bytes", "text/csv", text[:size]
+    for word in (b"nan", b"1e999", b"", b"AA,"):
+        yield f"a CSV with {word!r}", "text/csv", text.replace(b"0.15033433", word)
+
+
 def routes(document):
     """Requests that each operation of the document refuses."""
     known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64, code="AwA")
@@ -184,6 +202,7 @@ class Refusals(daemon.Case):
 
         self.hold(((name, put(data, NPZ)) for name, data in grids()), 100)
         self.hold(((name, put(data, "image/png")) for name, data in pictures()), 10)
+        self.hold(((name, put(data, kind)) for name, kind, data in observations()), 30)
 
     def test_routes(self):
         self.hold(routes(self.daemon.get("/openapi.json").json()), 200)

@@ -250,6 +250,23 @@ class Blocking(Case):
         self.assertGreater(self.hole.plan(image=SIZE)["estimate_ms"], 0)
         self.assertIn("gargantua", [preset["name"] for preset in self.hole.presets()])
 
+    def test_a_scene_beside_an_observation(self):
+        """By a file, its bytes, and the hash that it has at the server."""
+        file = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.uvfits"
+        options = {"preset": "m87", "pixels": 32, "average_s": 600, "check": "none", "flux_jy": 0.6}
+        told = self.hole.compare(file, **options)
+        columns = told["columns"]
+        self.assertEqual(columns["product"].shape, columns["model"].shape)
+        at = columns["product"] == "amplitude"
+        self.assertEqual(at.sum(), told["n"]["amplitude"])
+        self.assertAlmostEqual((columns["residual"][at] ** 2).mean() / told["chi2"]["amplitude"], 1, delta=1e-9)
+        self.assertEqual(self.hole.compare(file.read_bytes(), **options)["chi2"], told["chi2"])
+        name = self.hole.put_asset(file.read_bytes(), "application/x-uvfits")
+        other = self.hole.compare(name, {"camera": {"roll_deg": 90}}, **options)
+        self.assertNotEqual(other["chi2"]["closure_phase"], told["chi2"]["closure_phase"])
+        with self.assertRaises(kerrd.Problem):
+            self.hole.compare(b"nothing")
+
     def test_a_sweep_is_its_scenes(self):
         axes = {
             "spacetime.spin": [0, 0.9],
@@ -513,6 +530,12 @@ class Typed(Case):
         self.held(self.hole.physics("kerr"), told.Quantity)
         self.held(self.hole.line(bins=20), told.LineProfile)
         self.held(self.hole.spectrum(), told.DiskSpectrum)
+        self.held(
+            self.hole.compare(
+                pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.csv", pixels=16, average_s=600
+            ),
+            told.Comparison,
+        )
         self.held(self.hole.presets()[0], told.PresetTold)
         self.held(self.hole.device(), told.Device)
         with self.hole.job({"scene": {"image": SIZE}}) as job:

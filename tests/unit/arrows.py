@@ -18,18 +18,32 @@ MODULES = {
     "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
     "orbit": {"base", "physics", "scene", "image"},  # of scene: as quantity
-    "integral": {"base", "physics", "scene", "image", "render"},  # of render: plans and frames
+    "observe": {"base"},
+    "integral": {"base", "observe", "physics", "scene", "image", "render"},  # of render: plans and frames
     "playground": {"base", "physics", "scene", "image"},  # of scene: as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
     "job": {"base", "scene", "playground", "render"},  # of render: what frames become
-    "server": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "render", "job"},
+    "server": {
+        "base",
+        "physics",
+        "scene",
+        "quantity",
+        "orbit",
+        "observe",
+        "integral",
+        "playground",
+        "image",
+        "render",
+        "job",
+    },
     "cli": {
         "base",
         "physics",
         "scene",
         "quantity",
         "orbit",
+        "observe",
         "integral",
         "playground",
         "image",
@@ -60,7 +74,7 @@ FOLDERS = {
     "server": ["http", "asset", "render", "session", "playground", "job", "openapi", "answers"],
 }
 # In these modules files form no circle: a header and its source count as one, which knows what either includes.
-NO_CIRCLES = {"base", "scene", "quantity", "orbit", "integral", "playground", "job", "cli"}
+NO_CIRCLES = {"base", "scene", "quantity", "orbit", "observe", "integral", "playground", "job", "cli"}
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},

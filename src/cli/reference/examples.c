@@ -36,6 +36,8 @@ const struct kd_example kd_examples[] = {
     { "transfer-function", "kerrd transfer-function --spin 0.9 --inclination-deg 60 -o transfer.csv",
       "How the rings of a disk are seen:" },
     { "spectrum", "kerrd spectrum --spin 0.9 --inclination-deg 60 --format csv", "The spectrum of a thin disk:" },
+    { "compare", "kerrd compare --observation m87.csv --preset m87 --average-s 600 --pixels 64",
+      "A scene beside M87* as it was observed:" },
     { "visibility", "kerrd visibility --size 128x128 --format csv",
       "What an interferometer measures of the default scene:" },
     { "playground", "kerrd playground --preset system --time 100 --series energy.csv -o later.json",

@@ -16,7 +16,24 @@
 
 static const char *type_of(const struct kd_asset_about *about)
 {
-    return about->nodes[0] ? KD_ASSET_GRID_TYPE : KD_ASSET_TYPE;
+    return about->observation == KD_OBSERVATION_UVFITS ? KD_ASSET_UVFITS_TYPE
+           : about->observation == KD_OBSERVATION_CSV  ? KD_ASSET_CSV_TYPE
+           : about->nodes[0]                           ? KD_ASSET_GRID_TYPE
+                                                       : KD_ASSET_TYPE;
+}
+
+static const char *end_of(const struct kd_asset_about *about)
+{
+    return about->observation == KD_OBSERVATION_UVFITS ? "uvfits"
+           : about->observation == KD_OBSERVATION_CSV  ? "csv"
+           : about->nodes[0]                           ? "npz"
+                                                       : "png";
+}
+
+static void write_observation(struct kd_json *json, const struct kd_asset_about *about)
+{
+    kd_json_number(json, "visibilities", about->visibilities);
+    kd_json_number(json, "stations", about->stations);
 }
 
 static void write_grid(struct kd_json *json, const struct kd_asset_about *about)
@@ -36,8 +53,8 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
     kd_json_number(json, "channels", about->channels);
 }
 
-/* {"sha256", "type", of a picture "width", "height", "bit_depth" and "channels", of a grid "nodes" and "spin",
- * "bytes", "created"}, and for who has just put it here the token. */
+/* {"sha256", "type", of a picture "width", "height", "bit_depth" and "channels", of a grid "nodes" and "spin", of an
+ * observation "visibilities" and "stations", "bytes", "created"}, and for who has just put it here the token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -46,7 +63,7 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
     if (token)
         kd_json_string(&json, "token", about->token);
     kd_json_string(&json, "type", type_of(about));
-    (about->nodes[0] ? write_grid : write_picture)(&json, about);
+    (about->observation ? write_observation : about->nodes[0] ? write_grid : write_picture)(&json, about);
     kd_json_number(&json, "bytes", (double)about->size);
     kd_json_number(&json, "created", about->created);
     kd_json_end(&json);
@@ -123,19 +140,28 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* What the bytes are said to be, where they begin as the other kind does; NULL: they do not. What begins as neither
- * is refused when it is read. */
-static const char *wrong_type(const struct kd_request *request)
+/* What the bytes are said to be, where they begin as another kind does; false: they do not. What begins as none is
+ * refused when it is read. */
+static bool wrong_type(const struct kd_request *request, char text[200])
 {
-    static const char png[] = "\x89PNG", zip[] = "PK";
-    const bool grid = kd_media_type_is(request->header.content_type, KD_ASSET_GRID_TYPE);
-    const char *other = grid ? png : zip;
+    static const struct {
+        const char *begin, *type, *name;
+    } kinds[] = { { "\x89PNG", KD_ASSET_TYPE, "a PNG" },
+                  { "PK", KD_ASSET_GRID_TYPE, "a ZIP, as an NPZ is" },
+                  { "SIMPLE  =", KD_ASSET_UVFITS_TYPE, "a FITS file" },
+                  { "#SRC:", KD_ASSET_CSV_TYPE, "the EHT's CSV" } };
     const struct kd_buffer *body = &request->body;
-    return body->size < strlen(other) || memcmp(body->data, other, strlen(other)) ? NULL
-           : grid ? "the asset is said to be " KD_ASSET_GRID_TYPE
-                    " by its Content-Type, and its bytes are those of a PNG"
-                  : "the asset is said to be " KD_ASSET_TYPE
-                    " by its Content-Type, and its bytes are those of a ZIP, as an NPZ is";
+    const char *said = NULL, *is = NULL;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const bool same = kd_media_type_is(request->header.content_type, kinds[i].type);
+        said = same ? kinds[i].type : said;
+        if (!same && body->size >= strlen(kinds[i].begin) &&
+            !memcmp(body->data, kinds[i].begin, strlen(kinds[i].begin)))
+            is = kinds[i].name;
+    }
+    if (said && is)
+        snprintf(text, 200, "the asset is said to be %s by its Content-Type, and its bytes are those of %s", said, is);
+    return said && is;
 }
 
 static enum MHD_Result put(struct kd_request *request)
@@ -143,8 +169,8 @@ static enum MHD_Result put(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    const char *fault = wrong_type(request);
-    if (fault)
+    char fault[200];
+    if (wrong_type(request, fault))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ASSET, .detail = fault });
     struct putting *p = kd_task_begin(request, request->server->turns, &KIND, &refused);
     return p ? kd_task_submit(&p->task) : refused;
@@ -176,6 +202,8 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     kd_json_array(&json, "types");
     kd_json_string(&json, NULL, KD_ASSET_TYPE);
     kd_json_string(&json, NULL, KD_ASSET_GRID_TYPE);
+    kd_json_string(&json, NULL, KD_ASSET_UVFITS_TYPE);
+    kd_json_string(&json, NULL, KD_ASSET_CSV_TYPE);
     kd_json_end(&json);
     kd_json_end(&json);
     return kd_reply_json(request, kd_json_finish_line(&json), &text, JSON_TYPE);
@@ -211,7 +239,7 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
         return kd_reply_no_memory(request);
     }
     *s = (struct sending) { request->server->assets, asset };
-    kd_reply_file(request, KD_INLINE, "kerrd-asset-%.8s.%s", about->hash, about->nodes[0] ? "npz" : "png");
+    kd_reply_file(request, KD_INLINE, "kerrd-asset-%.8s.%s", about->hash, end_of(about));
     return kd_reply_representation(
         request, &(struct kd_representation) { .type = type_of(about),
                                                .etag = request->etag,

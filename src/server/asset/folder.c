@@ -21,6 +21,19 @@
 #define RECORD_MAX ((size_t)4 << 10)
 #define FILE_NAME (KD_ASSET_NAME + 8)
 
+static enum kd_status look_at_observation(const void *data, size_t size, struct kd_asset_about *out,
+                                          struct kd_error *error)
+{
+    struct kd_observation observation;
+    enum kd_status status = kd_observation_read(data, size, &observation, error);
+    if (status)
+        return status;
+    out->observation = kd_observation_kind_of(data, size);
+    out->visibilities = (uint32_t)observation.n, out->stations = observation.stations;
+    kd_observation_finish(&observation);
+    return KD_OK;
+}
+
 enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error)
 {
     struct kd_png_about png;
@@ -29,6 +42,8 @@ enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_abou
                             size);
     if (kd_matter_grid_is(data, size))
         return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
+    if (kd_observation_kind_of(data, size))
+        return look_at_observation(data, size, out, error);
     enum kd_status status = kd_png_look(data, size, &png, error);
     if (status)
         return status;
@@ -91,10 +106,15 @@ static bool read_record(int folder, const char *hash, struct kd_asset_about *out
 }
 
 /* Ends of the names of files that hold bytes. */
-static const char *const ends[] = { "png", "npz" };
+static const char *const ends[] = { "png", "npz", "uvfits", "csv" };
 enum { ENDS = sizeof ends / sizeof *ends };
 
-static const char *end_of(const struct kd_asset_about *about) { return ends[about->nodes[0] > 0]; }
+static const char *end_of(const struct kd_asset_about *about)
+{
+    return ends[about->observation == KD_OBSERVATION_CSV      ? 3
+                : about->observation == KD_OBSERVATION_UVFITS ? 2
+                                                              : about->nodes[0] > 0];
+}
 
 /* Reads the bytes of an asset, and checks them. Returns why they are not taken, or NULL. */
 static const char *read_bytes(int folder, struct kd_asset_about *about, struct kd_buffer *bytes)
@@ -127,7 +147,7 @@ static bool has_record(int folder, const char *hash)
  * file. */
 static bool is_left_over(int folder, const char *name)
 {
-    static const char *const kinds[] = { "png", "npz", "json" };
+    static const char *const kinds[] = { "png", "npz", "uvfits", "csv", "json" };
     char hash[KD_ASSET_NAME], whole[FILE_NAME];
     for (size_t i = 0; i < ENDS; i++)
         if (hash_of(name, ends[i], hash) && !has_record(folder, hash))

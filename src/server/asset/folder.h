@@ -19,7 +19,8 @@ enum kd_status kd_asset_folder_load(int folder,
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);
 void kd_asset_folder_remove(int folder, const char *hash);
 
-/* Fills in what the bytes say of themselves; KD_EINVAL: they are no picture and no grid that is taken. */
+/* Fills in what the bytes say of themselves; KD_EINVAL: they are no picture, no grid and no observation that is taken.
+ */
 enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error);
 
 #endif

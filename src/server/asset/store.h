@@ -1,11 +1,12 @@
 /* Assets: files that clients upload, and that scenes name by their SHA-256. They are kept in memory, and on disk if
- * the server has a state folder: DIRECTORY/assets/HASH.png or HASH.npz, with HASH.json beside it, each written
- * atomically, the latter last. Any thread.
+ * the server has a state folder: DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, with HASH.json beside it, each
+ * written atomically, the latter last. Any thread.
  *
  * Errors name no path, because clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H
 #define KD_SERVER_ASSET_STORE_H
 
+#include "observe/observation.h"
 #include "scene/asset.h"
 #include "server/http/secret.h"
 #include "server/http/shares.h"
@@ -16,10 +17,12 @@
 struct kd_asset_store;
 struct kd_asset;
 
-#define KD_ASSET_TYPE "image/png"              /* pictures, */
-#define KD_ASSET_GRID_TYPE "application/x-npz" /* and grids of matter (render/emit/matter_grid.h) */
-#define KD_ASSET_BYTES ((size_t)32 << 20)      /* of one */
-#define KD_ASSET_PIXELS ((uint64_t)1 << 28)    /* of one */
+#define KD_ASSET_TYPE "image/png"                   /* pictures, */
+#define KD_ASSET_GRID_TYPE "application/x-npz"      /* and grids of matter (render/emit/matter_grid.h) */
+#define KD_ASSET_UVFITS_TYPE "application/x-uvfits" /* and observations (observe/observation.h) */
+#define KD_ASSET_CSV_TYPE "text/csv"
+#define KD_ASSET_BYTES ((size_t)32 << 20)   /* of one */
+#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* of one */
 
 struct kd_asset_limits {
     unsigned most, client_most; /* assets; of one client */
@@ -79,7 +82,9 @@ struct kd_asset_about {
     char hash[KD_ASSET_NAME], token[KD_SECRET_TOKEN];
     uint32_t width, height; /* of a picture */
     int bit_depth, channels;
-    uint32_t nodes[3]; /* of a grid, in r, theta and phi; 0: it is none, but a picture */
+    enum kd_observation_kind observation; /* NONE: it is none */
+    uint32_t visibilities, stations;      /* of an observation */
+    uint32_t nodes[3];                    /* of a grid, in r, theta and phi; 0: it is none, but a picture */
     double spin;
     double created; /* seconds since 1970 */
     size_t size;

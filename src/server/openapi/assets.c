@@ -9,11 +9,12 @@
 
 static const char *type(size_t i)
 {
-    static const char *const types[] = { KD_ASSET_TYPE, KD_ASSET_GRID_TYPE };
+    static const char *const types[] = { KD_ASSET_TYPE, KD_ASSET_GRID_TYPE, KD_ASSET_UVFITS_TYPE, KD_ASSET_CSV_TYPE };
     return i < sizeof types / sizeof *types ? types[i] : NULL;
 }
 
-/* Pictures have what is of pictures, grids of matter the last two; who has put it there first is told its token. */
+/* Pictures have what is of pictures, grids of matter nodes and spin, observations the last two; who has put it there
+ * first is told its token. */
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {
@@ -31,6 +32,8 @@ void kd_openapi_asset_schema(struct kd_json *json)
           ",\"minItems\":3,\"maxItems\":3,\"description\":\"in r, theta and phi\"}",
           true },
         { "spin", "{\"type\":\"number\",\"description\":\"of the hole that it is made for\"}", true },
+        { "visibilities", KD_SCHEMA_COUNT, true },
+        { "stations", KD_SCHEMA_COUNT, true },
     };
     static const struct kd_openapi_member limits[] = {
         { "assets", KD_SCHEMA_COUNT },
@@ -56,6 +59,8 @@ void kd_openapi_asset_body(struct kd_json *json)
     kd_json_object(json, "content");
     kd_openapi_media(json, KD_ASSET_TYPE, "", 0);
     kd_openapi_media(json, KD_ASSET_GRID_TYPE, "", 0);
+    kd_openapi_media(json, KD_ASSET_UVFITS_TYPE, "", 0);
+    kd_openapi_media(json, KD_ASSET_CSV_TYPE, "", 0);
     kd_json_end(json);
     kd_json_end(json);
 }

@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 /* By integral; the spectrum of a disk and that of a volume are one request. */
-static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest", NULL,
-                                                    "VisibilityRequest" };
+static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest",
+                                                    NULL,          "VisibilityRequest",       "CompareRequest" };
 
 void kd_openapi_integral_body(struct kd_json *json, const char *path)
 {
@@ -19,8 +19,8 @@ void kd_openapi_integral_body(struct kd_json *json, const char *path)
 
 void kd_openapi_integral_schemas(struct kd_json *json)
 {
-    static const char *const names[KD_INTEGRALS] = { "LineProfile", "TransferFunction", "DiskSpectrum",
-                                                     "VolumeSpectrum", "Visibilities" };
+    static const char *const names[KD_INTEGRALS] = { "LineProfile",    "TransferFunction", "DiskSpectrum",
+                                                     "VolumeSpectrum", "Visibilities",     "Comparison" };
     for (int i = 0; i < KD_INTEGRALS; i++) {
         if (requests[i])
             kd_integral_request_schema(json, requests[i], (enum kd_integral)i);

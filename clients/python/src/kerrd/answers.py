@@ -517,6 +517,83 @@ class Visibilities(TypedDict):
     scene: dict[str, Any]
 
 
+class ComparisonParametersSystematic(TypedDict):
+    visibility: float
+    amplitude: float
+    closure_phase_deg: float
+
+
+class ComparisonParameters(TypedDict):
+    products: list[str]
+    average_s: float
+    uv_min_gl: float
+    snr_cut: float
+    systematic: ComparisonParametersSystematic
+    debias: str
+    closures: str
+    pulse: str
+    flux_jy: float | None
+    solve: list[str]
+    pixels: float
+    check: str
+
+
+class ComparisonValues(TypedDict):
+    flux_jy: float | None
+    pixel_uas: float | None
+    width_uas: float | None
+    height_uas: float | None
+    nyquist_gl: float | None
+    edge_share: float | None
+    undefined: float | None
+    model_error: float | None
+
+
+class ComparisonChi2(TypedDict):
+    amplitude: float | None
+    closure_phase: float | None
+    log_closure_amplitude: float | None
+
+
+class ComparisonChi2Finer(TypedDict):
+    amplitude: float | None
+    closure_phase: float | None
+    log_closure_amplitude: float | None
+
+
+class ComparisonN(TypedDict):
+    amplitude: int
+    closure_phase: int
+    log_closure_amplitude: int
+
+
+class ComparisonObservation(TypedDict):
+    source: str
+    mjd: float
+    frequency_ghz: float
+    stations: list[str]
+    visibilities: int
+    flagged: int
+    duplicates: int
+    averaged: int
+    too_short: int
+
+
+class Comparison(TypedDict):
+    integral: Literal['compare']
+    parameters: ComparisonParameters
+    values: ComparisonValues
+    columns: Columns
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+    scene: dict[str, Any]
+    chi2: ComparisonChi2
+    chi2_finer: ComparisonChi2Finer
+    n: ComparisonN
+    observation: ComparisonObservation
+
+
 class PresetTold(TypedDict):
     name: str
     label: str
@@ -641,7 +718,7 @@ class Job(TypedDict):
 class Asset(TypedDict):
     sha256: str
     token: NotRequired[str]
-    type: Literal['image/png', 'application/x-npz']
+    type: Literal['image/png', 'application/x-npz', 'application/x-uvfits', 'text/csv']
     width: NotRequired[int]
     height: NotRequired[int]
     bit_depth: NotRequired[int]
@@ -650,6 +727,8 @@ class Asset(TypedDict):
     created: float
     nodes: NotRequired[list[int]]
     spin: NotRequired[float]
+    visibilities: NotRequired[int]
+    stations: NotRequired[int]
 
 
 class Quantity(TypedDict):

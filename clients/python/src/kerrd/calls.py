@@ -7,6 +7,8 @@ import copy
 import dataclasses
 import io
 import json
+import os
+import pathlib
 import uuid
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -275,6 +277,30 @@ def orbits(document: Document) -> Call[answers.OrbitPath]:
 
 def integral(name: str, document: Document) -> Call[Any]:
     return post(f"/v1/{name}", document, _table, accept=JSON)
+
+
+def _comparison(answer: Answer) -> Any:
+    """Columns of words as arrays too, "" where there is none."""
+    told = _table(answer)
+    told["columns"] = {
+        name: np.array(["" if part is None else part for part in column]) if isinstance(column, list) else column
+        for name, column in told["columns"].items()
+    }
+    return told
+
+
+def compare(document: Document) -> Call[answers.Comparison]:
+    return post("/v1/compare", document, _comparison, accept=JSON)
+
+
+def is_hash(text: str) -> bool:
+    return len(text) == 64 and set(text) <= set("0123456789abcdef")
+
+
+def observed(observation: str | bytes | os.PathLike[str]) -> tuple[bytes, str]:
+    """The bytes of an observation, or of its file, and what they are."""
+    data = observation if isinstance(observation, bytes) else pathlib.Path(observation).read_bytes()
+    return data, "application/x-uvfits" if data.startswith(b"SIMPLE") else "text/csv"
 
 
 def physics(name: str, parameters: Mapping[str, Any]) -> Call[answers.Quantity]:

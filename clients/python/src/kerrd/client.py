@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from time import monotonic
 from types import TracebackType
@@ -232,6 +233,20 @@ class Client:
         told: answers.Visibilities = self._run(calls.integral("visibility", settings))
         return told
 
+    def compare(
+        self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
+    ) -> answers.Comparison:
+        """A scene beside an observation: chi^2, and `columns` as arrays. The observation is a file, uvfits or the EHT's
+        CSV, its bytes, or the hash of an asset of the server: compare("m87.uvfits", preset="m87", average_s=600)."""
+        name = observation if isinstance(observation, str) and calls.is_hash(observation) else None
+        if name is None:
+            name = self.put_asset(*calls.observed(observation))
+        document = {**settings, "observation": name}
+        if scene is not None:
+            document["scene"] = scene_of(scene, {})
+        told: answers.Comparison = self._run(calls.compare(document))
+        return told
+
     def presets(self) -> list[answers.PresetTold]:
         """name, label and title of each."""
         return self._run(calls.presets())
@@ -250,8 +265,8 @@ class Client:
         return told
 
     def put_asset(self, data: bytes, kind: str = "image/png") -> str:
-        """Keeps a picture, or a grid of matter (kind "application/x-npz"), at the server; returns the hash that scenes
-        name."""
+        """Keeps a picture, a grid of matter (kind "application/x-npz") or an observation ("application/x-uvfits",
+        "text/csv") at the server; returns the hash that scenes name."""
         return str((self._run(calls.put_asset(data, kind)))["sha256"])
 
     def session(

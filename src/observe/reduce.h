@@ -1,0 +1,16 @@
+/* Steps of kd_comparison_make. Private to this module. */
+#ifndef KD_OBSERVE_REDUCE_H
+#define KD_OBSERVE_REDUCE_H
+
+#include "observe/comparison.h"
+
+/* average.c: a copy of the visibilities, or their means, by time and then by stations; *out is malloc'd. */
+enum kd_status kd_average(const struct kd_observation *observation, double seconds, struct kd_measured **out, size_t *n,
+                          struct kd_error *error);
+/* closures.c: adds the rows of those of one time, which are n from `first` on. */
+enum kd_status kd_closures(struct kd_comparison *c, const struct kd_observation *observation,
+                           const struct kd_comparison_params *params, enum kd_product product, size_t first, size_t n,
+                           struct kd_error *error);
+enum kd_status kd_comparison_add(struct kd_comparison *c, const struct kd_comparison_row *row, struct kd_error *error);
+
+#endif

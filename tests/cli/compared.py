@@ -1,0 +1,22 @@
+"""What kerrd compare is asked, and what ehtim 1.3.2 said of it (tests/cli/ehtim_chi2.json): tests/cli/ehtim_reads.py asks
+ehtim, tests/cli/compare.py needs none."""
+
+import json
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+UVFITS, CSV = (str(ROOT / f"data/eht/m87-2017-04-05-lo.{end}") for end in ("uvfits", "csv"))
+CASES = json.loads(pathlib.Path(__file__).with_name("ehtim_chi2.json").read_text())["cases"]
+
+
+def options(case, file=UVFITS):
+    """Those of kerrd compare."""
+    size = case["scene"][case["scene"].index("--size") + 1].split("x")[0]
+    flux = ["--flux-jy", str(case["flux_jy"])] if case["flux_jy"] else []
+    given = ["--observation", file, *case["scene"], "--pixels", size, "--check", "none", *flux]
+    given += ["--debias", "yes" if case["debias"] else "no", "--closures", "maximal" if case["maximal"] else "minimal"]
+    for name in ("average_s", "uv_min_gl", "snr_cut"):
+        given += ["--" + name.replace("_", "-"), str(case[name])]
+    for name in ("visibility", "amplitude", "closure_phase_deg"):
+        given += ["--systematic-" + name.replace("_", "-"), str(case[name])]
+    return given

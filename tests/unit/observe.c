@@ -1,0 +1,315 @@
+/* Observations: numbers of ehtim 1.3.2 for a ring of its own beside M87* as it was observed (data/eht), both files of
+ * one observation, and files that are damaged. */
+#include "observe/comparison.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define PIXEL (4 * M_PI / 180 / 3.6e9) /* of the ring's picture */
+enum { N = 32, MOST = 1 << 18, BLOCK = 2880 };
+
+static uint8_t *read_file(const char *name, size_t *size)
+{
+    char path[600];
+    snprintf(path, sizeof path, KD_DATA "/%s", name);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    uint8_t *data = malloc(MOST);
+    *size = fread(data, 1, MOST, file);
+    fclose(file);
+    return data;
+}
+
+static struct kd_observation read_observation(const char *name)
+{
+    size_t size;
+    struct kd_error error = { 0 };
+    struct kd_observation o;
+    uint8_t *data = read_file(name, &size);
+    if (kd_observation_read(data, size, &o, &error))
+        fail_msg("%s", error.message);
+    free(data);
+    return o;
+}
+
+/* A ring, brighter in the south, of 0.8 Jy: the double sum over pixels that are triangles. */
+static void transform(const struct kd_comparison *c, double (*out)[2])
+{
+    double light[N][N], sum = 0;
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < N; i++) {
+            const double x = i - (N - 1) / 2., y = j - (N - 1) / 2., r = hypot(x, y);
+            sum += light[j][i] = exp(-((4 * r - 20) / 6) * ((4 * r - 20) / 6)) * (1 + 0.6 * y / fmax(r, 1e-9));
+        }
+    for (size_t k = 0; k < c->n; k++) {
+        const double u = c->at[k].u * PIXEL, v = c->at[k].v * PIXEL;
+        out[k][0] = out[k][1] = 0;
+        for (int j = 0; j < N; j++)
+            for (int i = 0; i < N; i++) {
+                const double turns = -u * (i - (N - 1) / 2.) - v * (j - (N - 1) / 2.);
+                out[k][0] += light[j][i] * cos(2 * M_PI * turns), out[k][1] += light[j][i] * sin(2 * M_PI * turns);
+            }
+        for (int part = 0; part < 2; part++)
+            out[k][part] *= 0.8 / sum * kd_pulse_at(KD_PULSE_TRIANGLE, u, v);
+    }
+}
+
+/* ehtim: load_uvfits, avg_coherent, add_fractional_noise, flag_uvdist, chisq of ttype "direct". */
+static const struct {
+    struct kd_comparison_params params;
+    size_t n[KD_PRODUCTS];
+    double chi2[KD_PRODUCTS];
+} by_ehtim[] = {
+    { { 7, 0, 0, 0, 0, 0, 0, false, false },
+      { 1507, 938, 800 },
+      { 750.7007417311627, 1.6528202960195866, 1.500937870578423 } },
+    { { 7, 120, 0.1, 0.01, 0.02, 2, 3, false, false },
+      { 109, 42, 27 },
+      { 1229.8575745055314, 6.460620565872508, 2.0503941955436065 } },
+    { { 7, 600, 0.1, 0, 0.01, 2, 0, true, false },
+      { 46, 19, 18 },
+      { 3569.980238767959, 13.137640700778244, 5.293414217705537 } },
+    { { 7, 60, 0, 0, 0, 0, 2, false, true },
+      { 219, 193, 293 },
+      { 4993.146620167559, 2.9167522716544156, 13.862762051503408 } },
+    { { 7, 70, 0, 0, 0, 0, 2, false, false },
+      { 216, 128, 80 },
+      { 5065.686103305162, 3.978760837143336, 11.242809018326296 } },
+};
+
+/* uvfits to 1e-6, of which 2e-8 is measured: ehtim has weights and means of hands in single precision. The CSV has
+ * amplitudes to 1e-8 Jy and phases to 1e-4 degrees: chi^2 to 1e-3, and of log closure amplitudes that are not cut to
+ * 0.2: where an amplitude is as large as its error, sqrt(|V|^2 - sigma^2) is of what was rounded. */
+static void test_chi2_is_that_of_ehtim(void **state)
+{
+    (void)state;
+    static const char *const files[] = { "m87-2017-04-05-lo.uvfits", "m87-2017-04-05-lo.csv" };
+    for (int f = 0; f < 2; f++) {
+        struct kd_observation o = read_observation(files[f]);
+        for (size_t i = 0; i < sizeof by_ehtim / sizeof *by_ehtim; i++) {
+            struct kd_comparison c;
+            struct kd_error error = { 0 };
+            double chi2[KD_PRODUCTS];
+            assert_int_equal(kd_comparison_make(&o, &by_ehtim[i].params, &c, &error), KD_OK);
+            double (*model)[2] = malloc(c.n * sizeof *model);
+            transform(&c, model);
+            kd_comparison_judge(&c, (const double (*)[2])model, chi2);
+            for (int p = 0; p < KD_PRODUCTS; p++) {
+                const double off = chi2[p] / by_ehtim[i].chi2[p] - 1, bound = !f ? 1e-6 : p < 2 || i ? 1e-3 : 0.2;
+                assert_int_equal(c.of[p], by_ehtim[i].n[p]);
+                if (!(fabs(off) <= bound))
+                    fail_msg("%s, set %zu, product %d: %.10g, not %.10g (%.1e)", files[f], i, p, chi2[p],
+                             by_ehtim[i].chi2[p], off);
+            }
+            free(model);
+            kd_comparison_finish(&c);
+        }
+        kd_observation_finish(&o);
+    }
+}
+
+static void test_both_files_say_the_same(void **state)
+{
+    (void)state;
+    struct kd_observation a = read_observation("m87-2017-04-05-lo.uvfits"),
+                          b = read_observation("m87-2017-04-05-lo.csv");
+    assert_string_equal(a.source, "M87");
+    assert_string_equal(b.source, "M87");
+    assert_true(a.mjd == 57848 && b.mjd == 57848);
+    assert_true(fabs(a.frequency_hz / b.frequency_hz - 1) < 1e-6);
+    assert_int_equal(a.n, 1507);
+    assert_int_equal(b.n, 1507);
+    assert_int_equal(a.flagged + a.duplicate + b.flagged + b.duplicate, 0);
+    for (size_t i = 0; i < a.n; i++) {
+        const struct kd_measured *x = &a.at[i], *y = &b.at[i];
+        for (int k = 0; k < 2; k++)
+            assert_string_equal(a.station[x->station[k]], b.station[y->station[k]]);
+        assert_true(fabs(x->hour - y->hour) < 2e-8);
+        assert_true(hypot(x->u - y->u, x->v - y->v) < 1e-6 * hypot(x->u, x->v));
+        assert_true(hypot(x->re - y->re, x->im - y->im) < 2e-6 * hypot(x->re, x->im) + 1e-8);
+        assert_true(fabs(x->sigma - y->sigma) < 1e-6 * x->sigma + 1e-8);
+    }
+    kd_observation_finish(&a);
+    kd_observation_finish(&b);
+}
+
+/* A model that is the data, scaled: the scale that fits is found, and chi^2 is 0 without debiasing. */
+static void test_the_flux_that_fits(void **state)
+{
+    (void)state;
+    struct kd_observation o = read_observation("m87-2017-04-05-lo.csv");
+    struct kd_comparison c;
+    struct kd_error error = { 0 };
+    double chi2[KD_PRODUCTS];
+    assert_int_equal(
+        kd_comparison_make(&o, &(struct kd_comparison_params) { .products = 7, .measured = true }, &c, &error), KD_OK);
+    double (*model)[2] = malloc(c.n * sizeof *model);
+    for (size_t i = 0; i < c.n; i++)
+        model[i][0] = 0.25 * c.at[i].re, model[i][1] = 0.25 * c.at[i].im;
+    const double scale = kd_comparison_scale(&c, (const double (*)[2])model);
+    assert_true(fabs(scale - 4) < 1e-12);
+    kd_comparison_judge(&c, (const double (*)[2])model, chi2);
+    assert_true(chi2[0] > 1 && chi2[1] < 1e-20 && chi2[2] < 1e-20);
+    free(model);
+    kd_comparison_finish(&c);
+    kd_observation_finish(&o);
+}
+
+static void refused(const void *data, size_t size, const char *why)
+{
+    struct kd_error error = { 0 };
+    struct kd_observation o;
+    assert_int_equal(kd_observation_read(data, size, &o, &error), KD_EINVAL);
+    assert_null(o.at);
+    if (!strstr(error.message, why))
+        fail_msg("\"%s\" does not say \"%s\"", error.message, why);
+}
+
+#define HEAD "#SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz\n"
+#define COLUMNS "#time(UTC),T1,T2,U(lambda),V(lambda),Iamp(Jy),Iphase(d),Isigma(Jy)\n"
+static void test_csv_that_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *why;
+    } rows[] = {
+        { "", "this is no observation" },
+        { "#SRC:M87\n", "line 1 must have a date" },
+        { "#SRC:,DATE(MJD):57848,FREQ:227GHz\n", "must name its source" },
+        { "#SRC:M87,DATE(MJD):nan,FREQ:227GHz\n", "must have a date" },
+        { "#SRC:M87,DATE(MJD):57848,FREQ:-1GHz\n", "must have a frequency above 0" },
+        { HEAD, "no visibility with a weight above 0" },
+        { HEAD "1,AA,AP,1,2,3,4,5\n", "line 2 of the CSV: a line of columns must come before it" },
+        { HEAD "#time(UTC),T1,T2,U(lambda),V(lambda),RRamp(Jy)\n", "line 2 of the CSV: its columns are" },
+        { HEAD COLUMNS "1,AA,AP,1,2,3,4\n", "line 3 of the CSV: its fields must be 8" },
+        { HEAD COLUMNS "1,AA,AP,1,2,3,4,5,6\n", "its fields must be 8" },
+        { HEAD COLUMNS "1,AA,AP,1,2,x,4,5\n", "its amplitude is \"x\"; it must be a number" },
+        { HEAD COLUMNS "nan,AA,AP,1,2,3,4,5\n", "its time is \"nan\"; it must be a number" },
+        { HEAD COLUMNS "1,AA,AP,1e300,2,3,4,5\n", "visibility 1: its u is 1e+300; it must be a number up to 1e+18" },
+        { HEAD COLUMNS "1,AA,AP,1,2,3,4,0\n", "its error is 0; it must be above 0" },
+        { HEAD COLUMNS "1,AA,AA,1,2,3,4,5\n", "both its stations are AA" },
+        { HEAD COLUMNS "1,A A,AP,1,2,3,4,5\n", "the name of a station has the byte 32" },
+        { HEAD COLUMNS "1,,AP,1,2,3,4,5\n", "has 0 letters; it must have 1 to 11" },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        refused(rows[i].text, strlen(rows[i].text), rows[i].why);
+}
+
+static uint8_t *card(uint8_t *data, size_t size, const char *key)
+{
+    for (size_t i = 0; i + 80 <= size; i += 80)
+        if (!strncmp((const char *)data + i, key, strlen(key)))
+            return data + i;
+    fail_msg("no card %s", key);
+    return NULL;
+}
+
+/* What a card of the primary header, or of the table of stations, is made to be. */
+static void test_uvfits_that_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *key, *card, *why;
+    } cards[] = {
+        { "GCOUNT  =", "GCOUNT  =        1099511627776",
+          "GCOUNT of the uvfits is 1099511627776; it must be 1 to 1048576" },
+        { "GCOUNT  =", "GCOUNT  =                  NaN", "GCOUNT of the uvfits is nan" },
+        { "GCOUNT  =", "GCOUNT  =                 1900", "must have 168240 bytes, and has 149760" },
+        { "PCOUNT  =", "PCOUNT  =        1099511627776", "PCOUNT of the uvfits is 1099511627776; it must be 4 to 32" },
+        { "NAXIS   =", "NAXIS   =                  999", "NAXIS of the uvfits is 999; it must be 4 to 7" },
+        { "NAXIS3  =", "NAXIS3  =        1099511627776", "NAXIS3 of the uvfits is 1099511627776" },
+        { "NAXIS4  =", "NAXIS4  =                   -1", "NAXIS4 of the uvfits is -1" },
+        { "NAXIS2  =", "NAXIS2  =                    2",
+          "axis 2 of the uvfits is COMPLEX of 2; it must be COMPLEX of 3" },
+        { "NAXIS6  =", "NAXIS6  =                    2", "NAXIS6 of the uvfits, RA, is 2; it must be 1" },
+        { "CRVAL3  =", "CRVAL3  =                 -5.0",
+          "CRVAL3 of the uvfits is -5; it must be -1 (RR, LL) or 1 (I)" },
+        { "BITPIX  =", "BITPIX  =                   16", "BITPIX of the uvfits must be -32 or -64" },
+        { "GROUPS  =", "GROUPS  =                    F", "this FITS file is no uvfits" },
+        { "PTYPE4  =", "PTYPE4  = 'SUBARRAY'          ", "BASELINE and DATE" },
+        { "PSCAL4  =", "PSCAL4  =                 1e30", "BASELINE of visibility 1 of the uvfits is" },
+        { "PSCAL4  =", "PSCAL4  =                    8", "is of station" },
+        { "PSCAL5  =", "PSCAL5  =                  NaN", "DATE of visibility 1 of the uvfits is nan" },
+        { "PSCAL1  =", "PSCAL1  =                 1e99", "its u is" },
+        { "BSCALE  =", "BSCALE  =                  NaN", "its real part is nan; it must be a number" },
+        { "FREQ    =", "FREQ    =                  0.0", "FREQ of the table AIPS AN is 0" },
+        { "TFORM1  =", "TFORM1  = '99999999A'         ", "TFORM1 of the table AIPS AN" },
+        { "TFORM4  =", "TFORM4  = '1E      '          ", "must have the columns ANNAME" },
+        { "TFIELDS =", "TFIELDS =        1099511627776", "TFIELDS of the uvfits is 1099511627776" },
+        { "EXTNAME =", "EXTNAME = 'AIPS XX '          ", "must have a table AIPS AN" },
+    };
+    size_t size;
+    uint8_t *data = read_file("m87-2017-04-05-lo.uvfits", &size), *copy = malloc(size);
+    for (size_t i = 0; i < sizeof cards / sizeof *cards; i++) {
+        memcpy(copy, data, size);
+        memcpy(card(copy, size, cards[i].key), cards[i].card, strlen(cards[i].card));
+        refused(copy, size, cards[i].why);
+    }
+    free(copy);
+    free(data);
+}
+
+/* Cut anywhere it is an error, or what the end was not needed for; nothing lies outside (under the sanitizers). */
+static void test_files_that_are_cut(void **state)
+{
+    (void)state;
+    static const char *const files[] = { "m87-2017-04-05-lo.uvfits", "m87-2017-04-05-lo.csv" };
+    for (int f = 0; f < 2; f++) {
+        size_t size, good = 0;
+        uint8_t *data = read_file(files[f], &size);
+        for (size_t cut = 0; cut < size; cut += cut < 20000 ? 97 : 4999) {
+            uint8_t *copy = malloc(cut ? cut : 1);
+            struct kd_error error = { 0 };
+            struct kd_observation o;
+            memcpy(copy, data, cut);
+            if (!kd_observation_read(copy, cut, &o, &error))
+                good++, kd_observation_finish(&o);
+            else
+                assert_true(*error.message);
+            free(copy);
+        }
+        if (!f)
+            assert_true(good <= 4); /* within the last table, which is not read */
+        free(data);
+    }
+}
+
+/* Bytes that are changed at random. */
+static void test_files_that_are_damaged(void **state)
+{
+    (void)state;
+    size_t size;
+    uint8_t *data = read_file("m87-2017-04-05-lo.uvfits", &size), *copy = malloc(size);
+    uint32_t seed = 1;
+    for (int i = 0; i < 300; i++) {
+        struct kd_error error = { 0 };
+        struct kd_observation o;
+        memcpy(copy, data, size);
+        for (int k = 0; k < 20; k++) {
+            seed = seed * 1664525 + 1013904223;
+            copy[i % 2 ? seed % size : seed % (3 * BLOCK)] = (uint8_t)(seed >> 24);
+        }
+        if (!kd_observation_read(copy, size, &o, &error))
+            kd_observation_finish(&o);
+    }
+    free(copy);
+    free(data);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_chi2_is_that_of_ehtim),  cmocka_unit_test(test_both_files_say_the_same),
+        cmocka_unit_test(test_the_flux_that_fits),     cmocka_unit_test(test_csv_that_is_refused),
+        cmocka_unit_test(test_uvfits_that_is_refused), cmocka_unit_test(test_files_that_are_cut),
+        cmocka_unit_test(test_files_that_are_damaged),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
