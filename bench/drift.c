@@ -17,7 +17,7 @@
  * bound orbit, and errors of the unstable ones grow by e^(2 pi) a turn whatever the method; below 1 - (1 -
  * a^2)^(1/3), under the inner horizon, it has, and all equations above are regular there: one about r = 0.3 that
  * swings through the plane. */
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
 
 #include <cJSON.h>
 #include <math.h>

@@ -5,7 +5,7 @@
  *                                                          tests/oracle/line_triangles.h, 0: it is not looked at
  *
  * 500 bins from 0 to 1.7, r^-3 from the ISCO to 400 M; the least of REPEAT runs. No device. */
-#include "physics/line_profile.h"
+#include "physics/disk/line_profile.h"
 
 #include "line_triangles.h"
 

@@ -5,7 +5,7 @@
  *
  * All follow the same orbits by the same number of steps. The device's sums are not compensated, and it looks at the
  * energy only, not at Q, the rest mass and periastra. */
-#include "physics/orbit_lanes.h"
+#include "physics/orbit/orbit_lanes.h"
 #include "vk/vk.h"
 
 #include "orbits_spv.h"

@@ -6,7 +6,7 @@
  * (LP_NUM_THREADS=1 taskset -c 0) the figure is that of one core. */
 #include "base/clock.h"
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/render.h"
 
 #include <argp.h>

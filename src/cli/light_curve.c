@@ -4,7 +4,7 @@
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/curve.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef KD_INTEGRAL_ASKED_H
 #define KD_INTEGRAL_ASKED_H
 
-#include "physics/line_profile.h"
+#include "physics/disk/line_profile.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
 

@@ -2,9 +2,9 @@
 #include "integral/internal.h"
 #include "integral/request.h"
 
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,11 +2,11 @@
 #include "base/pause.h"
 #include "integral/answer.h"
 #include "integral/kept.h"
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/disk_spectrum.h"
-#include "physics/kerr.h"
-#include "physics/transfer_function.h"
+#include "physics/disk/disk_spectrum.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/disk/transfer_function.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "integral/run.h"
 
 #include "base/clock.h"
-#include "physics/constants.h"
+#include "physics/math/constants.h"
 #include "render/output/wcs.h"
 
 #include <math.h>

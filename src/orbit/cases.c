@@ -1,7 +1,7 @@
 #include "orbit/cases.h"
 
-#include "physics/kerr.h"
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #include "base/slip.h"
 #include "orbit/cases.h"
 #include "orbit/fields.h"
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"

@@ -3,8 +3,8 @@
 #include "base/pause.h"
 #include "orbit/cases.h"
 #include "orbit/step.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 
 #include "playground/body.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <string.h>

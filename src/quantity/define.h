@@ -11,7 +11,7 @@
 #ifndef KD_QUANTITY_DEFINE_H
 #define KD_QUANTITY_DEFINE_H
 
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 #include "quantity/quantity.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "quantity/define.h"
 
-#include "physics/deflection.h"
+#include "physics/null/deflection.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

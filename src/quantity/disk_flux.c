@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/embedding.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/embedding.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \

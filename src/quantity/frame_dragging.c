@@ -1,7 +1,7 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/scale.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \

@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/epicyclic.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/epicyclic.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/critical.h"
-#include "physics/kerr.h"
-#include "physics/lensing.h"
+#include "physics/math/angle.h"
+#include "physics/null/critical.h"
+#include "physics/null/lensing.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

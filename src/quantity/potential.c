@@ -1,6 +1,6 @@
 #include "quantity/define.h"
 
-#include "physics/potential.h"
+#include "physics/spacetime/potential.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \

@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
-#include "physics/scale.h"
+#include "physics/spacetime/scale.h"
+#include "physics/waves/qnm.h"
+#include "physics/waves/ringdown.h"
 
 #include <stdlib.h>
 

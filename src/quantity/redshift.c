@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/ring_image.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/angle.h"
+#include "physics/null/ring_image.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/ring_image.h"
-#include "physics/ring_view.h"
+#include "physics/math/angle.h"
+#include "physics/null/ring_image.h"
+#include "physics/null/ring_view.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

@@ -1,10 +1,10 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/constants.h"
-#include "physics/critical.h"
-#include "physics/kerr.h"
-#include "physics/scale.h"
+#include "physics/math/angle.h"
+#include "physics/math/constants.h"
+#include "physics/null/critical.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
 
 #define PARAMETERS(P) \
     P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*") \

@@ -1,6 +1,6 @@
 #include "quantity/define.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "scene/observer_fault.h"
 #include "scene/number.h"
 

@@ -1,10 +1,10 @@
 #include "quantity/define.h"
 
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/scale.h"
-#include "physics/tidal.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
+#include "physics/waves/tidal.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, \

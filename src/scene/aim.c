@@ -1,7 +1,7 @@
 #include "scene/aim.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 

@@ -1,12 +1,12 @@
 #include "scene/scene.h"
 
-#include "physics/angle.h"
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
-#include "physics/scale.h"
-#include "physics/worldline.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
+#include "physics/spacetime/worldline.h"
+#include "physics/waves/qnm.h"
+#include "physics/waves/ringdown.h"
 
 #define TIME_END 1e12 /* of `time` in fields.h, either way */
 

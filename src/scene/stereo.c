@@ -1,8 +1,8 @@
 /* The positions of the two eyes of a stereo pair. */
 #include "scene/scene.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 

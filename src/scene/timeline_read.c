@@ -4,9 +4,9 @@
 #include "scene/timeline.h"
 #include "scene/tree.h"
 
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/worldline.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/worldline.h"
 
 #include <math.h>
 #include <stdio.h>

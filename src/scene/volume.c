@@ -1,6 +1,6 @@
 #include "scene/scene.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "scene/asset.h"
 #include "scene/number.h"
 

@@ -3,8 +3,8 @@
 #include "photon.h"
 #include "studio.h"
 
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 #include "studio.h"
 
 #include "contraction.h"
-#include "physics/null_geodesic.h"
-#include "physics/plunge.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/orbit/plunge.h"
 #include "render/view/camera.h"
 #include "render/emit/particles.h"
 #include "render/emit/plunging.h"

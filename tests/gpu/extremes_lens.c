@@ -6,7 +6,7 @@
  * few roundings are unsure. */
 #include "extremes.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 #include "vk/vk.h"
 

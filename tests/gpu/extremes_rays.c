@@ -3,7 +3,7 @@
  * that admits it. From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"
 #include "render/rays/device.h"
 #include "render/rays/check.h"

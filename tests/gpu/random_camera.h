@@ -3,8 +3,8 @@
 #define KD_TEST_RANDOM_CAMERA_H
 
 #include "base/random.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "scene/scene.h"
 
 #include <math.h>

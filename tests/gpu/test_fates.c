@@ -10,8 +10,8 @@
 #include "random_camera.h"
 #include "render_support.h"
 
-#include "physics/critical.h"
-#include "physics/kerr.h"
+#include "physics/null/critical.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/closed.h"
 #include "render/view/camera.h"
 

@@ -6,8 +6,8 @@
  * much, which is measured on the oracle itself. */
 #include "kerr_schild.h"
 #include "image/colour_map.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/format.h"
 #include "render/device/internal.h"
 #include "render/view/layout.h"

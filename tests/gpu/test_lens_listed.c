@@ -2,7 +2,7 @@
  * three methods from a ray to its end. And what becomes of rays that were given up. */
 #include "render_support.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/accuracy/table.h"
 #include "render/device/internal.h"
 #include "render/rays/rays.h"

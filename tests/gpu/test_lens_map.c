@@ -5,7 +5,7 @@
  * ray. The amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
  * curve. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/render.h"
 
 #include "interface.h"

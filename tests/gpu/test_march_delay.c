@@ -1,7 +1,7 @@
 /* Slow light of volumes: when light left each place of a ray, against the Kerr-Schild oracle, which knows no Mino
  * time; and what turbulent gas with a height shows by it, against pictures of the times at which light left by the
  * lens map, and by the oracle. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/explain/explain.h"
 
 #include "render_support.h"

@@ -3,8 +3,8 @@
  * momentum, the directions into which aberration turns those of the picture. No observer of the table moves so; this
  * one is put in its place. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "render/render.h"
 #include "render/view/camera.h"
 

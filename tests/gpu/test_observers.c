@@ -1,8 +1,8 @@
 /* Every kind of observer by what its camera sees: the whole sky in six pictures, judged by frames and rays in
  * Kerr-Schild coordinates. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "render/render.h"
 #include "render/view/camera.h"
 

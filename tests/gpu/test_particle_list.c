@@ -1,9 +1,9 @@
-/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit.h and the metric,
- * rates against differences; parts of a list, and what is refused. */
+/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit/timelike.h and the
+ * metric, rates against differences; parts of a list, and what is refused. */
 #include "render/output/particle_list.h"
 
-#include "physics/kerr.h"
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
+#include "physics/spacetime/kerr.h"
 #include "render_support.h"
 
 #include <math.h>
@@ -128,7 +128,7 @@ static void test_falling(void **state)
     }
 }
 
-/* The guiding orbit by physics/orbit.c; on it rates and constants are of one orbit, about it they are to first
+/* The guiding orbit by physics/orbit/timelike.c; on it rates and constants are of one orbit, about it they are to first
  * order: what is left falls with the square of the epicycles. */
 static void test_constants(void **state)
 {

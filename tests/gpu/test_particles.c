@@ -2,7 +2,7 @@
  * times, periods, the seed; and frames that hold them. */
 #include "render/emit/particles.h"
 
-#include "physics/orbit_bound.h"
+#include "physics/orbit/orbit_bound.h"
 #include "render_support.h"
 #include "render/device/prepare.h"
 #include "render/emit/deposit.h"
@@ -92,7 +92,7 @@ static void sample(struct period *p, int i, double step, double value)
 static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
 
 /* The frequencies of small oscillations by another way: those of a bound geodesic that hardly leaves the circle,
- * from its actions (src/physics/orbit_bound.h, which shares nothing with epicyclic.c). */
+ * from its actions (src/physics/orbit/orbit_bound.h, which shares nothing with epicyclic.c). */
 static struct kd_orbit_frequencies frequencies(double a, double r)
 {
     struct kd_orbit orbit;

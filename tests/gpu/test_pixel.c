@@ -1,6 +1,6 @@
 /* What is told of one pixel: its light adds up to the picture's own linear light, and its crossings are those of
  * listed rays and of layers. The picture is the same whether it is told of or not. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
 #include "render/explain/explain.h"
 #include "render/lens/label.h"

@@ -6,7 +6,7 @@
 #include "cgs.h"
 #include "kerr_schild.h"
 #include "integral/pictures.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/output/flux.h"
 #include "torus_turns.h"

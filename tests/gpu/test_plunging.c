@@ -3,7 +3,7 @@
 #include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/plunging.h"
 #include "render_support.h"
 #include "render/device/prepare.h"

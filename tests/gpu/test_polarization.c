@@ -2,8 +2,8 @@
  * (kerr_schild_transport.h), which shares no equation with the kernels' constant of Walker and Penrose; and Stokes
  * layers among themselves. */
 #include "kerr_schild_transport.h"
-#include "physics/kerr.h"
-#include "physics/scattering.h"
+#include "physics/disk/scattering.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/output/format.h"
 #include "render/view/camera.h"

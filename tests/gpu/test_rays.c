@@ -1,7 +1,7 @@
 /* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction,
  * fate, and the error that comes with each ray against the error that was made. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/rays/device.h"
 

@@ -2,8 +2,8 @@
  * off it; its light against that of a plane picture. */
 #include "render_support.h"
 
-#include "physics/kerr.h"
-#include "physics/lensing.h"
+#include "physics/null/lensing.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/ring.h"
 
 #include <math.h>

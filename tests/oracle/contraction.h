@@ -2,7 +2,7 @@
 #ifndef KD_TESTS_CONTRACTION_H
 #define KD_TESTS_CONTRACTION_H
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* The accuracy table: the choice from made-up ones, the document there and back, the file, and the rays. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/accuracy_store.h"
 
 #include <setjmp.h>

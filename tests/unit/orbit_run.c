@@ -1,6 +1,6 @@
 /* Requests for orbits, read and refused, and what following them gives. */
 #include "orbit/feed.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>

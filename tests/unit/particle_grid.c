@@ -1,7 +1,7 @@
 /* The guiding radii of particles are fine enough for the rows of their grid, however particles are spread. */
 #include "render/emit/particles.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,10 +1,10 @@
 /* Critical curve, spherical photon orbits and local frames: against 60-digit searches for the ray that just
  * does not turn (tests/oracle/critical_reference.py), published values, and closed-form rays on either side
  * of the curve. */
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "critical_reference.h"
 

@@ -1,9 +1,9 @@
 /* Bending of light against quadrature from the metric (tests/oracle/deflection_reference.py), numbers in print, and
  * its own limits. */
-#include "physics/deflection.h"
-#include "physics/kerr.h"
-#include "physics/potential.h"
-#include "physics/quadrature.h"
+#include "physics/math/quadrature.h"
+#include "physics/null/deflection.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/potential.h"
 
 #include "deflection_reference.h"
 

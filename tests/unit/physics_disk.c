@@ -1,7 +1,7 @@
 /* The thin disk against quadrature of its defining integral (tests/oracle/disk_reference.py), energy
  * conservation, and the redshift against a contraction with the metric. */
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 
 #include "contraction.h"
 #include "disk_reference.h"

@@ -1,9 +1,9 @@
 /* Epicyclic frequencies, effective potentials and frame dragging against numbers worked out from the metric and
  * Carter's potentials (tests/oracle/equator_reference.py). */
-#include "physics/epicyclic.h"
-#include "physics/kerr.h"
-#include "physics/orbit_bound.h"
-#include "physics/potential.h"
+#include "physics/orbit/orbit_bound.h"
+#include "physics/spacetime/epicyclic.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/potential.h"
 
 #include "equator_reference.h"
 

@@ -1,6 +1,6 @@
 /* Circular orbits of Kerr against numbers worked out from the metric alone (tests/oracle/kerr_reference.py),
  * and against what must hold at any spin. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include "kerr_reference.h"
 

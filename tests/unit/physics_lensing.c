@@ -1,10 +1,10 @@
 /* Lensing bands: against quadratures in 60 digits (tests/oracle/critical_reference.py), published intervals,
  * and rays traced in closed form; and the demagnification from order to order. */
-#include "physics/lensing.h"
+#include "physics/null/lensing.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
-#include "physics/root.h"
+#include "physics/math/root.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "critical_reference.h"
 

@@ -1,14 +1,14 @@
 /* Line profiles and spectra of disks against sums over rays of the image plane, transfer functions against rays
  * integrated in Kerr-Schild coordinates, lamps against rays of a lamp in flat space and against Schwarzschild's, and
  * the image of the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
-#include "physics/disk.h"
-#include "physics/disk_image.h"
-#include "physics/disk_spectrum.h"
-#include "physics/kerr.h"
-#include "physics/lamppost.h"
-#include "physics/line_profile.h"
-#include "physics/null_geodesic.h"
-#include "physics/transfer_function.h"
+#include "physics/disk/disk_image.h"
+#include "physics/disk/disk_spectrum.h"
+#include "physics/disk/lamppost.h"
+#include "physics/disk/line_profile.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/disk/transfer_function.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "kerr_schild.h"
 #include "line_triangles.h"

@@ -3,8 +3,8 @@
  * motion against the oracle's own frames. */
 #include "kerr_schild.h"
 #include "kerr_schild_frame.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is
  * known of them. / */
-#include "physics/kerr.h"
-#include "physics/orbit_lanes.h"
+#include "physics/orbit/orbit_lanes.h"
+#include "physics/spacetime/kerr.h"
 
 #include "orbit_reference.h"
 

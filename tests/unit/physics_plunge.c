@@ -1,8 +1,8 @@
 /* The plunge from the ISCO: closed forms against quadratures from the metric (tests/oracle/plunge_reference.py),
  * print, and what is conserved. */
-#include "physics/plunge.h"
+#include "physics/orbit/plunge.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include "plunge_reference.h"
 

@@ -1,7 +1,7 @@
 /* Quasi-normal modes against Teukolsky's equation solved in another way (tests/oracle/qnm_reference.py), against
  * numbers in print, and against what must hold for any of them. */
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
+#include "physics/waves/qnm.h"
+#include "physics/waves/ringdown.h"
 
 #include "qnm_reference.h"
 

@@ -1,10 +1,10 @@
 /* The lensed image of a ring, and embedded planes: against quadratures (tests/oracle/ring_reference.py) and, with
  * spin, against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
-#include "physics/disk.h"
-#include "physics/embedding.h"
-#include "physics/kerr.h"
-#include "physics/ring_image.h"
-#include "physics/observer.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/embedding.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/null/ring_image.h"
+#include "physics/spacetime/observer.h"
 
 #include "kerr_schild.h"
 #include "ring_reference.h"

@@ -1,7 +1,7 @@
 /* Rings as they are seen from within them, from next to the hole and from beyond the horizon: against rays
  * integrated in ingoing Kerr-Schild coordinates, in frames made in these (tests/oracle/kerr_schild.h). */
-#include "physics/kerr.h"
-#include "physics/ring_view.h"
+#include "physics/null/ring_view.h"
+#include "physics/spacetime/kerr.h"
 
 #include "kerr_schild.h"
 

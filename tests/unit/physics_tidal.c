@@ -1,7 +1,7 @@
 /* Tidal disruption against numbers in print and against what it says of itself. */
-#include "physics/tidal.h"
-#include "physics/kerr.h"
-#include "physics/quadrature.h"
+#include "physics/waves/tidal.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/math/quadrature.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* The torus of Fishbone & Moncrief against the equation of motion: the gas is held by its pressure, d ln h = g_ab,r
  * u^a u^b dr/2, integrated from the inner edge. */
-#include "physics/torus.h"
+#include "physics/disk/torus.h"
 
 #include <math.h>
 #include <setjmp.h>

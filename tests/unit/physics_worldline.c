@@ -2,9 +2,9 @@
  * Runge and Kutta's method of fourth order, with derivatives of the metric by differences, through the horizon.
  * Nothing is separated, nothing integrated in r. */
 #include "kerr_schild_frame.h"
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/worldline.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/worldline.h"
 
 #include <math.h>
 #include <setjmp.h>

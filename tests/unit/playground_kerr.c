@@ -1,8 +1,8 @@
-/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit_bound.h), which is no
+/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit/orbit_bound.h), which is no
  * integration; and snapshots, which start again to the bit. */
 #include "playground_support.h"
 
-#include "physics/orbit_bound.h"
+#include "physics/orbit/orbit_bound.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The curve that plunging particles share, there and back: its table of radii against the closed form, at any spin. */
 #include "render/emit/plunging.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* kd_rays_trace with the closed engine: against geodesics in Kerr-Schild coordinates, and what it does around them. */
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"
 
 #include "kerr_schild.h"

@@ -2,7 +2,7 @@
 #include "scene_support.h"
 #include "scene/label.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/motion.h"
 
 struct rule {

@@ -5,9 +5,9 @@
  *     unit_told_lines [PROFILES [SEED]]      a long run: 2000 take some ten minutes
  */
 #include "base/random.h"
-#include "physics/kerr.h"
-#include "physics/lamppost.h"
-#include "physics/line_profile.h"
+#include "physics/disk/lamppost.h"
+#include "physics/disk/line_profile.h"
+#include "physics/spacetime/kerr.h"
 
 #include "line_triangles.h"
 

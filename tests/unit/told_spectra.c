@@ -6,10 +6,10 @@
  *     unit_told_spectra [SPECTRA [SEED]]      a long run: 200 take some ten minutes
  */
 #include "base/random.h"
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/disk_spectrum.h"
-#include "physics/kerr.h"
+#include "physics/disk/disk_spectrum.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>

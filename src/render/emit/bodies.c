@@ -1,9 +1,9 @@
 /* These are bodies as an emitter: shaders/emit/bodies.glsl. */
 #include "render/emit/bodies.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "render/emit/emitter.h"
 #include "render/emit/particles.h"
 

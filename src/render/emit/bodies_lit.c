@@ -10,7 +10,7 @@
  * side of it follows to the second order (shaders/emit/bodies.glsl). */
 #include "render/emit/bodies.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
 
 #include <math.h>

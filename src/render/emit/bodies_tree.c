@@ -1,7 +1,7 @@
 #include "render/emit/bodies.h"
 
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 
 #include <math.h>
 #include <stdlib.h>

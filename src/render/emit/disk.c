@@ -1,9 +1,9 @@
 /* This is the smooth disk as an emitter: shaders/emit/disk.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/colour.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/colour.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>

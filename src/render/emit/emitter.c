@@ -1,6 +1,6 @@
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
 
 #include <math.h>

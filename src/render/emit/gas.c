@@ -1,7 +1,7 @@
 /* This is turbulent gas as an emitter: shaders/emit/gas.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
 
 #include <math.h>

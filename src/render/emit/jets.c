@@ -1,7 +1,7 @@
 /* These are two jets as an emitter: shaders/emit/jets.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 
 #include "base/clock.h"
 #include "image/npy.h"
-#include "physics/constants.h"
-#include "physics/kerr.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/matter_array.h"
 #include "scene/tree.h"
 

@@ -2,8 +2,8 @@
 
 #include "render/emit/emitter.h"
 
-#include "physics/epicyclic.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/epicyclic.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/deposit.h"
 #include "render/emit/plunging.h"
 #include "render/view/layout.h"

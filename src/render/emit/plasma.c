@@ -1,10 +1,10 @@
 /* This is matter that is seen at one radio frequency as an emitter: shaders/emit/plasma.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/constants.h"
-#include "physics/kerr.h"
-#include "physics/synchrotron.h"
-#include "physics/torus.h"
+#include "physics/disk/synchrotron.h"
+#include "physics/disk/torus.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/matter_grid.h"
 #include "render/emit/radio.h"
 

@@ -1,7 +1,7 @@
 #include "render/emit/plunging.h"
 
-#include "physics/kerr.h"
-#include "physics/root.h"
+#include "physics/math/root.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 

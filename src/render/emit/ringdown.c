@@ -1,7 +1,7 @@
 /* This is a struck hole as a factor of light: shaders/emit/ringdown.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/ringdown.h"
+#include "physics/waves/ringdown.h"
 
 #include <math.h>
 

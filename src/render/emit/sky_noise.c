@@ -1,7 +1,7 @@
 #include "render/emit/sky_noise.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 
 #include <float.h>

@@ -1,7 +1,7 @@
 /* These are hot spots as an emitter: shaders/emit/spots.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "render/explain/motion.h"
 
-#include "physics/kerr.h"
-#include "physics/null_polar.h"
+#include "physics/null/null_polar.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>

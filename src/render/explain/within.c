@@ -1,9 +1,9 @@
 /* Follows a ray of an observer within the horizon, where closed forms end: by the steps of
- * physics/null_course.h in ingoing coordinates. */
+ * physics/null/null_course.h in ingoing coordinates. */
 #include "render/explain/motion.h"
 
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* This part of a frame tells the light of one pixel, ray by ray. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/frame/lens.h"
 #include "render/frame/tell.h"
 #include "render/lens/label.h"

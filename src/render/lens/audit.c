@@ -2,7 +2,7 @@
 
 #include "render/view/layout.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/lens/label.h"
 #include "render/lens/listed.h"
 

@@ -2,8 +2,8 @@
 
 #include "render/view/layout.h"
 
-#include "physics/kerr.h"
-#include "physics/null_course.h"
+#include "physics/null/null_course.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 #include "render/view/critical_pixels.h"
 #include "render/rays/closed.h"
@@ -280,7 +280,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* By the steps of physics/null_course.h in ingoing coordinates: of an observer within the horizon, where closed
+/* By the steps of physics/null/null_course.h in ingoing coordinates: of an observer within the horizon, where closed
  * forms end. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {

@@ -1,6 +1,6 @@
 #include "render/output/particle_list.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "scene/number.h"
 #include "scene/table.h"
 #include "scene/text.h"

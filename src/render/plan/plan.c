@@ -4,8 +4,8 @@
 
 #include "interface.h"
 #include "lens.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 #include "render/accuracy/table.h"
 #include "render/view/camera.h"
 #include "render/view/layout.h"

@@ -1,7 +1,7 @@
 #include "render/rays/check.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/fields.h"
 #include "render/rays/looks.h"
 

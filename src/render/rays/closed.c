@@ -1,9 +1,9 @@
 #include "render/rays/closed.h"
 
-#include "physics/angle.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/angle.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 #include "base/cores.h"
 #include "base/pause.h"
 

@@ -2,8 +2,8 @@
 #include "render/rays/device.h"
 
 #include "interface.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/view/layout.h"
 #include "render/rays/start.h"

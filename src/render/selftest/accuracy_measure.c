@@ -1,9 +1,9 @@
 #include "render/selftest/accuracy_measure.h"
 
-#include "physics/angle.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/angle.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/rays/closed.h"
 #include "render/rays/device.h"

@@ -2,13 +2,13 @@
  * disk, in double precision on the CPU. */
 #include "render/selftest/parts.h"
 
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/orbit_bound.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/orbit/orbit_bound.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
-/* physics/kerr.h promises a few ulp, 1e-14 for the ISCO: relative. */
+/* physics/spacetime/kerr.h promises a few ulp, 1e-14 for the ISCO: relative. */
 #define ORBIT_BOUND 1e-14
 
 static enum kd_status radius(const struct kd_selftest *test, const char *what, double (*of)(double), size_t at)
@@ -82,7 +82,7 @@ static enum kd_status mercury(const struct kd_selftest *test)
     return kd_selftest_end(test, &row);
 }
 
-/* physics/disk.h: 1e-11 and 4e-14/(r - r_isco)^2, relative. */
+/* physics/disk/thin_disk.h: 1e-11 and 4e-14/(r - r_isco)^2, relative. */
 static enum kd_status flux(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;

@@ -1,8 +1,8 @@
 #include "render/view/camera.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 #include "render/view/rim.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/sky_ray.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 
 #include "base/hash.h"
 #include "base/json.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/clock.h"
 #include "render/output/notes.h"
 #include "server/http/reply.h"
