@@ -18,7 +18,7 @@ bool kd_integral_given(const struct kd_integral_request *request, const char *na
 
 static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error *error)
 {
-    double isco = kd_kerr_isco(r->spin);
+    double isco = kd_kerr_isco(kd_hole(r->spin));
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
         return kd_error_field(
             error, "/inclination_deg",
@@ -71,7 +71,7 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
             return kd_error_field(error, pointer, "%s is given, and belongs to emissivity %s", belongs[i].name,
                                   belongs[i].words);
         }
-    double least = 1.05 * kd_kerr_horizon(r->spin);
+    double least = 1.05 * kd_hole(r->spin)->outer;
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
         return kd_error_field(error, "/height",
                               "height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more",

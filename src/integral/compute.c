@@ -249,7 +249,7 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     answer->values[1] =
         kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
     answer->values[2] =
-        kd_kerr_efficiency(r->spin) * kd_disk_rate(r->spin, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
+        kd_kerr_efficiency(kd_hole(r->spin)) * kd_disk_rate(r->spin, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
     return status;
 }

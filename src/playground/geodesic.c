@@ -74,9 +74,9 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 
 static enum kd_geodesic_fate fate_at(const struct kd_playground_geodesic *g, double r)
 {
-    return !(r > KD_GEODESIC_NEAR * kd_kerr_horizon(g->spin)) ? KD_GEODESIC_CAPTURED
-           : !(r < KD_GEODESIC_FAR)                           ? KD_GEODESIC_AWAY
-                                                              : KD_GEODESIC_GOES;
+    return !(r > KD_GEODESIC_NEAR * kd_hole(g->spin)->outer) ? KD_GEODESIC_CAPTURED
+           : !(r < KD_GEODESIC_FAR)                          ? KD_GEODESIC_AWAY
+                                                             : KD_GEODESIC_GOES;
 }
 
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps)

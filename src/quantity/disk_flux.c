@@ -44,10 +44,10 @@ static const char *const approximations[] = {
 static void fill_disk(const struct parameters *p, struct outputs *o)
 {
     double m_sun_kg = KD_GM_SUN_SI / KD_G_SI;
-    o->inner = kd_kerr_isco(p->spin);
+    o->inner = kd_kerr_isco(kd_hole(p->spin));
     o->r_peak = kd_disk_peak_page_thorne(p->spin);
     o->t_peak_k = kd_disk_temperature(kd_disk_flux_page_thorne(p->spin, o->r_peak), p->spin, p->mass_msun, p->mdot_edd);
-    o->efficiency = kd_kerr_efficiency(p->spin);
+    o->efficiency = kd_kerr_efficiency(kd_hole(p->spin));
     o->efficiency_newton = 1 / (2 * o->inner);
     o->mdot_kg_s = kd_disk_rate(p->spin, p->mass_msun, p->mdot_edd);
     o->mdot_msun_yr = o->mdot_kg_s * KD_YEAR_S / m_sun_kg;
@@ -60,7 +60,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
-    if (kd_quantity_outside_horizon(p->spin, p->r, error))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
         return KD_EINVAL;
     if (fresh)
         fill_disk(p, o);

@@ -56,7 +56,7 @@ static double width_of(const struct memory *m, const struct parameters *p, int o
 /* From below the plane the picture is that from above, upside down. */
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
-    const double horizon = kd_kerr_horizon(p->spin);
+    const double horizon = kd_hole(p->spin)->outer;
     const bool below = p->inclination_deg > 90;
     m->inner = isinf(p->inner) ? horizon : p->inner;
     if (m->inner < horizon)

@@ -86,11 +86,11 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
+    const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(kd_hole(p->spin)) : p->r;
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
                                    "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
-    if (kd_quantity_outside_horizon(p->spin, r, error) || (fresh && make(p, r, m, error)))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
         return kd_quantity_outside(error, "r", r,

@@ -71,8 +71,8 @@ static void fill_star(const struct parameters *p, struct kd_tidal t, struct outp
     double to_msun_yr = p->mass_msun * KD_YEAR_S / unit_s, fallback = kd_tidal_fallback_time(t);
     o->tidal_radius = kd_tidal_radius(t);
     o->tidal_radius_km = o->tidal_radius * kd_scale_metres(p->mass_msun) * 1e-3;
-    o->horizon = kd_kerr_horizon(p->spin);
-    o->marginally_bound = kd_kerr_marginally_bound(p->spin);
+    o->horizon = kd_hole(p->spin)->outer;
+    o->marginally_bound = kd_kerr_marginally_bound(kd_hole(p->spin));
     o->hills_msun = kd_tidal_hills_mass(t, p->spin) * p->mass_msun;
     o->capture_msun = kd_tidal_capture_mass(t, p->spin) * p->mass_msun;
     o->energy_spread = kd_tidal_energy_spread(t);

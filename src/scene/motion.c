@@ -66,12 +66,12 @@ bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_observer_motion motion = kd_scene_observer(scene);
-    const double horizon = kd_kerr_horizon(at.spin);
+    const double horizon = kd_hole(at.spin)->outer;
     if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
         return false;
     *out = (struct kd_fall_clock) {
         .to_horizon = at.r > horizon ? kd_infall_proper_time(&motion, &at, horizon) : NAN,
-        .to_end = kd_infall_proper_time(&motion, &at, kd_kerr_inner_horizon(at.spin)),
+        .to_end = kd_infall_proper_time(&motion, &at, kd_hole(at.spin)->inner),
         .second = kd_scale_seconds(scene->spacetime.mass_msun),
     };
     return true;

@@ -6,6 +6,7 @@
 #include "contraction.h"
 #include "physics/null/null_geodesic.h"
 #include "physics/orbit/plunge.h"
+#include "physics/spacetime/hole.h"
 #include "render/view/camera.h"
 #include "render/emit/particles.h"
 #include "render/emit/plunging.h"
@@ -171,7 +172,7 @@ static void surface_density(void **state)
             (1 - 0.001) * n * step / (kd_particle_radius(&scene, 0.02 + step) - kd_particle_radius(&scene, 0.02));
         double r_there = kd_particle_radius(&scene, 0.02 + step / 2);
         circling *= pow(isco / r_there, 1 - scene.disk.density_index); /* dN/dr goes as r^(1 - p) */
-        double edge = circling / (2 * M_PI * isco * kd_kerr_ut(0.5, isco));
+        double edge = circling / (2 * M_PI * isco * kd_kerr_ut(kd_hole(0.5), isco));
         for (uint32_t y = 0; y < PIXELS; y++)
             for (uint32_t x = 0; x < PIXELS; x++) {
                 struct ray ray = ray_of(&scene, x, y);

@@ -11,6 +11,7 @@
 #include "render/output/format.h"
 #include "render/device/internal.h"
 #include "render/view/layout.h"
+#include "scene/hole.h"
 
 #include "interface.h"
 #include "render_support.h"
@@ -124,7 +125,7 @@ static double apart(int kind, double x, double y)
  * side. */
 static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
 {
-    double in = kd_kerr_isco(scene->spacetime.spin), out = scene->disk.outer, r = path->r[n];
+    double in = kd_kerr_isco(kd_scene_hole(scene)), out = scene->disk.outer, r = path->r[n];
     bool there = n < path->crossings;
     *near = there && (fabs(r / in - 1) < 1e-3 || fabs(r / out - 1) < 1e-3);
     return there && r > in && r < out;
@@ -289,7 +290,7 @@ static void test_temperature(void **state)
         int n = 0;
         for (int k = 0; k < PIXELS; k++) {
             assert_true(isnan(t[k]) == isnan(r[k]) && isnan(depth[k]) == isnan(r[k]));
-            if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(0.9))
+            if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(kd_hole(0.9)))
                 continue;
             double want = scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(0.9, r[k]) / largest, 0.25);
             assert_true(fabs(t[k] / want - 1) < 2e-4); /* the table is linear between 1024 nodes */
@@ -317,7 +318,8 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
 static void test_plunge(void **state)
 {
     (void)state;
-    const double a = 0.3, isco = kd_kerr_isco(a), omega = omega_of(a, isco), ut = 1 / sqrt(line(a, isco, omega));
+    const double a = 0.3, isco = kd_kerr_isco(kd_hole(a)), omega = omega_of(a, isco),
+                 ut = 1 / sqrt(line(a, isco, omega));
     const double u_t = ut * (-(1 - 2 / isco) - 2 * a / isco * omega),
                  u_phi = ut * (-2 * a / isco + (isco * isco + a * a + 2 * a * a / isco) * omega);
     struct kd_scene scene = scene_of(a, 60, INFINITY, "r_0,g_0,temperature_0");

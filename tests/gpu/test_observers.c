@@ -237,7 +237,7 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
     for (int order = 0; order < ORDERS; order++) {
         double w = planes[order * RAYS + k], phi = planes[(ORDERS + order) * RAYS + k];
         bool has = want.crossings > order, sure = has == (beside.crossings > order);
-        if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_kerr_horizon(seer->spin))))
+        if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_hole(seer->spin)->outer)))
             continue;
         o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
         if (w > 0 && has)

@@ -107,8 +107,8 @@ static void test_falling(void **state)
     for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
         struct kd_scene scene = scene_of(spins[s], 0);
         scene.disk.plunging = 0.2;
-        double isco = kd_kerr_isco(spins[s]), energy = kd_kerr_energy(spins[s], isco), worst = 0;
-        double momentum = kd_kerr_momentum(spins[s], isco);
+        double isco = kd_kerr_isco(kd_hole(spins[s])), energy = kd_kerr_energy(kd_hole(spins[s]), isco), worst = 0;
+        double momentum = kd_kerr_momentum(kd_hole(spins[s]), isco);
         size_t n, fell = 0;
         struct row *rows = all_at(&scene, "777.5", &n);
         for (size_t i = 0; i < n; i++) {

@@ -134,7 +134,7 @@ enum { EDGES = 60 };
 static void sum_over_rays(double a, double i, double outer, const double *edges, double *in)
 {
     const int across = 500, around = 400;
-    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(a), first = log(0.9), last = log(1.25 * outer),
+    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(kd_hole(a)), first = log(0.9), last = log(1.25 * outer),
            step = (last - first) / across, all = 0;
     memset(in, 0, EDGES * sizeof *in);
     for (int k = 0; k < across; k++)
@@ -351,11 +351,11 @@ static void test_lamp(void **state)
     /* Kerr: photons of all rings, by the hole's time, are those of the angles between the rings at the ends. */
     static const double spins[] = { 0.9, 0.998, -0.5 };
     for (size_t s = 0; s < COUNT(spins); s++) {
-        double a = spins[s], h = 4, isco = kd_kerr_isco(a), sum = 0, low = 0, high = M_PI, outer = 500;
+        double a = spins[s], h = 4, isco = kd_kerr_isco(kd_hole(a)), sum = 0, low = 0, high = M_PI, outer = 500;
         assert_true(kd_lamppost_init(&lamp, a, h, 0, isco, outer)); /* photon index 0: no g */
         for (int k = 0; k < 4000; k++) {
             double r = isco * pow(outer / isco, (k + 0.5) / 4000);
-            sum += kd_lamppost_at(&lamp, r) * 4 * M_PI * r * kd_kerr_ut(a, r) * r * log(outer / isco) / 4000;
+            sum += kd_lamppost_at(&lamp, r) * 4 * M_PI * r * kd_kerr_ut(kd_hole(a), r) * r * log(outer / isco) / 4000;
         }
         double ends[2];
         for (int end = 0; end < 2; end++) {
@@ -455,8 +455,8 @@ static void test_spectrum(void **state)
     const double outer = 200, mass = 12, distance = 3e3, rate = 0.2, hardening = 1.6;
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++) {
-        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN), isco = kd_kerr_isco(a),
-               squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
+        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN),
+               isco = kd_kerr_isco(kd_hole(a)), squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
         double frequencies[FREQUENCIES], off, step = log(1.25 * outer / 0.9) / ACROSS;
         /* M and Mdot in SI: L = mdot 4 pi G M m_p c/sigma_T, and Mdot c^2 is that over 1 - E at the ISCO */
         double m = 1476.625 * mass, root = sqrt(isco),

@@ -242,11 +242,11 @@ static void circles_at_the_edge(void **state)
 {
     (void)state;
     for (double a = -0.95; a < 1; a += 0.95) {
-        double isco = kd_kerr_isco(a);
+        double isco = kd_kerr_isco(kd_hole(a));
         struct kd_orbit o = shape(a, isco, 0, 1);
         assert_int_equal(o.fate, KD_ORBIT_BOUND);
-        close_to(0, "E", o.energy, kd_kerr_energy(a, isco), 1e-14);
-        close_to(0, "L", o.momentum, kd_kerr_momentum(a, isco), 1e-13);
+        close_to(0, "E", o.energy, kd_kerr_energy(kd_hole(a), isco), 1e-14);
+        close_to(0, "L", o.momentum, kd_kerr_momentum(kd_hole(a), isco), 1e-13);
         for (int method = 0; method < 2; method++) {
             struct kd_orbit_state start = kd_orbit_start(&o, NAN, true);
             struct kd_orbit_path path;
@@ -262,7 +262,7 @@ static void circles_at_the_edge(void **state)
         struct kd_orbit well_inside = shape(a, 0.98 * isco, 0, 1);
         struct kd_orbit_state start = kd_orbit_start(&well_inside, NAN, true);
         struct kd_orbit_path path;
-        double horizon = 1 / kd_kerr_horizon(a);
+        double horizon = 1 / kd_hole(a)->outer;
         int k = 0;
         kd_orbit_path_init(&path, &well_inside, &start, KD_ORBIT_YOSHIDA6);
         for (; k < 100 * 64 && path.place[KD_PATH_W].value < horizon; k++)
@@ -288,7 +288,7 @@ static void constants_and_back(void **state)
         close_to(i, "periastron", back.w_high, o.w_high, bound * o.w_high);
         close_to(i, "apastron", back.w_low, o.w_low, bound * o.w_low);
         if (e->e > 0 && e->p < 100) {
-            double inner = 0.5 * (1 / o.w_high + kd_kerr_horizon(e->spin));
+            double inner = 0.5 * (1 / o.w_high + kd_hole(e->spin)->outer);
             struct kd_orbit_bound b = bound_of(&o);
             if (inner < b.r[2] &&
                 !kd_orbit_from_constants(e->spin, o.energy, o.momentum, o.carter, inner, &back, &error))
@@ -478,8 +478,9 @@ static void separatrix(void **state)
     for (double e = 0.125; e < 1; e += 0.125)
         close_to(0, "p_s", kd_orbit_separatrix(0, e, 0.5), 6 + 2 * e, 1e-12);
     for (double a = -0.99; a < 1; a += 0.11) {
-        close_to(1, "p_s, e = 0", kd_orbit_separatrix(a, 1e-9, 1), kd_kerr_isco(a), 1e-7);
-        close_to(2, "p_s, e = 1", kd_orbit_separatrix(a, 1 - 1e-9, -1), 2 * kd_kerr_marginally_bound(-a), 1e-7);
+        close_to(1, "p_s, e = 0", kd_orbit_separatrix(a, 1e-9, 1), kd_kerr_isco(kd_hole(a)), 1e-7);
+        close_to(2, "p_s, e = 1", kd_orbit_separatrix(a, 1 - 1e-9, -1), 2 * kd_kerr_marginally_bound(kd_hole(-a)),
+                 1e-7);
     }
 }
 

@@ -78,7 +78,7 @@ static void redshift(void **state)
 {
     (void)state;
     const struct kd_rays_params p = params_of(0.3, 50);
-    double isco = kd_kerr_isco(p.spin), last = NAN, last_r = NAN, step = 0;
+    double isco = kd_kerr_isco(kd_hole(p.spin)), last = NAN, last_r = NAN, step = 0;
     bool inside = false, outside = false;
     for (double beta = 2; beta < 7; beta += 0.001) {
         struct kd_ray_crossing c[ORDERS];
@@ -249,7 +249,7 @@ static void observers_that_move(void **state)
                 !same_azimuth(c[n].phi, path.phi[n] - twist(p.spin, p.r), bound))
                 fail_msg("case %zu, look %g, %g, order %d: %.12g %.12g, not %.12g %.12g", k, look[0], look[1], n,
                          c[n].r, c[n].phi, path.r[n], path.phi[n] - twist(p.spin, p.r));
-            if (c[n].r > kd_kerr_isco(p.spin) * 1.001)
+            if (c[n].r > kd_kerr_isco(kd_hole(p.spin)) * 1.001)
                 assert_true(fabs(c[n].g * constants[0] / kd_disk_redshift(p.spin, c[n].r, constants[1] / constants[0]) -
                                  1) < 10 * bound);
             crossings++;

@@ -73,10 +73,10 @@ static struct asked ask(struct kd_random *random)
 {
     struct asked q = { .spin = any_spin(random), .inclination_deg = between(random, 0, 87) };
     struct kd_line_params *p = &q.params;
-    double isco = kd_kerr_isco(q.spin);
+    double isco = kd_kerr_isco(kd_hole(q.spin));
     p->inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 3));
     p->outer = one_in(random, 2) ? 400 : p->inner * exp(between(random, 0.05, 7));
-    ask_light(random, p, kd_kerr_horizon(q.spin));
+    ask_light(random, p, kd_hole(q.spin)->outer);
     p->tolerance = one_in(random, 4) ? 0 : pow(10, between(random, -4, -1));
     ask_edges(random, &q);
     return q;

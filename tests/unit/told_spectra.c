@@ -45,7 +45,8 @@ static struct asked ask(struct kd_random *random)
     struct asked q = { .spin = one_in(random, 4) ? 1 - pow(10, between(random, -6, -2)) : between(random, 0, 0.998),
                        .inclination_deg = between(random, 80, 87) };
     q.spin = one_in(random, 2) ? -q.spin : q.spin;
-    const double isco = kd_kerr_isco(q.spin), inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 2));
+    const double isco = kd_kerr_isco(kd_hole(q.spin)),
+                 inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 2));
     q.params = (struct kd_disk_spectrum_params) { inner, inner * exp(between(random, 0.2, 5)),      10, 1e3, 0.2,
                                                   1.6,   (enum kd_line_limb)(3 * kd_random(random)) };
     for (int f = 0; f < FREQUENCIES; f++)

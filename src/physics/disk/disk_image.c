@@ -210,7 +210,7 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
     double c = fabs(cos(inclination));
     memset(image, 0, sizeof *image);
     image->spin = spin, image->cos_i = c, image->sin_i = sin(inclination);
-    image->isco = kd_kerr_isco(spin), image->horizon = kd_kerr_horizon(spin);
+    image->isco = kd_kerr_isco(kd_hole(spin)), image->horizon = kd_hole(spin)->outer;
     image->origin = fmin(image->horizon, image->isco - NEAREST);
     image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
     if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))
@@ -302,7 +302,7 @@ void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, i
 
 struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double r)
 {
-    return (struct kd_disk_ring) { r, kd_kerr_ut(image->spin, r), kd_kerr_omega(image->spin, r) };
+    return (struct kd_disk_ring) { r, kd_kerr_ut(kd_hole(image->spin), r), kd_kerr_omega(kd_hole(image->spin), r) };
 }
 
 struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas,

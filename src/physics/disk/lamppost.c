@@ -10,7 +10,7 @@
 /* Delta/(h^2 + a^2): the square of the source's redshift to infinity. */
 static double source_redshift2(double a, double h)
 {
-    return (h - kd_kerr_horizon(a)) * (h - kd_kerr_inner_horizon(a)) / (h * h + a * a);
+    return (h - kd_hole(a)->outer) * (h - kd_hole(a)->inner) / (h * h + a * a);
 }
 
 double kd_lamppost_reach(double a, double h, double delta)
@@ -52,7 +52,7 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, double a, double h, double photo
     double delta = 0.5, slope = 1, source = sqrt(source_redshift2(a, h));
     lamp->first = log(inner), lamp->step = log(outer / inner) / (KD_LAMPPOST_RINGS - 1);
     for (int k = 0; k < KD_LAMPPOST_RINGS; k++) {
-        double r = exp(lamp->first + k * lamp->step), ut = kd_kerr_ut(a, r);
+        double r = exp(lamp->first + k * lamp->step), ut = kd_kerr_ut(kd_hole(a), r);
         if (k)
             delta += fmin(lamp->step / slope, 0.5 * (M_PI - delta));
         if (!find(a, h, r, slope, &delta))

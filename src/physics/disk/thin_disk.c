@@ -18,7 +18,7 @@ static double log_term(double a, double x, double x0, double root, double other1
 
 double kd_disk_flux_page_thorne(double a, double r)
 {
-    double r0 = kd_kerr_isco(a);
+    double r0 = kd_kerr_isco(kd_hole(a));
     if (!(r > r0))
         return 0;
     double x = sqrt(r), x0 = sqrt(r0), dx = (r - r0) / (x + x0);
@@ -32,7 +32,7 @@ double kd_disk_flux_page_thorne(double a, double r)
 
 double kd_disk_flux_shakura_sunyaev(double a, double r)
 {
-    double r0 = kd_kerr_isco(a);
+    double r0 = kd_kerr_isco(kd_hole(a));
     return r > r0 ? 3 / (8 * M_PI * r * r * r) * (1 - sqrt(r0 / r)) : 0;
 }
 
@@ -75,8 +75,8 @@ static double growth(const void *user, double span)
 
 double kd_disk_peak_page_thorne(double a)
 {
-    double x0 = sqrt(kd_kerr_isco(a));
-    struct rise r = { .a = a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(a)) };
+    double x0 = sqrt(kd_kerr_isco(kd_hole(a)));
+    struct rise r = { .a = a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(kd_hole(a))) };
     /* Below 2.1 r_isco for all spins, and for an extremal hole at the ISCO. */
     double x = x0 + kd_root(growth, &r, 1e-7 * x0, 0.5 * x0);
     return x * x;
@@ -84,12 +84,12 @@ double kd_disk_peak_page_thorne(double a)
 
 double kd_disk_peak_shakura_sunyaev(double a)
 {
-    return 49. / 36 * kd_kerr_isco(a); /* where the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
+    return 49. / 36 * kd_kerr_isco(kd_hole(a)); /* where the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
 }
 
 double kd_disk_redshift(double a, double r, double lambda)
 {
-    return 1 / (kd_kerr_ut(a, r) * (1 - kd_kerr_omega(a, r) * lambda));
+    return 1 / (kd_kerr_ut(kd_hole(a), r) * (1 - kd_kerr_omega(kd_hole(a), r) * lambda));
 }
 
 /* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma the sign of p^r, with the radial
@@ -98,9 +98,10 @@ double kd_disk_redshift(double a, double r, double lambda)
  * horizon; multiplied out by P U + sqrt(R S) it does not. */
 double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, bool outwards)
 {
-    double r0 = kd_kerr_isco(a), e = 1 - kd_kerr_efficiency(a), l = kd_kerr_momentum(a, r0), j = l - a * e;
+    double r0 = kd_kerr_isco(kd_hole(a)), e = 1 - kd_kerr_efficiency(kd_hole(a)), l = kd_kerr_momentum(kd_hole(a), r0),
+           j = l - a * e;
     double gap = fmax(0, r0 / r - 1), ur = sqrt(2 / (3 * r0) * gap) * gap;
-    double h = kd_kerr_horizon(a), delta = (r - h) * (r - kd_kerr_inner_horizon(a));
+    double h = kd_hole(a)->outer, delta = (r - h) * (r - kd_hole(a)->inner);
     double p = r * r + a * (a - lambda), u = r * r * e - a * j;
     double k = eta + (lambda - a) * (lambda - a), m = r * r + j * j;
     double root = sqrt(fmax(0, p * p - delta * k)) * r * r * ur;
@@ -111,7 +112,7 @@ double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, 
 double kd_disk_rate(double a, double mass_msun, double mdot_edd)
 {
     double luminosity = mdot_edd * 4 * M_PI * KD_GM_SUN_SI * mass_msun * KD_PROTON_KG * KD_C_M_S / KD_THOMSON_M2;
-    return luminosity / (kd_kerr_efficiency(a) * KD_C_M_S * KD_C_M_S);
+    return luminosity / (kd_kerr_efficiency(kd_hole(a)) * KD_C_M_S * KD_C_M_S);
 }
 
 double kd_disk_flux_si(double flux, double a, double mass_msun, double mdot_edd)

@@ -85,8 +85,7 @@ static double along(const struct kd_critical *c, double at)
 static bool valid(const struct kd_critical_observer *o)
 {
     return fabs(o->spin) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
-           o->radius >
-               (o->motion.observer == KD_OBSERVER_INFALL ? kd_kerr_inner_horizon(o->spin) : kd_kerr_horizon(o->spin)) &&
+           o->radius > (o->motion.observer == KD_OBSERVER_INFALL ? kd_hole(o->spin)->inner : kd_hole(o->spin)->outer) &&
            (unsigned)o->motion.observer < KD_OBSERVER_COUNT;
 }
 

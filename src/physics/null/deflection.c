@@ -67,15 +67,15 @@ double kd_deflection_closest(double a, double b)
     if (b > far_away)
         return 1 / nearest_w(a, b);
     struct kd_null_radial q = radial_of(a, b);
-    return q.turns ? q.roots.r4 : kd_kerr_photon_orbit(a);
+    return q.turns ? q.roots.r4 : kd_kerr_photon_orbit(kd_hole(a));
 }
 
 double kd_deflection_farthest(double a, double b)
 {
-    if (!(b >= kd_deflection_critical(a)) || a * b > 2 * kd_kerr_horizon(a))
+    if (!(b >= kd_deflection_critical(a)) || a * b > 2 * kd_hole(a)->outer)
         return NAN;
     struct kd_null_radial q = radial_of(a, b);
-    return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(a);
+    return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(kd_hole(a));
 }
 
 double kd_deflection_weak(double b) { return 4 / b; }
@@ -101,7 +101,7 @@ static double regular(double x, double y, const void *context)
  * integrates to rate arcosh(w_c/e). */
 struct kd_deflection_strong kd_deflection_strong(double a)
 {
-    double r = kd_kerr_photon_orbit(a), b = kd_deflection_critical(a);
+    double r = kd_kerr_photon_orbit(kd_hole(a)), b = kd_deflection_critical(a);
     if (isnan(b))
         return (struct kd_deflection_strong) { NAN, NAN };
     struct critical c = { .a = a, .b = b, .w = 1 / r, .cubic = 2 * (b - a) * (b - a) };

@@ -106,7 +106,7 @@ static double solve(kd_root_fn f, const struct search *q, double expected, doubl
 
 double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_point *p, int n, double source)
 {
-    if (!(n >= 1 && source >= kd_kerr_horizon(c->observer.spin)))
+    if (!(n >= 1 && source >= kd_hole(c->observer.spin)->outer))
         return NAN;
     struct search q = { .curve = c, .point = p, .n = n, .source = source };
     struct ray on = ray_at(c, p, n, -ON_CURVE);

@@ -21,7 +21,7 @@ static bool valid(const struct kd_null_ray *ray)
     if (!(fabs(ray->spin) < 1) || !(fabs(ray->cos_theta) <= 1) || !(ray->sin_theta >= 0 && ray->sin_theta <= 1) ||
         !isfinite(ray->alpha) || !isfinite(ray->beta))
         return false;
-    if (ray->orders < 0 || ray->orders > KD_NULL_ORDERS || !(ray->radius > kd_kerr_horizon(ray->spin)))
+    if (ray->orders < 0 || ray->orders > KD_NULL_ORDERS || !(ray->radius > kd_hole(ray->spin)->outer))
         return false;
     return !(isinf(ray->radius) && ray->outward);
 }
@@ -146,7 +146,7 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
 {
     if (!ray->outward)
         return;
-    double plus = kd_kerr_horizon(k->a), minus = kd_kerr_inner_horizon(k->a);
+    double plus = kd_hole(k->a)->outer, minus = kd_hole(k->a)->inner;
     path->fate = KD_NULL_ESCAPED;
     path->sky_u = k->c;
     /* lambda dtau and frame dragging add up to a dr/Delta */
@@ -167,7 +167,7 @@ static struct kd_null_path follow(const struct kd_null_ray *ray)
     path.status = KD_NULL_OK;
     if (ray->cos_theta == 0 && k.eta == 0)
         path.status = KD_NULL_IN_PLANE;
-    else if (roots.margin < 16 * DBL_EPSILON && roots.mean > kd_kerr_horizon(ray->spin))
+    else if (roots.margin < 16 * DBL_EPSILON && roots.mean > kd_hole(ray->spin)->outer)
         path.status = KD_NULL_CRITICAL;
     if (roots.kind == KD_NULL_NO_REAL) {
         without_roots(ray, &k, &roots, &path);
@@ -227,14 +227,14 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
  * horizon and disturbances that slopes in alpha and beta do not show weigh 1/(r+ - r-). */
 static double weight_of(const struct kd_null_ray *ray)
 {
-    return 8 + 2 / (kd_kerr_horizon(ray->spin) - kd_kerr_inner_horizon(ray->spin));
+    return 8 + 2 / (kd_hole(ray->spin)->outer - kd_hole(ray->spin)->inner);
 }
 
 /* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r -
  * r+). The two poles at the horizons, whose difference counts, lose 1/(r+ - r-). */
 static void estimate(const struct kd_null_ray *ray, struct kd_null_crossing *x, const struct slope *d)
 {
-    double plus = kd_kerr_horizon(ray->spin), gap = plus - kd_kerr_inner_horizon(ray->spin), eps = DBL_EPSILON;
+    double plus = kd_hole(ray->spin)->outer, gap = plus - kd_hole(ray->spin)->inner, eps = DBL_EPSILON;
     double weight = weight_of(ray), poles = (1 + x->r / (x->r - plus)) / gap * (1 + d->r);
     x->error_r = 4 * x->error_r + eps * (4 + weight * d->r);
     x->error_phi = 4 * x->error_phi + eps * (4 + 2 * fabs(x->phi) + weight * d->phi + 4 * fabs(ray->spin) * poles);
@@ -262,7 +262,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     add_slopes(ray, &path, step, -0.5 * step, slopes, &sky);
     for (int n = 0; n < path.crossings; n++)
         estimate(ray, &path.crossing[n], &slopes[n]);
-    double gap = kd_kerr_horizon(ray->spin) - kd_kerr_inner_horizon(ray->spin);
+    double gap = kd_hole(ray->spin)->outer - kd_hole(ray->spin)->inner;
     if (path.fate == KD_NULL_ESCAPED)
         path.sky_error = 4 * path.sky_error +
                          DBL_EPSILON * (4 + 2 * fabs(path.sky_phi) + weight_of(ray) * sky + 8 * fabs(ray->spin) / gap);

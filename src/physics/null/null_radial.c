@@ -123,7 +123,7 @@ static double powers(const struct kd_null_roots *o, const struct span *s, double
 
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r)
 {
-    double a = m->a, al = a * m->lambda, delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    double a = m->a, al = a * m->lambda, delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
     return (struct kd_null_radial_sum) { 1, a * (2 * r - al) / delta,
                                          r * r + 2 * r + 4 + ((8 - 2 * al) * r - 4 * a * a) / delta };
 }
@@ -185,8 +185,8 @@ static struct kd_null_radial without_times(const struct kd_null_motion *m, const
                                            bool inner)
 {
     struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
-    q.r_plus = kd_kerr_horizon(m->a);
-    q.r_minus = kd_kerr_inner_horizon(m->a);
+    q.r_plus = kd_hole(m->a)->outer;
+    q.r_minus = kd_hole(m->a)->inner;
     if (roots->kind == KD_NULL_FOUR_REAL)
         jacobi_four(&q);
     else
@@ -331,7 +331,7 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     struct kd_carlson_arg arg = { p + pl, sqrt(both * both_left), 0 };
     /* U13 U14 = p (r - r1 + r - r2) + pl (r - r3 + r - r4) */
     arg.root = 2 * (p * xl + pl * x);
-    double plus = kd_kerr_horizon(m->a), minus = kd_kerr_inner_horizon(m->a), al = m->a * m->lambda;
+    double plus = kd_hole(m->a)->outer, minus = kd_hole(m->a)->inner, al = m->a * m->lambda;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
     double i_plus = complex_pole(o, arg, r, plus, total.tau), i_minus = complex_pole(o, arg, r, minus, total.tau);
     total.phi = m->a * ((2 * plus - al) * i_plus - (2 * minus - al) * i_minus) / (plus - minus);

@@ -38,7 +38,7 @@ struct kd_shell kd_shell_of(double a)
     /* On the equatorial orbits r x^2 = 4. */
     double y = prograde_y(s.spin);
     s.prograde = place_of(&s, y, -2 / sqrt(1 + y) - s.x_polar);
-    s.retrograde = 2 / sqrt(kd_kerr_photon_orbit(-s.spin)) - s.x_polar;
+    s.retrograde = 2 / sqrt(kd_kerr_photon_orbit(kd_hole(-s.spin))) - s.x_polar;
     return s;
 }
 
@@ -64,7 +64,7 @@ struct kd_shell_orbit kd_shell_orbit_of_radius(double a, double r)
 {
     struct kd_shell s = kd_shell_of(a);
     double y = r - 1;
-    bool there = a != 0 && r >= kd_kerr_photon_orbit(s.spin) && r <= kd_kerr_photon_orbit(-s.spin);
+    bool there = a != 0 && r >= kd_kerr_photon_orbit(kd_hole(s.spin)) && r <= kd_kerr_photon_orbit(kd_hole(-s.spin));
     return there ? orbit(&s, y, (y - s.y_polar) / s.spin) : (struct kd_shell_orbit) { a, NAN, NAN, NAN, NAN, NAN };
 }
 

@@ -315,7 +315,7 @@ bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, d
     struct miss m = { .size = INFINITY };
     double at[2] = { 0, 0 };
     *out = (struct kd_place_image) { NAN, NAN, false, { NAN, NAN, NAN, NAN }, NAN, NAN, { NAN, NAN } };
-    if (!(r > KD_PLACE_LEAST * kd_kerr_horizon(view->frame.at.spin)) || !isfinite(u) || !isfinite(phi))
+    if (!(r > KD_PLACE_LEAST * kd_hole(view->frame.at.spin)->outer) || !isfinite(u) || !isfinite(phi))
         return false;
     bool found = false;
     if (near && isfinite(near->off)) {

@@ -61,7 +61,7 @@ static void add_place(const struct kd_ring_view *view, const struct kd_covector 
 {
     const struct kd_vantage *at = &view->rain.at;
     out->phi = out->delay = NAN;
-    if (!(photon->energy > 0) || !(at->r > kd_kerr_horizon(at->spin)))
+    if (!(photon->energy > 0) || !(at->r > kd_hole(at->spin)->outer))
         return;
     const struct kd_null_ray ray = { .spin = at->spin,
                                      .radius = at->r,

@@ -32,7 +32,7 @@ static double integral_pole(struct phase at, double rest)
 static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u, struct phase at)
 {
     const struct kd_orbit *o = &b->orbit;
-    double a = o->a, plus = kd_kerr_horizon(a), minus = kd_kerr_inner_horizon(a), gap = plus - minus;
+    double a = o->a, plus = kd_hole(a)->outer, minus = kd_hole(a)->inner, gap = plus - minus;
     double r1 = b->r[0], r2 = b->r[1], r3 = b->r[2], r4 = b->r[3], s2 = at.s * at.s, h1 = (r2 - r3) / (r1 - r3);
     if (o->circular)
         h1 = 1;
@@ -125,8 +125,8 @@ static void set_radial(struct kd_orbit_bound *b)
     b->k_r = b->h * (r[2] - r[3]) / deep;
     b->k1_r = o->circular ? 1 : (r[0] - r[3]) * (r[1] - r[2]) / (wide * deep);
     b->pace_r = 0.5 * sqrt(o->binding * wide * deep);
-    b->h_plus = b->h * (r[2] - kd_kerr_horizon(o->a)) / (r[1] - kd_kerr_horizon(o->a));
-    b->h_minus = b->h * (r[2] - kd_kerr_inner_horizon(o->a)) / (r[1] - kd_kerr_inner_horizon(o->a));
+    b->h_plus = b->h * (r[2] - kd_hole(o->a)->outer) / (r[1] - kd_hole(o->a)->outer);
+    b->h_minus = b->h * (r[2] - kd_hole(o->a)->inner) / (r[1] - kd_hole(o->a)->inner);
     b->unit_r = o->circular ? 1 : b->pace_r;
     b->quarter_r = o->circular ? 1 : kd_carlson_rf(0, b->k1_r, 1);
     b->half_r =

@@ -153,7 +153,7 @@ static void albrecht(struct kd_orbit_path *p, double h)
 /* Int (r^2 + a^2)/Delta dr and Int a/Delta dr: what ingoing time and azimuth are ahead of t and phi by. */
 static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
-    double plus = kd_kerr_horizon(o->a), minus = kd_kerr_inner_horizon(o->a), gap = plus - minus, r = 1 / w;
+    double plus = kd_hole(o->a)->outer, minus = kd_hole(o->a)->inner, gap = plus - minus, r = 1 / w;
     double near = log(r - plus), inner = o->a == 0 ? 0 : log(r - minus);
     *t = r + 2 * (plus * near - minus * inner) / gap;
     *phi = o->a * (near - inner) / gap;
@@ -163,7 +163,7 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 static void enter(struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
-    double w = p->place[KD_PATH_W].value, horizon = 1 / kd_kerr_horizon(o->a);
+    double w = p->place[KD_PATH_W].value, horizon = 1 / kd_hole(o->a)->outer;
     if (p->ingoing || o->fate != KD_ORBIT_PLUNGE || p->rate[KD_PATH_W].value <= 0 || w >= horizon)
         return;
     if (kd_orbit_radial(o, w) < 1e-3 * kd_orbit_radial(o, horizon))
@@ -250,7 +250,7 @@ struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *p)
     };
     if (p->ingoing) {
         double t = NAN, phi = NAN;
-        if (at.r > kd_kerr_horizon(o->a) * (1 + 1e-14))
+        if (at.r > kd_hole(o->a)->outer * (1 + 1e-14))
             ahead(o, w, &t, &phi);
         at.t -= t - p->entry_t;
         at.phi -= phi - p->entry_phi;
@@ -273,7 +273,7 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
         .binet = a2 == 0 ? radial : NAN,
     };
     /* mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: both residuals enter with the weight of their term */
-    if (w * kd_kerr_horizon(o->a) < 0.99 && sine2 > 0.01)
+    if (w * kd_hole(o->a)->outer < 0.99 && sine2 > 0.01)
         d.mass = -(radial / (w * w * (1 - 2 * w + a2 * w * w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
     return d;
 }

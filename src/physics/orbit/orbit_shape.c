@@ -98,7 +98,7 @@ static struct kd_orbit of_shape(double a, double p, double e, double x)
 static bool stable(const struct kd_orbit *o)
 {
     double g[3], w = o->w_high;
-    if (!(o->energy > 0 && o->binding > 0 && o->carter >= 0 && w < 1 / kd_kerr_horizon(o->a)))
+    if (!(o->energy > 0 && o->binding > 0 && o->carter >= 0 && w < 1 / kd_hole(o->a)->outer))
         return false;
     kd_orbit_factor(o, g);
     return g[0] + w * (g[1] + w * g[2]) >= 0;
@@ -107,9 +107,9 @@ static bool stable(const struct kd_orbit *o)
 double kd_orbit_separatrix(double a, double e, double x)
 {
     if (e == 0 && fabs(x) == 1)
-        return kd_kerr_isco(x > 0 ? a : -a);
+        return kd_kerr_isco(kd_hole(x > 0 ? a : -a));
     /* The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb = 11.66. */
-    double low = kd_kerr_horizon(a), high = 12;
+    double low = kd_hole(a)->outer, high = 12;
     while (high - low > 2e-16 * high) {
         double p = 0.5 * (low + high);
         if (p <= low || p >= high)
@@ -127,7 +127,7 @@ static bool exists(const struct kd_orbit *o) { return o->energy > 0 && isfinite(
 
 double kd_orbit_least_circle(double a, double x)
 {
-    double low = kd_kerr_horizon(a), high = kd_orbit_separatrix(a, 0, x);
+    double low = kd_hole(a)->outer, high = kd_orbit_separatrix(a, 0, x);
     while (high - low > 2e-16 * high) {
         const double r = 0.5 * (low + high);
         if (r <= low || r >= high)
@@ -145,8 +145,8 @@ enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struc
         return status;
     if (!(e >= 0 && e < 1))
         return kd_error_field(error, "/e", "e is %.16g, allowed is 0 up to, not including, 1: a bound orbit", e);
-    if (!(p > kd_kerr_horizon(a)) || !isfinite(p))
-        return kd_error_field(error, "/p", "p is %.16g, allowed is above the horizon at %.9g", p, kd_kerr_horizon(a));
+    if (!(p > kd_hole(a)->outer) || !isfinite(p))
+        return kd_error_field(error, "/p", "p is %.16g, allowed is above the horizon at %.9g", p, kd_hole(a)->outer);
     *o = of_shape(a, p, e, x);
     double least = p < 12.5 ? kd_orbit_separatrix(a, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))

@@ -20,16 +20,16 @@ static struct kd_plunge_pole pole_of(const struct kd_plunge *o, double r, double
 
 struct kd_plunge kd_plunge_of(double a)
 {
-    struct kd_plunge o = { .a = a, .isco = kd_kerr_isco(a), .horizon = kd_kerr_horizon(a) };
-    double inner = kd_kerr_inner_horizon(a);
-    o.energy = 1 - kd_kerr_efficiency(a);
-    o.momentum = kd_kerr_momentum(a, o.isco);
+    struct kd_plunge o = { .a = a, .isco = kd_kerr_isco(kd_hole(a)), .horizon = kd_hole(a)->outer };
+    double inner = kd_hole(a)->inner;
+    o.energy = 1 - kd_kerr_efficiency(kd_hole(a));
+    o.momentum = kd_kerr_momentum(kd_hole(a), o.isco);
     o.outer = pole_of(&o, o.horizon, inner);
     o.inner = pole_of(&o, inner, o.horizon);
     /* r^2 u^t d(tau)/dy at the ISCO, where it is a circle's. */
-    double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(a, o.isco);
+    double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(kd_hole(a), o.isco);
     o.t_rate = -rate;
-    o.phi_rate = -rate * kd_kerr_omega(a, o.isco);
+    o.phi_rate = -rate * kd_kerr_omega(kd_hole(a), o.isco);
     return o;
 }
 
@@ -40,7 +40,7 @@ struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
 {
     double r0 = o->isco, y = sqrt(r / (r0 - r)), scale = sqrt(6 / r0);
     double outer = artanh_over(o->outer.pole, y) * r0 / (r0 - o->horizon);
-    double inner = artanh_over(o->inner.pole, y) * r0 / (r0 - kd_kerr_inner_horizon(o->a));
+    double inner = artanh_over(o->inner.pole, y) * r0 / (r0 - kd_hole(o->a)->inner);
     /* Integrals of r^2/r0^2 and r/r0 over y, less y. */
     double square = 0.5 * y / (1 + y * y) - 1.5 * atan(y), line = -atan(y);
     return (struct kd_plunge_event) {
@@ -53,7 +53,7 @@ struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
 struct kd_plunge_velocity kd_plunge_velocity(const struct kd_plunge *o, double r)
 {
     double a = o->a, gap = fmax(0, o->isco / r - 1), j = o->momentum - a * o->energy;
-    double delta = (r - o->horizon) * (r - kd_kerr_inner_horizon(a)), u = o->energy * r * r - a * j;
+    double delta = (r - o->horizon) * (r - kd_hole(a)->inner), u = o->energy * r * r - a * j;
     return (struct kd_plunge_velocity) {
         .ur = -sqrt(2 / (3 * o->isco) * gap) * gap,
         .ut = ((r * r + a * a) * u / delta + a * j) / (r * r),

@@ -63,7 +63,7 @@ void kd_orbit_set_constants(struct kd_orbit *o)
 /* The range between roots around w, or the outermost one there is if w is NAN. */
 static bool find_range(struct kd_orbit *o, double w)
 {
-    double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / kd_kerr_horizon(o->a);
+    double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / kd_hole(o->a)->outer;
     int n = kd_polynomial_roots(o->w, 4, 0, horizon, roots);
     double low = 0, high = horizon;
     for (int i = 0; i <= n; i++) {
@@ -123,8 +123,8 @@ enum kd_status kd_orbit_from_constants(double a, double energy, double momentum,
             "carter is %.16g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
             "given by position and velocity",
             carter);
-    if (!isnan(r) && !(r > kd_kerr_horizon(a)))
-        return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
+    if (!isnan(r) && !(r > kd_hole(a)->outer))
+        return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_hole(a)->outer);
     *o = (struct kd_orbit) {
         .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
     };
@@ -165,7 +165,7 @@ double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, 
 {
     /* W falls for large w, or is a cubic that rises: there is one minimum at most. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
-    int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_kerr_horizon(o->a), turns);
+    int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_hole(o->a)->outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {
         double w = turns[i], w3 = w * w * w, rest = fabs(o->momentum) + fabs(o->a * o->energy);
         bool ahead = s->w <= w ? s->w_rate > 0 || o->turns_out : s->w_rate < 0 || o->turns_in;
@@ -190,14 +190,14 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
     double speed = hypot(hypot(v[0], v[1]), v[2]);
     if (status)
         return status;
-    if (!(r > kd_kerr_horizon(a)) || !isfinite(r))
+    if (!(r > kd_hole(a)->outer) || !isfinite(r))
         return kd_error_field(error, "/position/r", "r is %.16g, allowed is above the horizon at %.9g", r,
-                              kd_kerr_horizon(a));
+                              kd_hole(a)->outer);
     if (!(theta_deg >= 0 && theta_deg <= 180))
         return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g, allowed is 0 to 180", theta_deg);
     if (!kd_observer_exists(frame, &at))
         return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
-                              row->why, r, row->edge, row->outside(a, at.u), kd_observer_others(&at, others));
+                              row->why, r, row->edge, row->outside(kd_hole(a), at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.16g, allowed is below 1, that of light", speed);
     return KD_OK;

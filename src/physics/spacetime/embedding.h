@@ -9,14 +9,16 @@
 #ifndef KD_PHYSICS_SPACETIME_EMBEDDING_H
 #define KD_PHYSICS_SPACETIME_EMBEDDING_H
 
+#include "physics/spacetime/hole.h"
+
 /* R: circumference over 2 pi of the circle at r. */
-double kd_embedding_radius(double a, double r);
+double kd_embedding_radius(const struct kd_hole *hole, double r);
 
 /* Height z over the horizon's circle; for a = 0 it is sqrt(8 (r - 2)). Relative error below 1e-14 plus that of r -
  * r+. */
-double kd_embedding_height(double a, double r);
+double kd_embedding_height(const struct kd_hole *hole, double r);
 
 /* Proper distance from the horizon along r: sqrt(Delta) + ln((r - 1 + sqrt(Delta))/sqrt(1 - a^2)); likewise. */
-double kd_embedding_distance(double a, double r);
+double kd_embedding_distance(const struct kd_hole *hole, double r);
 
 #endif

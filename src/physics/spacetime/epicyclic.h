@@ -11,13 +11,15 @@
 #ifndef KD_PHYSICS_SPACETIME_EPICYCLIC_H
 #define KD_PHYSICS_SPACETIME_EPICYCLIC_H
 
+#include "physics/spacetime/hole.h"
+
 /* NaN inside the ISCO, where the orbit is not stable; 0 at it. */
-double kd_epicyclic_radial(double a, double r);
-double kd_epicyclic_vertical(double a, double r);
+double kd_epicyclic_radial(const struct kd_hole *hole, double r);
+double kd_epicyclic_vertical(const struct kd_hole *hole, double r);
 
 /* How the angular velocity d(phi)/dt changes with r for a body that keeps the E and L of the circular orbit: the
  * azimuth of a small radial oscillation A cos(kappa t) is ahead of the guiding centre by this, times A/kappa
  * sin(kappa t). Newton's limit is -2 Omega/r. */
-double kd_epicyclic_shear(double a, double r);
+double kd_epicyclic_shear(const struct kd_hole *hole, double r);
 
 #endif

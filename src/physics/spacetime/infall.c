@@ -92,9 +92,9 @@ static double ageing(double x, double y, const void *user)
 }
 
 /* The integral of 2r/Delta, but for a constant; outside the horizon. */
-static double delay(double a, double r)
+static double delay(const struct kd_hole *hole, double r)
 {
-    double outer = kd_kerr_horizon(a), inner = kd_kerr_inner_horizon(a);
+    double outer = hole->outer, inner = hole->inner;
     return 2 / (outer - inner) * (outer * log(r - outer) - inner * log(r - inner));
 }
 
@@ -106,13 +106,14 @@ struct kd_infall_way kd_infall_way(const struct kd_observer_motion *m, const str
         return way;
     way.azimuth = kd_quadrature(turning, &f);
     way.time = kd_quadrature(ageing, &f);
-    way.far_time = r > kd_kerr_horizon(at->spin) ? way.time + delay(at->spin, at->r) - delay(at->spin, r) : INFINITY;
+    const struct kd_hole hole = kd_hole_of(at->spin);
+    way.far_time = r > hole.outer ? way.time + delay(&hole, at->r) - delay(&hole, r) : INFINITY;
     return way;
 }
 
-double kd_infall_last(double a)
+double kd_infall_last(const struct kd_hole *hole)
 {
-    double outer = kd_kerr_horizon(a), inner = kd_kerr_inner_horizon(a);
+    double outer = hole->outer, inner = hole->inner;
     return fmax(0.01, inner + fmin(0.01, 0.1 * (outer - inner)));
 }
 
@@ -132,7 +133,7 @@ struct kd_infall_way kd_infall_after(const struct kd_observer_motion *m, const s
                                      double proper_time)
 {
     const struct clock clock = { m, at, proper_time };
-    double last = fmin(kd_infall_last(at->spin), at->r);
+    double last = fmin(kd_infall_last(kd_hole(at->spin)), at->r);
     bool ends = !(too_far(&clock, last) > 0);
     struct kd_infall_way way = kd_infall_way(m, at, ends ? last : kd_root(too_far, &clock, last, at->r));
     way.ended = ends;

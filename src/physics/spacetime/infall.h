@@ -3,6 +3,7 @@
 #ifndef KD_PHYSICS_SPACETIME_INFALL_H
 #define KD_PHYSICS_SPACETIME_INFALL_H
 
+#include "physics/spacetime/hole.h"
 #include "physics/spacetime/observer.h"
 
 /* Whether its latitude stays, so that the radius alone tells the clock's time: for rain, without spin, in the
@@ -28,6 +29,6 @@ struct kd_infall_way kd_infall_after(const struct kd_observer_motion *motion, co
                                      double proper_time);
 
 /* The last radius of a camera that falls: next to where the model ends, at which pictures have no limit. */
-double kd_infall_last(double a);
+double kd_infall_last(const struct kd_hole *hole);
 
 #endif

@@ -5,21 +5,20 @@
 /* (1 - a)(1 + a): 1 - a*a loses all digits as |a| -> 1. */
 static double one_minus_a2(double a) { return (1 - a) * (1 + a); }
 
-double kd_kerr_horizon(double a) { return 1 + sqrt(one_minus_a2(a)); }
-
-/* a^2 / r+, since r+ r- = a^2: no cancellation at small a. */
-double kd_kerr_inner_horizon(double a) { return a * a / kd_kerr_horizon(a); }
-
-double kd_kerr_twist(double a, double r)
+double kd_kerr_twist(const struct kd_hole *hole, double r)
 {
-    double gap = r - kd_kerr_horizon(a), apart = 2 * sqrt(one_minus_a2(a));
-    return a / apart * log1p(apart / gap);
+    double gap = r - hole->outer, apart = 2 * hole->root;
+    return hole->a / apart * log1p(apart / gap);
 }
 
-double kd_kerr_ergosphere(double a, double cos_theta) { return 1 + sqrt(one_minus_a2(a * cos_theta)); }
-
-double kd_kerr_isco(double a)
+double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta)
 {
+    return 1 + sqrt(one_minus_a2(hole->a * cos_theta));
+}
+
+double kd_kerr_isco(const struct kd_hole *hole)
+{
+    const double a = hole->a;
     if (a == 0) /* the square of the rounded root of 6 is less */
         return 6;
     double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
@@ -38,20 +37,21 @@ double kd_kerr_isco(double a)
     return fabs(a) <= 1 ? r : NAN; /* cube roots know no domain */
 }
 
-double kd_kerr_photon_orbit(double a)
+double kd_kerr_photon_orbit(const struct kd_hole *hole)
 {
     /* 2(1 + cos(2/3 acos(-a))) = 4 cos^2(acos(-a)/3). */
-    double c = cos(acos(-a) / 3);
+    double c = cos(acos(-hole->a) / 3);
     return 4 * c * c;
 }
 
-double kd_kerr_marginally_bound(double a)
+double kd_kerr_marginally_bound(const struct kd_hole *hole)
 {
+    const double a = hole->a;
     double s = 1 + sqrt(1 - a);
     return a >= -1 ? s * s : NAN;
 }
 
-double kd_kerr_omega(double a, double r) { return 1 / (r * sqrt(r) + a); }
+double kd_kerr_omega(const struct kd_hole *hole, double r) { return 1 / (r * sqrt(r) + hole->a); }
 
 /* Near a = 1 the prograde orbits come close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L
  * cancel and lose half their digits. As polynomials in x = sqrt(r) they are regrouped around x = 1, from x - 1 and 1
@@ -67,41 +67,44 @@ static struct circle circle_of(double a, double r)
 }
 
 /* (x^3 - 2x + a) / sqrt(x^3 (x^3 - 3x + 2a)) */
-double kd_kerr_energy(double a, double r)
+double kd_kerr_energy(const struct kd_hole *hole, double r)
 {
-    struct circle o = circle_of(a, r);
+    struct circle o = circle_of(hole->a, r);
     return (o.d * (r + o.x - 1) - o.e) / o.norm;
 }
 
 /* (x^4 - 2ax + a^2) / sqrt(x^3 (x^3 - 3x + 2a)) */
-double kd_kerr_momentum(double a, double r)
+double kd_kerr_momentum(const struct kd_hole *hole, double r)
 {
-    struct circle o = circle_of(a, r);
+    struct circle o = circle_of(hole->a, r);
     return (o.d * (o.x * (r + o.x + 1) - 1) + o.e * (2 * o.d + o.e)) / o.norm;
 }
 
-double kd_kerr_ut(double a, double r)
+double kd_kerr_ut(const struct kd_hole *hole, double r)
 {
+    const double a = hole->a;
     struct circle o = circle_of(a, r);
     return (r * o.x + a) / o.norm;
 }
 
 /* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no difference. */
-double kd_kerr_efficiency(double a)
+double kd_kerr_efficiency(const struct kd_hole *hole)
 {
-    double x = 2 / (3 * kd_kerr_isco(a));
+    double x = 2 / (3 * kd_kerr_isco(hole));
     return x / (1 + sqrt(1 - x));
 }
 
-double kd_kerr_dragging(double a, double r, double cos_theta)
+double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta)
 {
+    const double a = hole->a;
     double delta = r * r - 2 * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta), w = r * r + a * a;
     return 2 * a * r / (w * w - a * a * delta * s2);
 }
 
-double kd_kerr_rotation_reach(double a, double r, double cos_theta, double sin_theta)
+double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta)
 {
-    double delta = fmax(0, (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a))), w = r * r + a * a;
+    const double a = hole->a;
+    double delta = fmax(0, (r - hole->outer) * (r - hole->inner)), w = r * r + a * a;
     double sigma = r * r + a * a * cos_theta * cos_theta;
     return sqrt(delta) * sigma / ((w * w - a * a * delta * sin_theta * sin_theta) * sin_theta);
 }

@@ -9,7 +9,7 @@
 
 static double delta_of(const struct kd_vantage *at)
 {
-    return (at->r - kd_kerr_horizon(at->spin)) * (at->r - kd_kerr_inner_horizon(at->spin));
+    return (at->r - kd_hole(at->spin)->outer) * (at->r - kd_hole(at->spin)->inner);
 }
 
 /* g_phiphi = big sin^2 / sigma. */
@@ -32,7 +32,7 @@ static struct kd_tetrad frame_zamo(const struct kd_observer_motion *motion, cons
         .t = { .energy = sqrt(k.sigma * k.delta / k.big) },
         .r = { .radial = sqrt(k.sigma) * sqrt(k.delta) },
         .theta = { .polar = sqrt(k.sigma) },
-        .phi = { .energy = kd_kerr_dragging(at->spin, at->r, at->u) * root * at->s, .momentum = root },
+        .phi = { .energy = kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * root * at->s, .momentum = root },
     };
 }
 
@@ -61,7 +61,7 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
 static double circling(double a, double r, double u, double s, int sense)
 {
     double g = sqrt((r - a * u) * (r + a * u) / r) / (r * r + a * a * u * u);
-    return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(a, r, u);
+    return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(kd_hole(a), r, u);
 }
 
 /* Moves past the one of zero angular momentum with sqrt(g_phiphi) (Omega - omega)/lapse, along e_phi. */
@@ -98,7 +98,7 @@ static struct kd_tetrad rain(const struct kd_vantage *at)
         .t = { .energy = 1, .radial = -fall },
         .r = { .energy = -fall / sqrt(k.big), .radial = sqrt(k.big) },
         .theta = { .polar = sqrt(k.sigma) },
-        .phi = { .energy = kd_kerr_dragging(at->spin, at->r, at->u) * root * at->s, .momentum = root },
+        .phi = { .energy = kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * root * at->s, .momentum = root },
     };
 }
 
@@ -113,7 +113,7 @@ static double swing(double momentum, const struct kd_vantage *at)
 static double rest_energy(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
-    return kd_kerr_dragging(at->spin, at->r, at->u) * momentum +
+    return kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * momentum +
            sqrt(k.sigma * k.delta / k.big) * hypot(1, swing(momentum, at));
 }
 
@@ -133,7 +133,7 @@ static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const s
     const struct kd_tetrad base = rain(at);
     const struct shape k = shape_of(at);
     double x = swing(m->fall_momentum, at), one = 1 + x * x, root = sqrt(k.big);
-    double energy = kd_observer_energy(m, at) - kd_kerr_dragging(at->spin, at->r, at->u) * m->fall_momentum;
+    double energy = kd_observer_energy(m, at) - kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * m->fall_momentum;
     double speed = sqrt(fmax(0, k.big * energy * energy - k.sigma * k.delta * one));
     double less = (root * energy + speed) / (root - base.t.radial), more = one / less;
     const double velocity[4] = { 0.5 * (more + less), 0.5 * (more - less), 0, x };
@@ -165,14 +165,15 @@ static double slower_than_light(const void *user, double r)
     return sqrt(fmax(0, k.delta)) * k.sigma / k.big - fabs(circling(o->a, r, o->u, o->s, o->sense));
 }
 
-double kd_observer_light_orbit(double a, double u, int sense)
+double kd_observer_light_orbit(const struct kd_hole *hole, double u, int sense)
 {
-    const struct round o = { a, u, sqrt((1 - u) * (1 + u)), sense };
-    return u == 0 ? kd_kerr_photon_orbit(sense * a) : kd_root(slower_than_light, &o, kd_kerr_horizon(a), 4.01);
+    const struct round o = { hole->a, u, sqrt((1 - u) * (1 + u)), sense };
+    return u == 0 ? kd_kerr_photon_orbit(kd_hole_turned(hole, sense))
+                  : kd_root(slower_than_light, &o, hole->outer, 4.01);
 }
 
 #define OUTSIDE(NAME, word, what, where, outside, ...) \
-    static double outside_of_##word(double a, double u) \
+    static double outside_of_##word(const struct kd_hole *hole, double u) \
     { \
         (void)u; \
         return outside; \
@@ -189,7 +190,7 @@ KD_OBSERVERS(FITS)
 
 bool kd_observer_exists(enum kd_observer observer, const struct kd_vantage *at)
 {
-    return at->r > kd_observers[observer].outside(at->spin, at->u);
+    return at->r > kd_observers[observer].outside(kd_hole(at->spin), at->u);
 }
 
 struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer)
@@ -204,7 +205,7 @@ static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd
     double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e, roots[4];
     const double c[] = { bound, 2, a * a * bound - l * l - q, 2 * (q + rest * rest), -a * a * q };
-    double last = fmin(1 / at->r, 1 / kd_kerr_horizon(a));
+    double last = fmin(1 / at->r, 1 / kd_hole(a)->outer);
     return last > 1 / m->fall_from * (1 + 1e-9) &&
            kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;
 }
@@ -217,7 +218,7 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
     struct kd_vantage here = *at; /* within the horizon all falls that has come through it */
-    here.r = fmax(at->r, kd_kerr_horizon(at->spin));
+    here.r = fmax(at->r, kd_hole(at->spin)->outer);
     *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))
         return KD_OBSERVER_TURNS;

@@ -7,6 +7,7 @@
 #ifndef KD_PHYSICS_SPACETIME_OBSERVER_H
 #define KD_PHYSICS_SPACETIME_OBSERVER_H
 
+#include "physics/spacetime/hole.h"
 #include "physics/spacetime/tetrad.h"
 
 #include <stdbool.h>
@@ -16,22 +17,20 @@
  * others' velocities by. */
 #define KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(STATIC, static, "at rest with respect to infinity", "outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i)", \
-      kd_kerr_ergosphere(a, u), "the ergosphere", "nothing is at rest") \
-    X(ZAMO, zamo, "with zero angular momentum", "outside the horizon", kd_kerr_horizon(a), "the horizon", \
-      "everything falls") \
+      kd_kerr_ergosphere(hole, u), "the ergosphere", "nothing is at rest") \
+    X(ZAMO, zamo, "with zero angular momentum", "outside the horizon", hole->outer, "the horizon", "everything falls") \
     X(KEPLERIAN, keplerian, "on a circular orbit towards +phi, as the disk, whose highest latitude is here", \
-      "outside the orbit of light that goes round with the disk", kd_observer_light_orbit(a, u, 1), \
+      "outside the orbit of light that goes round with the disk", kd_observer_light_orbit(hole, u, 1), \
       "the orbit of light", "nothing goes round freely") \
     X(RETROGRADE, retrograde, "on a circular orbit towards -phi, against the disk, whose highest latitude is here", \
-      "outside the orbit of light that goes round against the disk", kd_observer_light_orbit(a, u, -1), \
+      "outside the orbit of light that goes round against the disk", kd_observer_light_orbit(hole, u, -1), \
       "the orbit of light", "nothing goes round freely") \
     X(INFALL, infall, "in free fall, by default from rest at infinity", \
-      "outside the inner horizon, r > 1 - sqrt(1 - a^2)", kd_kerr_inner_horizon(a), "the inner horizon", \
-      "the model ends")
+      "outside the inner horizon, r > 1 - sqrt(1 - a^2)", hole->inner, "the inner horizon", "the model ends")
 #define KD_OBSERVERS(X) \
     KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(VELOCITY, velocity, "with any velocity past the one of zero angular momentum", "outside the horizon", \
-      kd_kerr_horizon(a), "the horizon", "everything falls")
+      hole->outer, "the horizon", "everything falls")
 
 #define KD_OBSERVER_NAME_(NAME, word, ...) KD_OBSERVER_##NAME,
 enum kd_observer { KD_OBSERVERS(KD_OBSERVER_NAME_) KD_OBSERVER_COUNT };
@@ -74,7 +73,7 @@ struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer);
 
 struct kd_observer_row {
     const char *word, *edge, *why; /* "static", "the ergosphere", "nothing is at rest" */
-    double (*outside)(double a, double u);
+    double (*outside)(const struct kd_hole *hole, double u);
     struct kd_tetrad (*tetrad)(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 };
 extern const struct kd_observer_row kd_observers[KD_OBSERVER_COUNT];
@@ -106,7 +105,7 @@ double kd_observer_energy(const struct kd_observer_motion *motion, const struct 
 
 /* The radius of the orbit of light whose highest latitude is at cos(theta) = u, towards +phi (sense 1) or -phi (-1):
  * inside, nothing goes round there on a circular orbit. */
-double kd_observer_light_orbit(double a, double u, int sense);
+double kd_observer_light_orbit(const struct kd_hole *hole, double u, int sense);
 
 /* The words of those that exist there, in quotes and joined by " or ". */
 enum { KD_OBSERVER_TEXT = 17 * KD_OBSERVER_COUNT };

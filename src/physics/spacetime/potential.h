@@ -11,18 +11,20 @@
 #ifndef KD_PHYSICS_SPACETIME_POTENTIAL_H
 #define KD_PHYSICS_SPACETIME_POTENTIAL_H
 
+#include "physics/spacetime/hole.h"
+
 /* mu2 = 0: light, E for this L (V/L depends on r alone); 1: matter, energy and angular momentum per unit of mass. r
  * at or outside the horizon. */
-double kd_potential(double a, double l, double mu2, double r);
+double kd_potential(const struct kd_hole *hole, double l, double mu2, double r);
 
 /* The circular orbits of that angular momentum: V is greatest at r_max (unstable) and least at r_min (stable). NaN
  * where there is none: matter with |L| below that of the ISCO has neither, light has no minimum. */
 struct kd_potential_extrema { double r_max, v_max, r_min, v_min; };
-struct kd_potential_extrema kd_potential_of_light(double a, double l);
-struct kd_potential_extrema kd_potential_of_matter(double a, double l);
+struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, double l);
+struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, double l);
 
 /* Impact parameter L/E of the circular photon orbit that turns towards +phi, > 0: b_c = 6 cos(acos(-a)/3) - a, S.
  * Chandrasekhar 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. */
-double kd_potential_critical_impact(double a);
+double kd_potential_critical_impact(const struct kd_hole *hole);
 
 #endif

@@ -39,6 +39,6 @@ static double heaviest(struct kd_tidal t, double reach)
     return t.mass > 0 && t.radius > 0 ? x * sqrt(x / t.mass) : NAN;
 }
 
-double kd_tidal_capture_mass(struct kd_tidal t, double a) { return heaviest(t, kd_kerr_marginally_bound(a)); }
+double kd_tidal_capture_mass(struct kd_tidal t, double a) { return heaviest(t, kd_kerr_marginally_bound(kd_hole(a))); }
 
-double kd_tidal_hills_mass(struct kd_tidal t, double a) { return heaviest(t, kd_kerr_horizon(a)); }
+double kd_tidal_hills_mass(struct kd_tidal t, double a) { return heaviest(t, kd_hole(a)->outer); }

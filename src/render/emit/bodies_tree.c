@@ -32,10 +32,10 @@ struct metric { double lapse, r, theta, phi, omega; };
 static struct metric metric_at(double a, const struct kd_seen_body *b)
 {
     const double r = b->r, sigma = r * r + a * a * b->u * b->u,
-                 delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+                 delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
     const double w2 = r * r + a * a, big = w2 * w2 - a * a * delta * b->s * b->s;
     return (struct metric) { sqrt(sigma * delta / big), sqrt(sigma / delta), sqrt(sigma), sqrt(big / sigma),
-                             kd_kerr_dragging(a, r, b->u) };
+                             kd_kerr_dragging(kd_hole(a), r, b->u) };
 }
 
 static double speed2(const struct kd_seen_body *b)
@@ -45,7 +45,7 @@ static double speed2(const struct kd_seen_body *b)
 
 bool kd_bodies_seen(const struct kd_seen_body *b, double spin)
 {
-    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 &&
+    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_hole(spin)->outer && b->r <= 1e12 && fabs(b->u) <= 1 &&
            b->s >= 0 && b->s <= 1 && isfinite(b->phi) && speed2(b) < 1 && isfinite(b->radius) && b->albedo >= 0 &&
            b->albedo <= 1 && b->temperature_k >= 0 && b->brightness >= 0;
 }

@@ -4,6 +4,7 @@
 #include "physics/disk/colour.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,14 +49,14 @@ double kd_disk_heat(const struct kd_scene *scene, double r)
 {
     const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1),
                  fade = f * f * (3 - 2 * f);
-    return r > kd_kerr_isco(scene->spacetime.spin)
+    return r > kd_kerr_isco(kd_scene_hole(scene))
                ? pow(scene->disk.opacity * fade * flux_of(scene)(scene->spacetime.spin, r) / largest_flux(scene), 0.25)
                : 0;
 }
 
 double kd_disk_inner(const struct kd_scene *scene)
 {
-    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+    return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
 void kd_disk_reach(const struct kd_scene *scene, double radii[2])
@@ -93,7 +94,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     kd_disk_flux_fn flux = flux_of(scene);
-    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak = largest_flux(scene);
+    double a = scene->spacetime.spin, isco = kd_kerr_isco(kd_hole(a)), peak = largest_flux(scene);
     for (int i = 0; i < KD_DISK_TABLE; i++) {
         double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
         out->disk[i][0] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));

@@ -256,7 +256,7 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
-    const double a = g->spin, edge = 1.001 * kd_kerr_horizon(a), t = kd_matter_array_at(&r->array, i);
+    const double a = g->spin, edge = 1.001 * kd_hole(a)->outer, t = kd_matter_array_at(&r->array, i);
     const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
                  s2 = sin(theta) * sin(theta), r2 = radius * radius;
     const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a,

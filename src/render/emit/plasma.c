@@ -7,6 +7,7 @@
 #include "physics/spacetime/kerr.h"
 #include "render/emit/matter_grid.h"
 #include "render/emit/radio.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -63,7 +64,7 @@ static double height(const struct kd_scene *scene)
 /* Where the fall begins. */
 static double knot(const struct kd_scene *scene)
 {
-    const double isco = kd_kerr_isco(scene->spacetime.spin);
+    const double isco = kd_kerr_isco(kd_scene_hole(scene));
     const bool falls = scene->volume.model == KD_VOLUME_RIAF && scene->volume.flow == KD_VOLUME_ORBITS;
     return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
 }

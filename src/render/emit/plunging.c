@@ -18,7 +18,7 @@ struct kd_plunging kd_plunging_of(const struct kd_scene *scene)
     double way = o.curve.isco - o.curve.horizon;
     o.start = o.curve.isco - way / 32;
     o.end = o.curve.horizon + way / 64;
-    o.omega = kd_kerr_omega(a, o.curve.isco);
+    o.omega = kd_kerr_omega(kd_hole(a), o.curve.isco);
     o.first = kd_plunge_at(&o.curve, o.start);
     o.time = kd_plunge_at(&o.curve, o.end).t - o.first.t;
     return o;

@@ -55,7 +55,7 @@ static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *con
 
 struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
 {
-    struct kd_ray_motion m = { .ray = *ray, .horizon = kd_kerr_horizon(ray->spin), .turning_r = NAN };
+    struct kd_ray_motion m = { .ray = *ray, .horizon = kd_hole(ray->spin)->outer, .turning_r = NAN };
     const struct kd_null_motion constants =
         kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     m.within = !(ray->radius > m.horizon);

@@ -179,7 +179,7 @@ static void find_guide(struct guide *guide, const struct kd_particle_list *list,
         return;
     const struct kd_particle_orbit o = kd_particle_orbit(&list->scene, list->grid.radii, number);
     double a = list->scene.spacetime.spin;
-    *guide = (struct guide) { number, o, kd_kerr_energy(a, o.r), kd_kerr_momentum(a, o.r) };
+    *guide = (struct guide) { number, o, kd_kerr_energy(kd_hole(a), o.r), kd_kerr_momentum(kd_hole(a), o.r) };
 }
 
 static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle,

@@ -174,7 +174,7 @@ static double error_of(double value, double truth, int quantity)
 static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t,
                   struct kd_accuracy_entry *e, size_t counts[KD_ACCURACY_QUANTITIES])
 {
-    double inner = kd_kerr_isco(t->view.spin); /* phi and t of Boyer and Lindquist diverge at the horizon */
+    double inner = kd_kerr_isco(kd_hole(t->view.spin)); /* phi and t of Boyer and Lindquist diverge at the horizon */
     bool delays = row->engine == KD_ENGINE_MINO_RKN4 || row->engine == KD_ENGINE_MINO_RKN6;
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_ray_end *end = &b->ends[i], *true_end = &t->ends[i];
