@@ -71,8 +71,8 @@ static enum kd_status make_rings(const struct parameters *p, struct memory *m, s
     m->r = isinf(p->r) ? kd_kerr_isco(kd_hole(p->spin)) : p->r;
     if (m->r <= kd_hole(p->spin)->outer)
         return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_hole(p->spin)->outer);
-    bool found = kd_ring_image_init(&m->rings[0], p->spin, up, m->r, 0) &&
-                 kd_ring_image_init(&m->rings[1], p->spin, up, m->r, 1);
+    bool found = kd_ring_image_init(&m->rings[0], kd_hole(p->spin), up, m->r, 0) &&
+                 kd_ring_image_init(&m->rings[1], kd_hole(p->spin), up, m->r, 1);
     return found ? KD_OK : not_found(m, error);
 }
 

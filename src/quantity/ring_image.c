@@ -54,7 +54,7 @@ static enum kd_status make(const struct parameters *p, double r, struct memory *
     const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
     if (isinf(at.r)) { /* from below the plane it looks the same but for beta */
-        m->far = kd_ring_image_plain(p->spin, (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
+        m->far = kd_ring_image_plain(kd_hole(p->spin), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
         return KD_OK;
     }
     if (kd_quantity_observer_exists(&motion, &at, error))

@@ -101,7 +101,7 @@ static void equatorial_orbits_keep_time(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(spins); i++) {
         double a = spins[i];
-        struct kd_shell s = kd_shell_of(a);
+        struct kd_shell s = kd_shell_of(kd_hole(a));
         struct kd_shell_orbit pro = kd_shell_orbit_at(&s, s.prograde), retro = kd_shell_orbit_at(&s, s.retrograde);
         struct kd_shell_exponents p = kd_shell_exponents(&pro), q = kd_shell_exponents(&retro);
         near(pro.r, kd_kerr_photon_orbit(kd_hole(a)), 2e-15, "prograde orbit", a, 0);
@@ -121,9 +121,9 @@ static void orbits_are_double_roots(void **state)
     for (size_t i = 3; i < COUNT(spins) - 1; i++)
         for (int k = 0; k <= 10; k++) {
             double a = spins[i], place;
-            struct kd_shell s = kd_shell_of(a);
+            struct kd_shell s = kd_shell_of(kd_hole(a));
             place = s.prograde + (s.retrograde - s.prograde) * k / 10;
-            struct kd_shell_orbit o = kd_shell_orbit_at(&s, place), same = kd_shell_orbit_of_radius(a, o.r);
+            struct kd_shell_orbit o = kd_shell_orbit_at(&s, place), same = kd_shell_orbit_of_radius(kd_hole(a), o.r);
             double delta = o.r * o.r - 2 * o.r + a * a, w = o.r * o.r + a * a - a * o.lambda;
             double kappa = o.eta + (o.lambda - a) * (o.lambda - a);
             near(w * w, delta * kappa, 1e-11, "R", a, o.r);
@@ -133,8 +133,8 @@ static void orbits_are_double_roots(void **state)
                 near(same.eta, o.eta, 1e-8, "eta of r", a, o.r);
             }
         }
-    assert_true(isnan(kd_shell_orbit_of_radius(0, 3).lambda));
-    assert_true(isnan(kd_shell_orbit_of_radius(0.5, 4.1).lambda));
+    assert_true(isnan(kd_shell_orbit_of_radius(kd_hole(0), 3).lambda));
+    assert_true(isnan(kd_shell_orbit_of_radius(kd_hole(0.5), 4.1).lambda));
 }
 
 /* A mirror for the spin, one for the equator, and no jump through a = 0, the axis or the equator. */

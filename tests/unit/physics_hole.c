@@ -53,7 +53,8 @@ static void metric(void **state)
                 const struct kd_metric m = kd_metric_at(&hole, r, u);
                 const long double a = hole.a, x = r - 1.0L, root2 = (1 - a) * (1 + a), root = sqrtl(root2),
                                   delta = (x - root) * (x + root), sigma = (long double)r * r + a * a * u * u,
-                                  w = (long double)r * r + a * a, area = w * w - a * a * delta * (1 - (long double)u * u);
+                                  w = (long double)r * r + a * a,
+                                  area = w * w - a * a * delta * (1 - (long double)u * u);
                 const double near = 2e-15 + 4 * DBL_EPSILON / gaps[j];
                 close_to("Sigma", hole.a, r, m.sigma, sigma, 1e-15);
                 close_to("Delta", hole.a, r, m.delta, delta, near);

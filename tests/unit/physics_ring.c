@@ -31,7 +31,8 @@ static struct kd_ring_image_point image_of(double a, double i_deg, double r, dou
 {
     struct kd_ring_image ring;
     struct kd_ring_image_point point = { 0 };
-    if (!kd_ring_image_init(&ring, a, i_deg * RADIAN, r, order) || !kd_ring_image_find(&ring, phi_deg * RADIAN, &point))
+    if (!kd_ring_image_init(&ring, kd_hole(a), i_deg * RADIAN, r, order) ||
+        !kd_ring_image_find(&ring, phi_deg * RADIAN, &point))
         fail_msg("no image of order %d of a ring at %.17g, %.17g degrees, a = %.17g, i = %.17g", order, r, phi_deg, a,
                  i_deg);
     return point;
@@ -89,7 +90,7 @@ static void everywhere(void **state)
                 for (int order = 0; order < 2; order++) {
                     struct kd_ring_image ring;
                     struct kd_ring_image_point p;
-                    if (!kd_ring_image_init(&ring, spins[s], inclinations[i] * RADIAN, r, order))
+                    if (!kd_ring_image_init(&ring, kd_hole(spins[s]), inclinations[i] * RADIAN, r, order))
                         fail_msg("order %d, a = %g, i = %g, r = %.17g", order, spins[s], inclinations[i], r);
                     for (double phi = 0; phi < 2 * M_PI; phi += 0.7) {
                         if (!kd_ring_image_find(&ring, phi, &p))

@@ -52,7 +52,7 @@ static double node_of_radius(const struct kd_disk_image *image, double r)
 
 double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta)
 {
-    struct kd_null_motion m = kd_null_motion_of(image->spin, image->cos_i, image->sin_i, alpha, beta);
+    struct kd_null_motion m = kd_null_motion_of(kd_hole(image->spin), image->cos_i, image->sin_i, alpha, beta);
     if (!(m.eta > 0))
         return m.k > 27 ? INFINITY : 0; /* vortical: it never meets the plane */
     struct kd_null_roots roots = kd_null_roots_of(&m);

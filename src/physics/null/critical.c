@@ -97,7 +97,7 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     double a = o->spin, u = o->cos_theta;
     c.status = KD_CRITICAL_OK;
     c.sine = o->sin_theta > 0 ? o->sin_theta : sqrt((1 - u) * (1 + u));
-    c.shell = kd_shell_of(a);
+    c.shell = kd_shell_of(kd_hole(a));
     if (isfinite(o->radius)) {
         const struct kd_vantage at = { a, o->radius, u, c.sine };
         double bound;

@@ -7,7 +7,11 @@
 #include <math.h>
 
 /* Bardeen, Press & Teukolsky 1972: L/E at r = 4 cos^2(x), x = acos(-a)/3, comes to 6 cos x - a. */
-double kd_deflection_critical(double a) { return fabs(a) < 1 ? 6 * cos(acos(-a) / 3) - a : NAN; }
+double kd_deflection_critical(const struct kd_hole *hole)
+{
+    const double a = hole->a;
+    return fabs(a) < 1 ? 6 * cos(acos(-a) / 3) - a : NAN;
+}
 
 /* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
  *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3,   phi' = b + chi',   chi' = a (2w - a b w^2)/(1 - 2w + a^2 w^2). */
@@ -44,14 +48,15 @@ static const double far_away = 20;
 
 static struct kd_null_radial radial_of(double a, double b)
 {
-    struct kd_null_motion motion = kd_null_motion_of(a, 0, 1, -b, 0);
+    struct kd_null_motion motion = kd_null_motion_of(kd_hole(a), 0, 1, -b, 0);
     struct kd_null_roots roots = kd_null_roots_of(&motion);
     return kd_null_radial_of(&motion, &roots, false);
 }
 
-double kd_deflection(double a, double b)
+double kd_deflection(const struct kd_hole *hole, double b)
 {
-    double critical = kd_deflection_critical(a);
+    const double a = hole->a;
+    double critical = kd_deflection_critical(hole);
     if (!(b >= critical))
         return NAN;
     if (b > far_away)
@@ -60,27 +65,32 @@ double kd_deflection(double a, double b)
     return q.turns ? 2 * (b * q.turn.tau + q.turn.phi) - M_PI : INFINITY;
 }
 
-double kd_deflection_closest(double a, double b)
+double kd_deflection_closest(const struct kd_hole *hole, double b)
 {
-    if (!(b >= kd_deflection_critical(a)))
+    const double a = hole->a;
+    if (!(b >= kd_deflection_critical(hole)))
         return NAN;
     if (b > far_away)
         return 1 / nearest_w(a, b);
     struct kd_null_radial q = radial_of(a, b);
-    return q.turns ? q.roots.r4 : kd_kerr_photon_orbit(kd_hole(a));
+    return q.turns ? q.roots.r4 : kd_kerr_photon_orbit(hole);
 }
 
-double kd_deflection_farthest(double a, double b)
+double kd_deflection_farthest(const struct kd_hole *hole, double b)
 {
-    if (!(b >= kd_deflection_critical(a)) || a * b > 2 * kd_hole(a)->outer)
+    const double a = hole->a;
+    if (!(b >= kd_deflection_critical(hole)) || a * b > 2 * hole->outer)
         return NAN;
     struct kd_null_radial q = radial_of(a, b);
-    return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(kd_hole(a));
+    return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(hole);
 }
 
 double kd_deflection_weak(double b) { return 4 / b; }
 
-double kd_deflection_weak_second(double a, double b) { return (4 + (15 * M_PI / 4 - 4 * a) / b) / b; }
+double kd_deflection_weak_second(const struct kd_hole *hole, double b)
+{
+    return (4 + (15 * M_PI / 4 - 4 * hole->a) / b) / b;
+}
 
 /* On the critical ray w'^2 = cubic (w_c - w)^2 (w - w_1), w_1 = quadratic/cubic - 2 w_c < 0. */
 struct critical { double a, b, w, w1, cubic, rate; };
@@ -99,9 +109,10 @@ static double regular(double x, double y, const void *context)
 
 /* For b = b_c (1 + delta) the double root parts by +-e, e^2 = delta b_c (d w'^2/db)/(cubic (w_c - w_1)), and the pole
  * integrates to rate arcosh(w_c/e). */
-struct kd_deflection_strong kd_deflection_strong(double a)
+struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
 {
-    double r = kd_kerr_photon_orbit(kd_hole(a)), b = kd_deflection_critical(a);
+    const double a = hole->a;
+    double r = kd_kerr_photon_orbit(hole), b = kd_deflection_critical(hole);
     if (isnan(b))
         return (struct kd_deflection_strong) { NAN, NAN };
     struct critical c = { .a = a, .b = b, .w = 1 / r, .cubic = 2 * (b - a) * (b - a) };

@@ -29,10 +29,10 @@ static struct ray ray_at(const struct kd_critical *c, const struct kd_critical_p
 {
     double u = c->observer.cos_theta, a = c->observer.spin;
     double dalpha = d * (p->alpha - c->centre), dbeta = d * p->beta;
-    struct kd_null_motion m = kd_null_motion_of(a, u, c->sine, p->alpha + dalpha, p->beta + dbeta);
+    struct kd_null_motion m = kd_null_motion_of(kd_hole(a), u, c->sine, p->alpha + dalpha, p->beta + dbeta);
     struct kd_null_roots roots;
     if (fabs(d) < NEAR) {
-        struct kd_null_motion critical = kd_null_motion_of(a, u, c->sine, p->alpha, p->beta);
+        struct kd_null_motion critical = kd_null_motion_of(kd_hole(a), u, c->sine, p->alpha, p->beta);
         struct kd_null_displacement by =
             kd_null_displacement_of(&critical, p->orbit.r, kd_shell_bend(&p->orbit), dalpha, dbeta);
         roots = kd_null_roots_beside(&m, &by);

@@ -158,7 +158,8 @@ static struct kd_null_path follow(const struct kd_null_ray *ray)
     struct kd_null_path path = { .status = KD_NULL_BAD_INPUT, .fate = KD_NULL_CAPTURED, .sky_u = NAN, .sky_phi = NAN };
     if (!valid(ray))
         return path;
-    struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    struct kd_null_motion k =
+        kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     enum kd_null_region region = kd_null_region_of(&roots, ray->radius);
     path.status = KD_NULL_NO_RAY;
@@ -249,7 +250,8 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     struct kd_null_path path = follow(ray);
     if (path.status == KD_NULL_NO_RAY || path.status == KD_NULL_BAD_INPUT)
         return path;
-    struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    struct kd_null_motion k =
+        kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     /* The step is short against the distance from the critical curve and long against rounding; it leads away from
      * that curve, so that the ray stays on its side. */

@@ -1,10 +1,14 @@
 #include "physics/null/null_quartic.h"
 
+#include "physics/spacetime/hole.h"
+
 #include <float.h>
 #include <math.h>
 
-struct kd_null_motion kd_null_motion_of(double a, double cos_theta, double sin_theta, double alpha, double beta)
+struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_theta, double sin_theta, double alpha,
+                                        double beta)
 {
+    const double a = hole->a;
     struct kd_null_motion m = { .a = a, .c = cos_theta, .alpha = alpha, .beta = beta };
     m.s = sin_theta > 0 ? sin_theta : sqrt((1 - cos_theta) * (1 + cos_theta));
     m.lambda = -alpha * m.s;

@@ -10,6 +10,8 @@
 #ifndef KD_PHYSICS_NULL_NULL_QUARTIC_H
 #define KD_PHYSICS_NULL_NULL_QUARTIC_H
 
+#include "physics/spacetime/hole.h"
+
 /* The constants of motion of one ray, in the labels of DESIGN.md: with i the inclination, c = cos i, s = sin i,
  *
  *   lambda = -alpha s         eta = (alpha^2 - a^2) c^2 + beta^2
@@ -23,7 +25,8 @@ struct kd_null_motion {
 };
 
 /* cos_theta in [-1, 1]; sin_theta, or 0 where cos_theta is all that is known. */
-struct kd_null_motion kd_null_motion_of(double a, double cos_theta, double sin_theta, double alpha, double beta);
+struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_theta, double sin_theta, double alpha,
+                                        double beta);
 
 double kd_null_radial_potential(const struct kd_null_motion *m, double r);
 

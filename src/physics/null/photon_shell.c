@@ -29,8 +29,9 @@ static double polar_y(double a2, double n)
     return y;
 }
 
-struct kd_shell kd_shell_of(double a)
+struct kd_shell kd_shell_of(const struct kd_hole *hole)
 {
+    const double a = hole->a;
     struct kd_shell s = { .a = a, .spin = fabs(a), .n = (1 - a) * (1 + a) };
     double a2 = a * a;
     s.y_polar = polar_y(a2, s.n);
@@ -60,9 +61,10 @@ struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *s, double place)
     return orbit(s, y, (y - s->y_polar) / s->spin);
 }
 
-struct kd_shell_orbit kd_shell_orbit_of_radius(double a, double r)
+struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, double r)
 {
-    struct kd_shell s = kd_shell_of(a);
+    const double a = hole->a;
+    struct kd_shell s = kd_shell_of(hole);
     double y = r - 1;
     bool there = a != 0 && r >= kd_kerr_photon_orbit(kd_hole(s.spin)) && r <= kd_kerr_photon_orbit(kd_hole(-s.spin));
     return there ? orbit(&s, y, (y - s.y_polar) / s.spin) : (struct kd_shell_orbit) { a, NAN, NAN, NAN, NAN, NAN };

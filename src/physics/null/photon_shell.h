@@ -18,6 +18,8 @@
 #ifndef KD_PHYSICS_NULL_PHOTON_SHELL_H
 #define KD_PHYSICS_NULL_PHOTON_SHELL_H
 
+#include "physics/spacetime/hole.h"
+
 struct kd_shell {
     double a;                    /* as given                                                */
     double spin, n;              /* |a|, 1 - a^2                                            */
@@ -28,14 +30,14 @@ struct kd_shell {
 /* y = r - 1; w as above. r alone tells nothing at a = 0. */
 struct kd_shell_orbit { double a, r, y, w, lambda, eta; };
 
-struct kd_shell kd_shell_of(double a);
+struct kd_shell kd_shell_of(const struct kd_hole *hole);
 
 /* The orbits of one hole in order, from prograde to retrograde: `place` is w where y >= y_P/2, and below continues with
  * the logarithm of y, so that those at r = 1 are told apart. Beyond the ends eta < 0: no orbit. */
 struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *shell, double place);
 
 /* a != 0. A radius between those of the equatorial orbits; NaN outside. */
-struct kd_shell_orbit kd_shell_orbit_of_radius(double a, double r);
+struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, double r);
 
 /* (1/2) d^2R/dr^2 at the orbit, 4 r (y^3 + N)/y^2: a ray leaves as exp(tau sqrt(bend)) in Mino time tau. */
 double kd_shell_bend(const struct kd_shell_orbit *orbit);

@@ -1,6 +1,7 @@
 #include "physics/null/ring_image.h"
 
 #include "physics/null/null_geodesic.h"
+#include "physics/spacetime/hole.h"
 
 #include <math.h>
 
@@ -94,9 +95,9 @@ static bool add_node(struct kd_ring_image *ring, double *step)
     }
 }
 
-struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double r, int order)
+struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double inclination, double r, int order)
 {
-    return (struct kd_ring_image) { .spin = spin,
+    return (struct kd_ring_image) { .spin = hole->a,
                                     .cos_theta = cos(inclination),
                                     .sin_theta = sin(inclination),
                                     .flatten = cos(inclination),
@@ -107,9 +108,9 @@ struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double
 /* A guess: next to the critical curve, or where the ring would be without lensing. */
 static double around(const struct kd_ring_image *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
 
-bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double r, int order)
+bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r, int order)
 {
-    *ring = kd_ring_image_plain(spin, inclination, r, order);
+    *ring = kd_ring_image_plain(hole, inclination, r, order);
     struct kd_null_crossing crossing;
     double step = STEP;
     ring->log_rho[0] = around(ring);

@@ -8,6 +8,8 @@
 #ifndef KD_PHYSICS_NULL_RING_IMAGE_H
 #define KD_PHYSICS_NULL_RING_IMAGE_H
 
+#include "physics/spacetime/hole.h"
+
 #include <stdbool.h>
 
 enum { KD_RING_NODES = 320 };
@@ -20,10 +22,11 @@ struct kd_ring_image {
 
 /* r outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4. False where the
  * image turns too quickly for the table, which has not been seen for r >= 1.02 r+. Some 500 rays. */
-bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double r, int order);
+bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r,
+                        int order);
 
 /* The same without its table, for kd_ring_image_seen alone. */
-struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double r, int order);
+struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double inclination, double r, int order);
 
 /* phi, sense: as of struct kd_null_crossing. residual: the last step of Newton's method, before it was taken; the
  * error is some 1e-6 of it and rounding. */

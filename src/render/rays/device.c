@@ -93,7 +93,8 @@ static void upload_states(const struct work *w, const struct set *set, const str
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];
         label(w, rays->alpha_beta + 2 * i, at_eye);
-        kd_rays_start(p->spin, p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR, &start.origin);
+        kd_rays_start(kd_hole(p->spin), p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR,
+                      &start.origin);
         for (size_t k = 0; k < per_start; k++)
             put(w, at, 4 + per_start * i + k, start.numbers[k]);
     }
