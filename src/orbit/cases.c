@@ -29,7 +29,7 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
     case KD_CASE_MERCURY: return mercury(spin);
     case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: some turns of whirl for each leaf */
         spec.e = 0.8;
-        spec.p = 1.0001 * kd_orbit_separatrix(spec.spin, spec.e, 1);
+        spec.p = 1.0001 * kd_orbit_separatrix(kd_hole(spec.spin), spec.e, 1);
         return spec;
     case KD_CASE_PLUNGE: /* thrown sideways too slowly */
         spec.form = KD_ORBIT_STATE;
@@ -41,7 +41,7 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
     case KD_CASE_ISCO: spec.p = kd_kerr_isco(kd_hole(spec.spin)); return spec;
     case KD_CASE_SPHERICAL:
         spec.inclination_deg = 60;
-        spec.p = 1.5 * kd_orbit_separatrix(spec.spin, 0, 0.5);
+        spec.p = 1.5 * kd_orbit_separatrix(kd_hole(spec.spin), 0, 0.5);
         return spec;
     case KD_CASES: break;
     }

@@ -105,7 +105,7 @@ static void redshift_of_light(void **state)
         double a = scene.spacetime.spin;
         struct kd_frame plain = shot(&scene, false, false), slowed = shot(&scene, false, true),
                         full = shot(&scene, true, true), moved = shot(&scene, true, false);
-        const struct kd_plunge plunge = kd_plunge_of(a);
+        const struct kd_plunge plunge = kd_plunge_of(kd_hole(a));
         for (uint32_t y = 0; y < 120; y++)
             for (uint32_t x = 0; x < 160; x++) {
                 struct ray ray = ray_of(&scene, x, y);

@@ -3,6 +3,7 @@
 #include "render/emit/particles.h"
 
 #include "physics/orbit/orbit_bound.h"
+#include "physics/spacetime/hole.h"
 #include "render_support.h"
 #include "render/device/prepare.h"
 #include "render/emit/deposit.h"
@@ -96,7 +97,7 @@ static double period(const struct period *p) { return (p->last - p->first) / (p-
 static struct kd_orbit_frequencies frequencies(double a, double r)
 {
     struct kd_orbit orbit;
-    OK(kd_orbit_from_shape(a, r, 1e-6, cos(1e-6), &orbit, &error));
+    OK(kd_orbit_from_shape(kd_hole(a), r, 1e-6, cos(1e-6), &orbit, &error));
     struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
     struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
     return kd_orbit_frequencies_of(&bound);

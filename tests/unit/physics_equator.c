@@ -57,7 +57,7 @@ static void shear(void **state)
         for (double r = 1.1 * kd_kerr_isco(kd_hole(a)); r < 300; r *= 1.7) {
             struct kd_orbit orbit;
             struct kd_error error = { 0 };
-            assert_int_equal(kd_orbit_from_shape(a, r, e, 1, &orbit, &error), KD_OK);
+            assert_int_equal(kd_orbit_from_shape(kd_hole(a), r, e, 1, &orbit, &error), KD_OK);
             struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
             struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
             struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&bound);

@@ -104,12 +104,13 @@ static bool stable(const struct kd_orbit *o)
     return g[0] + w * (g[1] + w * g[2]) >= 0;
 }
 
-double kd_orbit_separatrix(double a, double e, double x)
+double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x)
 {
+    const double a = hole->a;
     if (e == 0 && fabs(x) == 1)
         return kd_kerr_isco(kd_hole(x > 0 ? a : -a));
     /* The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb = 11.66. */
-    double low = kd_hole(a)->outer, high = 12;
+    double low = hole->outer, high = 12;
     while (high - low > 2e-16 * high) {
         double p = 0.5 * (low + high);
         if (p <= low || p >= high)
@@ -125,30 +126,32 @@ double kd_orbit_separatrix(double a, double e, double x)
 
 static bool exists(const struct kd_orbit *o) { return o->energy > 0 && isfinite(o->energy) && isfinite(o->momentum); }
 
-double kd_orbit_least_circle(double a, double x)
+double kd_orbit_least_circle(const struct kd_hole *hole, double x)
 {
-    double low = kd_hole(a)->outer, high = kd_orbit_separatrix(a, 0, x);
+    double low = hole->outer, high = kd_orbit_separatrix(hole, 0, x);
     while (high - low > 2e-16 * high) {
         const double r = 0.5 * (low + high);
         if (r <= low || r >= high)
             break;
-        const struct kd_orbit o = of_shape(a, r, 0, x);
+        const struct kd_orbit o = of_shape(hole->a, r, 0, x);
         *(exists(&o) ? &high : &low) = r;
     }
     return high;
 }
 
-enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struct kd_orbit *o, struct kd_error *error)
+enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *o,
+                                   struct kd_error *error)
 {
+    const double a = hole->a;
     enum kd_status status = kd_orbit_check_spin(a, error);
     if (status)
         return status;
     if (!(e >= 0 && e < 1))
         return kd_error_field(error, "/e", "e is %.16g, allowed is 0 up to, not including, 1: a bound orbit", e);
-    if (!(p > kd_hole(a)->outer) || !isfinite(p))
-        return kd_error_field(error, "/p", "p is %.16g, allowed is above the horizon at %.9g", p, kd_hole(a)->outer);
+    if (!(p > hole->outer) || !isfinite(p))
+        return kd_error_field(error, "/p", "p is %.16g, allowed is above the horizon at %.9g", p, hole->outer);
     *o = of_shape(a, p, e, x);
-    double least = p < 12.5 ? kd_orbit_separatrix(a, e, x) : 0;
+    double least = p < 12.5 ? kd_orbit_separatrix(hole, e, x) : 0;
     if (p < least && (e > 0 || !exists(o)))
         return kd_error_field(error, "/p",
                               "p is %.16g; with this spin, e and inclination_deg an orbit has its turning points "

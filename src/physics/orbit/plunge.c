@@ -18,18 +18,18 @@ static struct kd_plunge_pole pole_of(const struct kd_plunge *o, double r, double
     return p;
 }
 
-struct kd_plunge kd_plunge_of(double a)
+struct kd_plunge kd_plunge_of(const struct kd_hole *hole)
 {
-    struct kd_plunge o = { .a = a, .isco = kd_kerr_isco(kd_hole(a)), .horizon = kd_hole(a)->outer };
-    double inner = kd_hole(a)->inner;
-    o.energy = 1 - kd_kerr_efficiency(kd_hole(a));
-    o.momentum = kd_kerr_momentum(kd_hole(a), o.isco);
+    struct kd_plunge o = { .a = hole->a, .isco = kd_kerr_isco(hole), .horizon = hole->outer };
+    double inner = hole->inner;
+    o.energy = 1 - kd_kerr_efficiency(hole);
+    o.momentum = kd_kerr_momentum(hole, o.isco);
     o.outer = pole_of(&o, o.horizon, inner);
     o.inner = pole_of(&o, inner, o.horizon);
     /* r^2 u^t d(tau)/dy at the ISCO, where it is a circle's. */
-    double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(kd_hole(a), o.isco);
+    double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(hole, o.isco);
     o.t_rate = -rate;
-    o.phi_rate = -rate * kd_kerr_omega(kd_hole(a), o.isco);
+    o.phi_rate = -rate * kd_kerr_omega(hole, o.isco);
     return o;
 }
 

@@ -9,6 +9,8 @@
 #ifndef KD_PHYSICS_ORBIT_PLUNGE_H
 #define KD_PHYSICS_ORBIT_PLUNGE_H
 
+#include "physics/spacetime/hole.h"
+
 struct kd_plunge {
     double a, isco, horizon;
     double energy, momentum; /* of the orbit at the ISCO */
@@ -17,7 +19,7 @@ struct kd_plunge {
     struct kd_plunge_pole { double pole, t, phi; } outer, inner;
     double t_rate, phi_rate; /* per y, as y -> infinity */
 };
-struct kd_plunge kd_plunge_of(double a);
+struct kd_plunge kd_plunge_of(const struct kd_hole *hole);
 
 /* Coordinate time and azimuth at horizon < r < isco. They go to -infinity at the ISCO, where the body turns with its
  * Omega; where they are 0 means nothing. t diverges at the horizon, and phi unless a = 0. */

@@ -111,9 +111,10 @@ static bool to_the_future(const struct kd_orbit *o)
     return o->energy * (1 + o->a * o->a * w * w) - o->a * o->momentum * w * w > 0;
 }
 
-enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r,
-                                       struct kd_orbit *o, struct kd_error *error)
+enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
+                                       double r, struct kd_orbit *o, struct kd_error *error)
 {
+    const double a = hole->a;
     enum kd_status status = kd_orbit_check_spin(a, error);
     if (status)
         return status;
@@ -123,8 +124,8 @@ enum kd_status kd_orbit_from_constants(double a, double energy, double momentum,
             "carter is %.16g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
             "given by position and velocity",
             carter);
-    if (!isnan(r) && !(r > kd_hole(a)->outer))
-        return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_hole(a)->outer);
+    if (!isnan(r) && !(r > hole->outer))
+        return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, hole->outer);
     *o = (struct kd_orbit) {
         .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
     };
@@ -251,9 +252,11 @@ static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *
     return true;
 }
 
-enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
-                                   struct kd_orbit *o, struct kd_orbit_state *start, struct kd_error *error)
+enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double theta_deg, enum kd_observer frame,
+                                   const double v[3], struct kd_orbit *o, struct kd_orbit_state *start,
+                                   struct kd_error *error)
 {
+    const double a = hole->a;
     enum kd_status status = check_state(a, r, theta_deg, frame, v, error);
     if (status)
         return status;

@@ -13,6 +13,7 @@
 #define KD_PHYSICS_ORBIT_TIMELIKE_H
 
 #include "base/error.h"
+#include "physics/spacetime/hole.h"
 #include "physics/spacetime/observer.h"
 
 #include <stdbool.h>
@@ -43,25 +44,26 @@ struct kd_orbit_state { double w, w_rate, u, u_rate; };
  * whose cosine is x, |x| <= 1, x < 0 being retrograde (to +phi). W. Schmidt 2002, gr-qc/0202090, appendix B,
  * regrouped: see orbit_shape.c. KD_EINVAL, with pointer "/p", "/e" or "", where there is none; only a circular orbit
  * may be unstable. */
-enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struct kd_orbit *orbit,
+enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *orbit,
                                    struct kd_error *error);
 
 /* The least p of a stable orbit with this e and x: the separatrix; for e = 0 the innermost stable circular or
  * spherical orbit. */
-double kd_orbit_separatrix(double a, double e, double x);
+double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x);
 /* The radius of the orbit of light with this x, above which circular and spherical orbits of bodies exist, stable or
  * not. */
-double kd_orbit_least_circle(double a, double x);
+double kd_orbit_least_circle(const struct kd_hole *hole, double x);
 
 /* Q >= 0. r: a place on the orbit, or NAN for the outermost range that the constants leave. KD_EINVAL, with pointer
  * "/energy", "/carter" or "/r", if there is no such motion outside the horizon. */
-enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r,
-                                       struct kd_orbit *orbit, struct kd_error *error);
+enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
+                                       double r, struct kd_orbit *orbit, struct kd_error *error);
 
 /* A place outside the horizon and the velocity (r, theta, phi components, |v| < 1) that an observer there sees, if
  * there is such an observer. KD_EINVAL with pointer "/position/r", "/velocity" ... */
-enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
-                                   struct kd_orbit *orbit, struct kd_orbit_state *start, struct kd_error *error);
+enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double theta_deg, enum kd_observer frame,
+                                   const double v[3], struct kd_orbit *orbit, struct kd_orbit_state *start,
+                                   struct kd_error *error);
 
 /* Starts at the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r
  * at a turning point, within 1e-14, starts at rest there. The outer end of what comes from infinity has to be given.

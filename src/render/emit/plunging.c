@@ -14,7 +14,7 @@ bool kd_plunging_is_on(const struct kd_scene *scene)
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene)
 {
     double a = scene->spacetime.spin;
-    struct kd_plunging o = { .curve = kd_plunge_of(a) };
+    struct kd_plunging o = { .curve = kd_plunge_of(kd_hole(a)) };
     double way = o.curve.isco - o.curve.horizon;
     o.start = o.curve.isco - way / 32;
     o.end = o.curve.horizon + way / 64;

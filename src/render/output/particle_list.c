@@ -134,7 +134,7 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
                               list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);
     if (list->orbits)
-        list->plunge = kd_plunge_of(list->scene.spacetime.spin);
+        list->plunge = kd_plunge_of(kd_hole(list->scene.spacetime.spin));
     return KD_OK;
 }
 

@@ -29,7 +29,7 @@ static enum kd_status shape(const struct kd_selftest *test, double spin, double 
                             struct kd_orbit_bound *out)
 {
     struct kd_orbit orbit;
-    enum kd_status status = kd_orbit_from_shape(spin, p, e, x, &orbit, test->error);
+    enum kd_status status = kd_orbit_from_shape(kd_hole(spin), p, e, x, &orbit, test->error);
     if (!status) {
         const struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
         *out = kd_orbit_bound_of(&orbit, &start);
