@@ -199,9 +199,9 @@ done:
 
 static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd_error *error)
 {
-    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin));
-    double t = r->colour_correction *
-               kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
+    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(kd_hole(r->spin)));
+    double t = r->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(r->spin), hottest),
+                                                          kd_hole(r->spin), r->mass_msun, r->mdot_edd);
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = 1e-3 * t * KD_K_J_K / KD_H_J_S;
     if (isnan(r->frequency_max_hz))

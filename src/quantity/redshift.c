@@ -52,8 +52,9 @@ static double g_of(const struct parameters *p, double r, const struct kd_ring_im
 {
     double s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), lambda = -at->alpha * s;
     double eta = (at->alpha * at->alpha - p->spin * p->spin) * c * c + at->beta * at->beta;
-    return r >= kd_kerr_isco(kd_hole(p->spin)) ? kd_disk_redshift(p->spin, r, lambda)
-                                               : kd_disk_redshift_plunging(p->spin, r, lambda, eta, at->sense > 0);
+    return r >= kd_kerr_isco(kd_hole(p->spin))
+               ? kd_disk_redshift(kd_hole(p->spin), r, lambda)
+               : kd_disk_redshift_plunging(kd_hole(p->spin), r, lambda, eta, at->sense > 0);
 }
 
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)

@@ -79,7 +79,7 @@ static void fill_star(const struct parameters *p, struct kd_tidal t, struct outp
     o->fallback_s = fallback * unit_s;
     o->fallback_days = o->fallback_s / day;
     o->peak_msun_yr = kd_tidal_fallback_rate(t, fallback) * to_msun_yr;
-    o->peak_eddington = o->peak_msun_yr / (kd_disk_rate(p->spin, p->mass_msun, 1) * KD_YEAR_S / m_sun_kg);
+    o->peak_eddington = o->peak_msun_yr / (kd_disk_rate(kd_hole(p->spin), p->mass_msun, 1) * KD_YEAR_S / m_sun_kg);
     o->above_eddington_days = o->peak_eddington > 1 ? o->fallback_days * pow(o->peak_eddington, 0.6) : NAN;
 }
 

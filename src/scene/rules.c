@@ -269,7 +269,7 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                                   "and more than the orbit of light, %s M",
                                   isinf(v->inner) ? "\"horizon\", for a torus " : "", show(least).text,
                                   show_bound(v->torus_radius).text, show_bound(light).text);
-        const struct kd_torus torus = kd_torus_of(scene->spacetime.spin, least, v->torus_radius);
+        const struct kd_torus torus = kd_torus_of(kd_scene_hole(scene), least, v->torus_radius);
         if (!isfinite(torus.outer) || !(torus.log_most > 0))
             return kd_error_field(error, "/volume/torus_radius",
                                   "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like "

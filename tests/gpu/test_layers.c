@@ -281,7 +281,7 @@ static void test_temperature(void **state)
     (void)state;
     struct kd_scene scene =
         scene_of(0.9, 75, INFINITY, "r_0,g_0,temperature_0,intensity_0,optical_depth_0,intensity_1");
-    double largest = kd_disk_flux_page_thorne(0.9, kd_disk_peak_page_thorne(0.9));
+    double largest = kd_disk_flux_page_thorne(kd_hole(0.9), kd_disk_peak_page_thorne(kd_hole(0.9)));
     for (int clear = 0; clear < 2; clear++) {
         scene.disk.opacity = clear ? 0.25 : 1;
         struct kd_frame frame = frame_of(&scene);
@@ -292,7 +292,8 @@ static void test_temperature(void **state)
             assert_true(isnan(t[k]) == isnan(r[k]) && isnan(depth[k]) == isnan(r[k]));
             if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(kd_hole(0.9)))
                 continue;
-            double want = scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(0.9, r[k]) / largest, 0.25);
+            double want =
+                scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25);
             assert_true(fabs(t[k] / want - 1) < 2e-4); /* the table is linear between 1024 nodes */
             assert_true(
                 fabs(light[k] / (scene.disk.opacity * pow(g[k] * t[k] / scene.disk.peak_temperature_k, 4)) - 1) < 1e-5);

@@ -49,7 +49,7 @@ static void without_spin(void **state)
         within("alpha", 0, f->r, p.alpha, f->alpha, 1e-12 * size);
         within("beta", 0, f->r, p.beta, f->beta, 1e-12 * size);
         if (f->r >= 6)
-            within("g", 0, f->r, kd_disk_redshift(0, f->r, lambda), f->g, 1e-12 * f->g);
+            within("g", 0, f->r, kd_disk_redshift(kd_hole(0), f->r, lambda), f->g, 1e-12 * f->g);
         assert_int_equal(p.images, 1);
     }
 }

@@ -139,9 +139,9 @@ static void test_lines(void **state)
         const struct kd_line_params *p = &q.params;
         struct kd_line_profile profile;
         struct kd_error error;
-        assert_true(kd_disk_image_init(&image, q.spin, q.inclination_deg * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(q.spin), q.inclination_deg * RADIAN));
         if (p->emissivity == KD_LINE_LAMPPOST &&
-            !kd_lamppost_init(&q.lamp, q.spin, p->height, p->photon_index, p->inner, p->outer))
+            !kd_lamppost_init(&q.lamp, kd_hole(q.spin), p->height, p->photon_index, p->inner, p->outer))
             continue;
         if (kd_line_profile(&image, p, q.edges, q.bins, share, &profile, &error))
             continue;

@@ -67,8 +67,8 @@ static bool add_ring(const struct asked *q, double r, double weight, int n, doub
     const struct kd_disk_spectrum_params *p = &q->params;
     const struct kd_disk_ring gas = kd_disk_image_gas(&image, r);
     const double apart = kd_disk_image_step(&image, r, APART),
-                 t = p->colour_correction *
-                     kd_disk_temperature(kd_disk_flux_page_thorne(q->spin, r), q->spin, p->mass_msun, p->mdot_edd);
+                 t = p->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(q->spin), r),
+                                                                kd_hole(q->spin), p->mass_msun, p->mdot_edd);
     if (!(t > 0))
         return true;
     for (int k = 0; k < 3; k++)
@@ -113,7 +113,7 @@ static void test_spectra(void **state)
         double flux[FREQUENCIES], fine[FREQUENCIES] = { 0 }, rough[FREQUENCIES] = { 0 }, told, off = 0, known = 0,
                                   largest = 0, scale[FREQUENCIES];
         struct kd_error error;
-        assert_true(kd_disk_image_init(&image, q.spin, q.inclination_deg * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(q.spin), q.inclination_deg * RADIAN));
         if (kd_disk_spectrum(&image, &q.params, q.frequencies, FREQUENCIES, flux, &told, &error) ||
             !sum_rings(&q, PANELS, AROUND, fine) || !sum_rings(&q, PANELS / 2, AROUND / 2, rough))
             continue;

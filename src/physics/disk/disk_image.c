@@ -205,12 +205,12 @@ static bool make_ring(struct kd_disk_image *image, int k)
     return true;
 }
 
-bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination)
+bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination)
 {
     double c = fabs(cos(inclination));
     memset(image, 0, sizeof *image);
-    image->spin = spin, image->cos_i = c, image->sin_i = sin(inclination);
-    image->isco = kd_kerr_isco(kd_hole(spin)), image->horizon = kd_hole(spin)->outer;
+    image->spin = hole->a, image->cos_i = c, image->sin_i = sin(inclination);
+    image->isco = kd_kerr_isco(hole), image->horizon = hole->outer;
     image->origin = fmin(image->horizon, image->isco - NEAREST);
     image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
     if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))

@@ -14,6 +14,8 @@
 #ifndef KD_PHYSICS_DISK_DISK_IMAGE_H
 #define KD_PHYSICS_DISK_DISK_IMAGE_H
 
+#include "physics/spacetime/hole.h"
+
 #include <stdbool.h>
 
 enum {
@@ -35,7 +37,7 @@ struct kd_disk_image {
 /* inclination in radians, 0 to pi; false next to edge on, and where a ring is not found, which has not been seen. 1
  * 600 to 19 000 rays: most nodes take one, since rings and angles before tell where they are and how r changes
  * there. */
-bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination);
+bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination);
 
 /* A ring seen in `n` directions, evenly spaced in chi; n is a power of 2, 32 at least and KD_DISK_IMAGE_ANGLES at
  * most. `skip` 1 uses every node of the table and 2 every second one: by how much that differs tells the error of

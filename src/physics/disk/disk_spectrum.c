@@ -3,6 +3,7 @@
 #include "base/pause.h"
 #include "physics/disk/thin_disk.h"
 #include "physics/math/constants.h"
+#include "physics/spacetime/hole.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +45,8 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
                      double weight, int skip, int n, const double *frequencies, int n_f, struct ring *ring, double *sum)
 {
     struct kd_disk_ring gas = kd_disk_image_gas(image, r);
-    double t = kd_disk_temperature(kd_disk_flux_page_thorne(image->spin, r), image->spin, p->mass_msun, p->mdot_edd) *
+    double t = kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(image->spin), r), kd_hole(image->spin),
+                                   p->mass_msun, p->mdot_edd) *
                p->colour_correction;
     if (!(t > 0))
         return;

@@ -14,6 +14,8 @@
 #ifndef KD_PHYSICS_DISK_LAMPPOST_H
 #define KD_PHYSICS_DISK_LAMPPOST_H
 
+#include "physics/spacetime/hole.h"
+
 #include <stdbool.h>
 
 enum { KD_LAMPPOST_RINGS = 120 };
@@ -25,12 +27,12 @@ struct kd_lamppost {
 
 /* height > horizon; the table holds from inner, the ISCO or beyond, to outer. False where light does not reach a
  * ring, which has not been seen. */
-bool kd_lamppost_init(struct kd_lamppost *lamp, double spin, double height, double photon_index, double inner,
-                      double outer);
+bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, double height, double photon_index,
+                      double inner, double outer);
 
 double kd_lamppost_at(const struct kd_lamppost *lamp, double r);
 
 /* Where light that leaves the source at delta meets the plane; 0: the hole has it; INFINITY: it leaves. */
-double kd_lamppost_reach(double spin, double height, double delta);
+double kd_lamppost_reach(const struct kd_hole *hole, double height, double delta);
 
 #endif

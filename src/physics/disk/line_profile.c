@@ -2,6 +2,7 @@
 
 #include "base/pause.h"
 #include "physics/disk/lamppost.h"
+#include "physics/spacetime/hole.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -330,8 +331,8 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
 {
     struct kd_lamppost lamp;
     struct sum sums[LEVELS + 1];
-    if (params->emissivity == KD_LINE_LAMPPOST &&
-        !kd_lamppost_init(&lamp, image->spin, params->height, params->photon_index, params->inner, params->outer))
+    if (params->emissivity == KD_LINE_LAMPPOST && !kd_lamppost_init(&lamp, kd_hole(image->spin), params->height,
+                                                                    params->photon_index, params->inner, params->outer))
         return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk",
                               params->height);
     struct work *work = malloc(sizeof *work);

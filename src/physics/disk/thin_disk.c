@@ -16,9 +16,10 @@ static double log_term(double a, double x, double x0, double root, double other1
     return k * log1p((x - x0) / (x0 - root));
 }
 
-double kd_disk_flux_page_thorne(double a, double r)
+double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r)
 {
-    double r0 = kd_kerr_isco(kd_hole(a));
+    const double a = hole->a;
+    double r0 = kd_kerr_isco(hole);
     if (!(r > r0))
         return 0;
     double x = sqrt(r), x0 = sqrt(r0), dx = (r - r0) / (x + x0);
@@ -30,9 +31,9 @@ double kd_disk_flux_page_thorne(double a, double r)
     return fmax(f, 0) / (4 * M_PI * r);
 }
 
-double kd_disk_flux_shakura_sunyaev(double a, double r)
+double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r)
 {
-    double r0 = kd_kerr_isco(kd_hole(a));
+    double r0 = kd_kerr_isco(hole);
     return r > r0 ? 3 / (8 * M_PI * r * r * r) * (1 - sqrt(r0 / r)) : 0;
 }
 
@@ -73,35 +74,35 @@ static double growth(const void *user, double span)
     return slope_of_bracket(r.a, r.y0, span) - kd_quadrature(share, &r) * loss;
 }
 
-double kd_disk_peak_page_thorne(double a)
+double kd_disk_peak_page_thorne(const struct kd_hole *hole)
 {
-    double x0 = sqrt(kd_kerr_isco(kd_hole(a)));
-    struct rise r = { .a = a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(kd_hole(a))) };
+    double x0 = sqrt(kd_kerr_isco(hole));
+    struct rise r = { .a = hole->a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(hole)) };
     /* Below 2.1 r_isco for all spins, and for an extremal hole at the ISCO. */
     double x = x0 + kd_root(growth, &r, 1e-7 * x0, 0.5 * x0);
     return x * x;
 }
 
-double kd_disk_peak_shakura_sunyaev(double a)
+double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole)
 {
-    return 49. / 36 * kd_kerr_isco(kd_hole(a)); /* where the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
+    return 49. / 36 * kd_kerr_isco(hole); /* where the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
 }
 
-double kd_disk_redshift(double a, double r, double lambda)
+double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda)
 {
-    return 1 / (kd_kerr_ut(kd_hole(a), r) * (1 - kd_kerr_omega(kd_hole(a), r) * lambda));
+    return 1 / (kd_kerr_ut(hole, r) * (1 - kd_kerr_omega(hole, r) * lambda));
 }
 
 /* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma the sign of p^r, with the radial
  * potentials R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r is known in closed
  * form, which does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the
  * horizon; multiplied out by P U + sqrt(R S) it does not. */
-double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, bool outwards)
+double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards)
 {
-    double r0 = kd_kerr_isco(kd_hole(a)), e = 1 - kd_kerr_efficiency(kd_hole(a)), l = kd_kerr_momentum(kd_hole(a), r0),
-           j = l - a * e;
+    const double a = hole->a;
+    double r0 = kd_kerr_isco(hole), e = 1 - kd_kerr_efficiency(hole), l = kd_kerr_momentum(hole, r0), j = l - a * e;
     double gap = fmax(0, r0 / r - 1), ur = sqrt(2 / (3 * r0) * gap) * gap;
-    double h = kd_hole(a)->outer, delta = (r - h) * (r - kd_hole(a)->inner);
+    double h = hole->outer, delta = (r - h) * (r - hole->inner);
     double p = r * r + a * (a - lambda), u = r * r * e - a * j;
     double k = eta + (lambda - a) * (lambda - a), m = r * r + j * j;
     double root = sqrt(fmax(0, p * p - delta * k)) * r * r * ur;
@@ -109,19 +110,19 @@ double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, 
     return r * r / (radial - (lambda - a) * j);
 }
 
-double kd_disk_rate(double a, double mass_msun, double mdot_edd)
+double kd_disk_rate(const struct kd_hole *hole, double mass_msun, double mdot_edd)
 {
     double luminosity = mdot_edd * 4 * M_PI * KD_GM_SUN_SI * mass_msun * KD_PROTON_KG * KD_C_M_S / KD_THOMSON_M2;
-    return luminosity / (kd_kerr_efficiency(kd_hole(a)) * KD_C_M_S * KD_C_M_S);
+    return luminosity / (kd_kerr_efficiency(hole) * KD_C_M_S * KD_C_M_S);
 }
 
-double kd_disk_flux_si(double flux, double a, double mass_msun, double mdot_edd)
+double kd_disk_flux_si(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd)
 {
     double light_s = KD_M_SUN_S * mass_msun; /* c^2/M^2 in s^-2 */
-    return flux * kd_disk_rate(a, mass_msun, mdot_edd) / (light_s * light_s);
+    return flux * kd_disk_rate(hole, mass_msun, mdot_edd) / (light_s * light_s);
 }
 
-double kd_disk_temperature(double flux, double a, double mass_msun, double mdot_edd)
+double kd_disk_temperature(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd)
 {
-    return pow(kd_disk_flux_si(flux, a, mass_msun, mdot_edd) / KD_STEFAN_BOLTZMANN_SI, 0.25);
+    return pow(kd_disk_flux_si(flux, hole, mass_msun, mdot_edd) / KD_STEFAN_BOLTZMANN_SI, 0.25);
 }

@@ -1,5 +1,7 @@
 #include "physics/disk/torus.h"
 
+#include "physics/spacetime/hole.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -14,9 +16,9 @@ static double enthalpy(double a, double l, double r, double u)
     return 0.5 * (log1p(u2) - log(lapse2)) - u2 - 2 * a * r / big * l;
 }
 
-double kd_torus_log_enthalpy(const struct kd_torus *torus, double spin, double r, double u)
+double kd_torus_log_enthalpy(const struct kd_torus *torus, const struct kd_hole *hole, double r, double u)
 {
-    return enthalpy(spin, torus->l, r, u) - torus->edge;
+    return enthalpy(hole->a, torus->l, r, u) - torus->edge;
 }
 
 /* u^t u_phi of a circular orbit (Bardeen, Press & Teukolsky 1972). */
@@ -27,21 +29,21 @@ static double orbit(double a, double r)
 }
 
 /* Where ln h vanishes between a place in it and one outside. */
-static double outer_of(const struct kd_torus *torus, double a, double within, double beyond)
+static double outer_of(const struct kd_torus *torus, const struct kd_hole *hole, double within, double beyond)
 {
     for (int i = 0; i < 60; i++) {
         const double r = sqrt(within * beyond);
-        *(kd_torus_log_enthalpy(torus, a, r, 0) > 0 ? &within : &beyond) = r;
+        *(kd_torus_log_enthalpy(torus, hole, r, 0) > 0 ? &within : &beyond) = r;
     }
     return within;
 }
 
-static double height_at(const struct kd_torus *torus, double a, double r)
+static double height_at(const struct kd_torus *torus, const struct kd_hole *hole, double r)
 {
     double within = 0, beyond = 1;
     for (int i = 0; i < 40; i++) {
         const double u = 0.5 * (within + beyond);
-        *(kd_torus_log_enthalpy(torus, a, r, u) > 0 ? &within : &beyond) = u;
+        *(kd_torus_log_enthalpy(torus, hole, r, u) > 0 ? &within : &beyond) = u;
     }
     return beyond;
 }
@@ -49,15 +51,16 @@ static double height_at(const struct kd_torus *torus, double a, double r)
 #define FAR 1e6
 enum { RADII = 200 };
 
-struct kd_torus kd_torus_of(double spin, double inner, double most)
+struct kd_torus kd_torus_of(const struct kd_hole *hole, double inner, double most)
 {
+    const double spin = hole->a;
     struct kd_torus t = { .l = orbit(spin, most) };
     t.edge = enthalpy(spin, t.l, inner, 0);
-    t.log_most = kd_torus_log_enthalpy(&t, spin, most, 0);
-    const bool closes = kd_torus_log_enthalpy(&t, spin, FAR, 0) < 0;
-    t.outer = closes ? outer_of(&t, spin, most, FAR) : INFINITY;
+    t.log_most = kd_torus_log_enthalpy(&t, hole, most, 0);
+    const bool closes = kd_torus_log_enthalpy(&t, hole, FAR, 0) < 0;
+    t.outer = closes ? outer_of(&t, hole, most, FAR) : INFINITY;
     for (int i = 1; i < RADII; i++)
         t.height =
-            fmax(t.height, height_at(&t, spin, inner * pow((closes ? t.outer : FAR) / inner, (double)i / RADII)));
+            fmax(t.height, height_at(&t, hole, inner * pow((closes ? t.outer : FAR) / inner, (double)i / RADII)));
     return t;
 }

@@ -6,6 +6,7 @@
 #include "physics/spacetime/observer.h"
 #include "render/emit/emitter.h"
 #include "render/emit/particles.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -83,7 +84,7 @@ static size_t unseen_of(const struct kd_scene *scene)
 {
     size_t unseen = 0;
     for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], scene->spacetime.spin);
+        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], kd_scene_hole(scene));
     return unseen;
 }
 

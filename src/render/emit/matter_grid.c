@@ -472,10 +472,10 @@ void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], d
     *spin = grid->spin;
 }
 
-enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error)
+enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_grid *out, struct kd_error *error)
 {
     *out = (struct kd_matter_grid) {
-        .rows = 2, .columns = 2, .layers = 1, .spin = spin, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI
+        .rows = 2, .columns = 2, .layers = 1, .spin = hole->a, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI
     };
     out->nodes = calloc(4 * KD_MATTER_FLOATS, sizeof *out->nodes);
     if (!out->nodes)

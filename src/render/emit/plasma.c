@@ -44,7 +44,7 @@ static void reach(const struct kd_scene *scene, double radii[2])
     radii[0] = kd_scene_volume_inner(scene);
     radii[1] = scene->volume.outer;
     if (scene->volume.model == KD_VOLUME_TORUS)
-        radii[1] = fmin(radii[1], kd_torus_of(scene->spacetime.spin, radii[0], scene->volume.torus_radius).outer);
+        radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
 /* Where a layer has thinned out, cos(theta): x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
@@ -57,7 +57,7 @@ static double height(const struct kd_scene *scene)
         return 1;
     if (v->model == KD_VOLUME_TORUS)
         return fmin(
-            1.01 * kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
+            1.01 * kd_torus_of(kd_scene_hole(scene), kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
     return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
 }
 
@@ -142,7 +142,7 @@ static void fill_electrons(struct kd_plasma_block *out, const struct kd_volume *
 static void fill_torus(struct kd_plasma_block *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
-    const struct kd_torus t = kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius);
+    const struct kd_torus t = kd_torus_of(kd_scene_hole(scene), kd_scene_volume_inner(scene), v->torus_radius);
     const double share = (v->adiabatic_index - 1) / v->adiabatic_index;
     out->torus_momentum = (float)t.l;
     out->torus_edge = (float)t.edge;

@@ -14,8 +14,8 @@
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
     const double a = m->ray.spin;
-    return r >= kd_kerr_isco(kd_hole(a)) ? kd_disk_redshift(a, r, m->lambda)
-                                         : kd_disk_redshift_plunging(a, r, m->lambda, m->eta, outwards);
+    return r >= kd_kerr_isco(kd_hole(a)) ? kd_disk_redshift(kd_hole(a), r, m->lambda)
+                                         : kd_disk_redshift_plunging(kd_hole(a), r, m->lambda, m->eta, outwards);
 }
 
 /* Azimuth and time stay ingoing within the horizon, where a crossing has no gas to have a g of. */

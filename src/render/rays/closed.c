@@ -34,8 +34,8 @@ static double redshift(const struct kd_rays_params *p, const double *alpha_beta,
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
     double alpha = alpha_beta[0], beta = alpha_beta[1], lambda = -alpha * s;
     if (r >= kd_kerr_isco(kd_hole(a)))
-        return kd_disk_redshift(a, r, lambda);
-    return kd_disk_redshift_plunging(a, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
+        return kd_disk_redshift(kd_hole(a), r, lambda);
+    return kd_disk_redshift_plunging(kd_hole(a), r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
 }
 
 static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, bool outward, bool errors,

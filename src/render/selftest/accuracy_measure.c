@@ -79,7 +79,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
         double r = path.crossing[k].r;
         bool sure = isfinite(path.crossing[k].error_r);
         crossings[k] = (struct kd_ray_crossing) { sure ? r : NAN, path.crossing[k].phi, path.crossing[k].delay,
-                                                  kd_disk_redshift(ray->spin, r, -ray->alpha * s) };
+                                                  kd_disk_redshift(kd_hole(ray->spin), r, -ray->alpha * s) };
     }
 }
 

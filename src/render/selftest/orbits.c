@@ -91,7 +91,8 @@ static enum kd_status flux(const struct kd_selftest *test)
     for (size_t i = 0; i < test->reference->n_fluxes; i++) {
         const struct kd_selftest_flux *f = &test->reference->fluxes[i];
         double gap = f->r - kd_kerr_isco(kd_hole(f->spin));
-        kd_selftest_compare(&row, kd_disk_flux_page_thorne(f->spin, f->r) / f->flux - 1, 1e-11 + 4e-14 / (gap * gap));
+        kd_selftest_compare(&row, kd_disk_flux_page_thorne(kd_hole(f->spin), f->r) / f->flux - 1,
+                            1e-11 + 4e-14 / (gap * gap));
     }
     return kd_selftest_end(test, &row);
 }
