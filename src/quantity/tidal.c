@@ -73,8 +73,8 @@ static void fill_star(const struct parameters *p, struct kd_tidal t, struct outp
     o->tidal_radius_km = o->tidal_radius * kd_scale_metres(p->mass_msun) * 1e-3;
     o->horizon = kd_hole(p->spin)->outer;
     o->marginally_bound = kd_kerr_marginally_bound(kd_hole(p->spin));
-    o->hills_msun = kd_tidal_hills_mass(t, p->spin) * p->mass_msun;
-    o->capture_msun = kd_tidal_capture_mass(t, p->spin) * p->mass_msun;
+    o->hills_msun = kd_tidal_hills_mass(t, kd_hole(p->spin)) * p->mass_msun;
+    o->capture_msun = kd_tidal_capture_mass(t, kd_hole(p->spin)) * p->mass_msun;
     o->energy_spread = kd_tidal_energy_spread(t);
     o->fallback_s = fallback * unit_s;
     o->fallback_days = o->fallback_s / day;

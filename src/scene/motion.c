@@ -142,7 +142,7 @@ bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
     struct kd_qnm mode;
     if (!(scene->style.ringdown > 0) || t < 0)
         return false;
-    kd_qnm_find(2, 2, 0, fabs(scene->spacetime.spin), &mode); /* a valid scene's spin is in the domain */
+    kd_qnm_find(2, 2, 0, kd_hole(fabs(scene->spacetime.spin)), &mode); /* a valid scene's spin is in the domain */
     *wave = kd_ringdown_wave(mode.omega, t);
     return true;
 }

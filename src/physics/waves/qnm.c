@@ -1,5 +1,7 @@
 #include "physics/waves/qnm.h"
 
+#include "physics/spacetime/hole.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -187,8 +189,9 @@ bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n)
     return true;
 }
 
-bool kd_qnm_move(struct kd_qnm_branch *branch, double a)
+bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole)
 {
+    const double a = hole->a;
     if (!(a >= 0 && a <= KD_QNM_SPIN_MAX))
         return false;
     /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and turn sharply where the undamped modes part from
@@ -212,10 +215,11 @@ bool kd_qnm_move(struct kd_qnm_branch *branch, double a)
     return true;
 }
 
-bool kd_qnm_find(int l, int m, int n, double a, struct kd_qnm *mode)
+bool kd_qnm_find(int l, int m, int n, const struct kd_hole *hole, struct kd_qnm *mode)
 {
+    const double a = hole->a;
     struct kd_qnm_branch branch;
-    bool found = kd_qnm_start(&branch, l, a < 0 ? -m : m, n) && kd_qnm_move(&branch, fabs(a));
+    bool found = kd_qnm_start(&branch, l, a < 0 ? -m : m, n) && kd_qnm_move(&branch, kd_hole(fabs(a)));
     *mode = found ? branch.at : (struct kd_qnm) { NAN, NAN };
     return found;
 }

@@ -20,6 +20,8 @@
 #ifndef KD_PHYSICS_WAVES_QNM_H
 #define KD_PHYSICS_WAVES_QNM_H
 
+#include "physics/spacetime/hole.h"
+
 #include <complex.h>
 #include <stdbool.h>
 
@@ -47,9 +49,9 @@ bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n);
 
 /* Moves the branch to spin a >= 0. False, with the branch left where it came to, if a is outside the domain or the
  * iteration fails. */
-bool kd_qnm_move(struct kd_qnm_branch *branch, double a);
+bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole);
 
 /* Does both, from a = 0, for a of either sign. On false *mode is NAN. */
-bool kd_qnm_find(int l, int m, int n, double a, struct kd_qnm *mode);
+bool kd_qnm_find(int l, int m, int n, const struct kd_hole *hole, struct kd_qnm *mode);
 
 #endif

@@ -1,15 +1,22 @@
 #include "physics/waves/ringdown.h"
 
+#include "physics/spacetime/hole.h"
+
 #include <math.h>
 
 double kd_ringdown_quality(double complex omega) { return creal(omega) / (-2 * cimag(omega)); }
 
 double kd_ringdown_wave(double complex omega, double t) { return exp(cimag(omega) * t) * cos(creal(omega) * t); }
 
-double kd_ringdown_quality_cubic(double a) { return 2.1 + 11.3 * a * a * a; }
-
-struct kd_ringdown_fit kd_ringdown_fit(int n, double a)
+double kd_ringdown_quality_cubic(const struct kd_hole *hole)
 {
+    const double a = hole->a;
+    return 2.1 + 11.3 * a * a * a;
+}
+
+struct kd_ringdown_fit kd_ringdown_fit(int n, const struct kd_hole *hole)
+{
+    const double a = hole->a;
     static const struct {
         double f[3], q[3];
     } table[] = {

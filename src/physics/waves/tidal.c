@@ -39,6 +39,9 @@ static double heaviest(struct kd_tidal t, double reach)
     return t.mass > 0 && t.radius > 0 ? x * sqrt(x / t.mass) : NAN;
 }
 
-double kd_tidal_capture_mass(struct kd_tidal t, double a) { return heaviest(t, kd_kerr_marginally_bound(kd_hole(a))); }
+double kd_tidal_capture_mass(struct kd_tidal t, const struct kd_hole *hole)
+{
+    return heaviest(t, kd_kerr_marginally_bound(hole));
+}
 
-double kd_tidal_hills_mass(struct kd_tidal t, double a) { return heaviest(t, kd_hole(a)->outer); }
+double kd_tidal_hills_mass(struct kd_tidal t, const struct kd_hole *hole) { return heaviest(t, hole->outer); }

@@ -10,6 +10,8 @@
 #ifndef KD_PHYSICS_WAVES_TIDAL_H
 #define KD_PHYSICS_WAVES_TIDAL_H
 
+#include "physics/spacetime/hole.h"
+
 struct kd_tidal { double hole, mass, radius; /* of the hole, of the star, of the star */ };
 
 /* r_t = R (M/m)^(1/3) [Hills 1975; Rees 1988]: inside it the hole's tide beats the star's gravity. */
@@ -34,7 +36,7 @@ double kd_tidal_fallback_rate(struct kd_tidal t, double time);
  * On a parabolic orbit it takes it inside the marginally bound one: r_t = r_mb(a) [Kesden 2012], 4M at a = 0; a < 0
  * is an orbit against the hole. With the horizon in its place, r_t = r+(a), this is Hills's mass, 1.1e8 solar masses
  * for the sun at a = 0. */
-double kd_tidal_capture_mass(struct kd_tidal t, double a);
-double kd_tidal_hills_mass(struct kd_tidal t, double a);
+double kd_tidal_capture_mass(struct kd_tidal t, const struct kd_hole *hole);
+double kd_tidal_hills_mass(struct kd_tidal t, const struct kd_hole *hole);
 
 #endif
