@@ -53,7 +53,7 @@ static struct view view_of(const struct kd_camera *c)
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
     const double a = at->spin, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;
-    const double delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
+    const double delta = kd_hole_delta(kd_hole(a), r);
     const double p = leg->energy * w2 - a * s * leg->momentum + (falls ? leg->radial : 0);
     out[0] += leg->radial / sigma;
     out[1] += r * leg->polar / sigma;

@@ -10,7 +10,7 @@
 /* Delta/(h^2 + a^2): the square of the source's redshift to infinity. */
 static double source_redshift2(const struct kd_hole *hole, double h)
 {
-    return (h - hole->outer) * (h - hole->inner) / (h * h + hole->a * hole->a);
+    return kd_hole_delta(hole, h) / (h * h + hole->a * hole->a);
 }
 
 double kd_lamppost_reach(const struct kd_hole *hole, double h, double delta)

@@ -102,7 +102,7 @@ double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double la
     const double a = hole->a;
     double r0 = kd_kerr_isco(hole), e = 1 - kd_kerr_efficiency(hole), l = kd_kerr_momentum(hole, r0), j = l - a * e;
     double gap = fmax(0, r0 / r - 1), ur = sqrt(2 / (3 * r0) * gap) * gap;
-    double h = hole->outer, delta = (r - h) * (r - hole->inner);
+    double delta = kd_hole_delta(hole, r);
     double p = r * r + a * (a - lambda), u = r * r * e - a * j;
     double k = eta + (lambda - a) * (lambda - a), m = r * r + j * j;
     double root = sqrt(fmax(0, p * p - delta * k)) * r * r * ur;

@@ -123,7 +123,7 @@ static double powers(const struct kd_null_roots *o, const struct span *s, double
 
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r)
 {
-    double a = m->a, al = a * m->lambda, delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
+    double a = m->a, al = a * m->lambda, delta = kd_hole_delta(kd_hole(a), r);
     return (struct kd_null_radial_sum) { 1, a * (2 * r - al) / delta,
                                          r * r + 2 * r + 4 + ((8 - 2 * al) * r - 4 * a * a) / delta };
 }

@@ -53,7 +53,7 @@ struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
 struct kd_plunge_velocity kd_plunge_velocity(const struct kd_plunge *o, double r)
 {
     double a = o->a, gap = fmax(0, o->isco / r - 1), j = o->momentum - a * o->energy;
-    double delta = (r - o->horizon) * (r - kd_hole(a)->inner), u = o->energy * r * r - a * j;
+    double delta = kd_hole_delta(kd_hole(a), r), u = o->energy * r * r - a * j;
     return (struct kd_plunge_velocity) {
         .ur = -sqrt(2 / (3 * o->isco) * gap) * gap,
         .ut = ((r * r + a * a) * u / delta + a * j) / (r * r),

@@ -104,7 +104,7 @@ double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta)
 double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta)
 {
     const double a = hole->a;
-    double delta = fmax(0, (r - hole->outer) * (r - hole->inner)), w = r * r + a * a;
+    double delta = fmax(0, kd_hole_delta(hole, r)), w = r * r + a * a;
     double sigma = r * r + a * a * cos_theta * cos_theta;
     return sqrt(delta) * sigma / ((w * w - a * a * delta * sin_theta * sin_theta) * sin_theta);
 }

@@ -7,10 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static double delta_of(const struct kd_vantage *at)
-{
-    return (at->r - kd_hole(at->spin)->outer) * (at->r - kd_hole(at->spin)->inner);
-}
+static double delta_of(const struct kd_vantage *at) { return kd_hole_delta(kd_hole(at->spin), at->r); }
 
 /* g_phiphi = big sin^2 / sigma. */
 struct shape { double sigma, delta, big; };

@@ -7,7 +7,7 @@
 double kd_potential(const struct kd_hole *hole, double l, double mu2, double r)
 {
     const double a = hole->a;
-    double delta = (r - hole->outer) * (r - hole->inner);
+    double delta = kd_hole_delta(hole, r);
     double big = r * (r * (r * r + a * a) + 2 * a * a);
     return (2 * a * l * r + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
 }

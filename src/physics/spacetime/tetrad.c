@@ -99,7 +99,7 @@ struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struc
 {
     const double a = frame->at.spin, r = frame->at.r, s = frame->at.s,
                  sigma = r * r + a * a * frame->at.u * frame->at.u, w2 = r * r + a * a;
-    const double delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner), big = w2 * w2 - a * a * delta * s * s;
+    const double delta = kd_hole_delta(kd_hole(a), r), big = w2 * w2 - a * a * delta * s * s;
     const double round = photon->momentum * sqrt(sigma / big), up = photon->polar / sqrt(sigma);
     const double energy = photon->energy - 2 * a * r / big * photon->momentum * s;
     const double less = (sqrt(big) * energy - photon->radial) / (sqrt(big) + sqrt(2 * r * w2)),
@@ -121,7 +121,7 @@ struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_cov
 struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta)
 {
     double a = at->spin, r = at->r, across = alpha + a * at->s, along = r * r + a * a + a * alpha * at->s;
-    double delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
+    double delta = kd_hole_delta(kd_hole(a), r);
     return (struct kd_covector) { 1, -alpha, beta,
                                   sqrt(fmax(0, along * along - delta * (beta * beta + across * across))) };
 }

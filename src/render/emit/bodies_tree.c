@@ -31,8 +31,7 @@ struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(double a, const struct kd_seen_body *b)
 {
-    const double r = b->r, sigma = r * r + a * a * b->u * b->u,
-                 delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
+    const double r = b->r, sigma = r * r + a * a * b->u * b->u, delta = kd_hole_delta(kd_hole(a), r);
     const double w2 = r * r + a * a, big = w2 * w2 - a * a * delta * b->s * b->s;
     return (struct metric) { sqrt(sigma * delta / big), sqrt(sigma / delta), sqrt(sigma), sqrt(big / sigma),
                              kd_kerr_dragging(kd_hole(a), r, b->u) };

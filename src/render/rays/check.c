@@ -85,7 +85,7 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
     if (p->observer)
         return KD_OK;
     double s = kd_sin_deg(p->inclination_deg), u = kd_cos_deg(p->inclination_deg), u2 = u * u, a = p->spin, r = p->r;
-    double delta = (r - kd_hole(a)->outer) * (r - kd_hole(a)->inner);
+    double delta = kd_hole_delta(kd_hole(a), r);
     for (size_t i = 0; i < n; i++) {
         double alpha = alpha_beta[2 * i], beta = alpha_beta[2 * i + 1];
         KD_TRY(check_number(alpha, i, 0, error));
