@@ -8,9 +8,9 @@
 /* ln h but for a constant, equation 3.6 by the lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma
  * and U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 is U^2 (1 + U^2) g_phiphi/lapse^2. The shader has the same
  * constant (emit/plasma.glsl). */
-static double enthalpy(double a, double l, double r, double u)
+static double enthalpy(const struct kd_hole *hole, double l, double r, double u)
 {
-    const double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = (1 - u) * (1 + u),
+    const double a = hole->a, sigma = r * r + a * a * u * u, delta = kd_hole_delta(hole, r), s2 = (1 - u) * (1 + u),
                  big = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2;
     const double lapse2 = sigma * delta / big, u2 = 0.5 * (sqrt(1 + 4 * l * l * lapse2 * sigma / (big * s2)) - 1);
     return 0.5 * (log1p(u2) - log(lapse2)) - u2 - 2 * a * r / big * l;
@@ -18,7 +18,7 @@ static double enthalpy(double a, double l, double r, double u)
 
 double kd_torus_log_enthalpy(const struct kd_torus *torus, const struct kd_hole *hole, double r, double u)
 {
-    return enthalpy(hole->a, torus->l, r, u) - torus->edge;
+    return enthalpy(hole, torus->l, r, u) - torus->edge;
 }
 
 /* u^t u_phi of a circular orbit (Bardeen, Press & Teukolsky 1972). */
@@ -55,7 +55,7 @@ struct kd_torus kd_torus_of(const struct kd_hole *hole, double inner, double mos
 {
     const double spin = hole->a;
     struct kd_torus t = { .l = orbit(spin, most) };
-    t.edge = enthalpy(spin, t.l, inner, 0);
+    t.edge = enthalpy(hole, t.l, inner, 0);
     t.log_most = kd_torus_log_enthalpy(&t, hole, most, 0);
     const bool closes = kd_torus_log_enthalpy(&t, hole, FAR, 0) < 0;
     t.outer = closes ? outer_of(&t, hole, most, FAR) : INFINITY;
