@@ -17,7 +17,8 @@
  * bound orbit, and errors of the unstable ones grow by e^(2 pi) a turn whatever the method; below 1 - (1 -
  * a^2)^(1/3), under the inner horizon, it has, and all equations above are regular there: one about r = 0.3 that
  * swings through the plane. */
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
+#include "physics/spacetime/hole.h"
 
 #include <cJSON.h>
 #include <math.h>
@@ -267,7 +268,7 @@ static void measure_loop(struct orbit *o)
 static struct orbit matter(void)
 {
     struct kd_orbit k;
-    if (kd_orbit_from_shape(0.9, 8, 0.5, 0.5, &k, NULL))
+    if (kd_orbit_from_shape(kd_hole(0.9), 8, 0.5, 0.5, &k, NULL))
         abort(); /* there is such an orbit */
     return (struct orbit) { .name = "matter",
                             .a = k.a,

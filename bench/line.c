@@ -5,7 +5,8 @@
  *                                                          tests/oracle/line_triangles.h, 0: it is not looked at
  *
  * 500 bins from 0 to 1.7, r^-3 from the ISCO to 400 M; the least of REPEAT runs. No device. */
-#include "physics/line_profile.h"
+#include "physics/disk/line_profile.h"
+#include "physics/spacetime/hole.h"
 
 #include "line_triangles.h"
 
@@ -45,7 +46,7 @@ static bool pair(double a, double i, double tolerance, int repeat, int direction
         edges[e] = 1.7 * e / BINS;
     for (int n = 0; n < repeat; n++) {
         double begun = own_ms();
-        if (!kd_disk_image_init(&image, a, i * M_PI / 180))
+        if (!kd_disk_image_init(&image, kd_hole(a), i * M_PI / 180))
             return false;
         double made = own_ms();
         const struct kd_line_params params = { .inner = image.isco, .outer = 400, .index = 3, .tolerance = tolerance };

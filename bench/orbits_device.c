@@ -5,7 +5,8 @@
  *
  * All follow the same orbits by the same number of steps. The device's sums are not compensated, and it looks at the
  * energy only, not at Q, the rest mass and periastra. */
-#include "physics/orbit_lanes.h"
+#include "physics/orbit/orbit_lanes.h"
+#include "physics/spacetime/hole.h"
 #include "vk/vk.h"
 
 #include "orbits_spv.h"
@@ -134,7 +135,7 @@ int main(int argc, char **argv)
     for (uint32_t i = 0; i < n; i++) {
         struct kd_orbit orbit;
         double a = between(-0.99, 0.99), p = between(13, 30), e = between(0.01, 0.8), x = between(-1, 1);
-        if (kd_orbit_from_shape(a, p, e, x, &orbit, NULL))
+        if (kd_orbit_from_shape(kd_hole(a), p, e, x, &orbit, NULL))
             return 1;
         struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
         struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);

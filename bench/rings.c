@@ -1,7 +1,7 @@
 /* Lensing bands and demagnification in numbers, as the Markdown of docs/physics/photon-rings.md. No device, no
  * options, a millisecond. */
-#include "physics/kerr.h"
-#include "physics/lensing.h"
+#include "physics/null/lensing.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,8 +6,9 @@
  * (LP_NUM_THREADS=1 taskset -c 0) the figure is that of one core. */
 #include "base/clock.h"
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/render.h"
+#include "scene/hole.h"
 
 #include <argp.h>
 #include <cJSON.h>
@@ -78,7 +79,7 @@ static void judge(const struct options *o, const struct kd_scene *scene, const s
                   const float *planes, struct figures *f)
 {
     /* Radii at which a disk can be: BL azimuth diverges at the horizon. */
-    double isco = kd_kerr_isco(scene->spacetime.spin);
+    double isco = kd_kerr_isco(kd_scene_hole(scene));
     int n = o->sample, count[2] = { 0, 0 };
     double *r_error[2], *phi_error[2];
     for (int k = 0; k < 2; k++) {

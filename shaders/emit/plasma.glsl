@@ -27,7 +27,7 @@
     F(grid_fall)           /* a, where phi is that of ingoing coordinates; else 0 */ \
     F(grid_field)          /* log2 of the unit of its field, gauss */ \
     F(kappa) F(kappa_width) /* of a kappa distribution, log2(kappa - 3), */ \
-    /* and physics/synchrotron.h */ \
+    /* and physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)
 /* clang-format on */
@@ -317,7 +317,8 @@ float kd_log2_joined(float a, float b, float s)
     return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s;
 }
 
-/* A kappa distribution (physics/synchrotron.h): log2 of z and X, and of the four laws for low and high frequencies. */
+/* A kappa distribution (physics/disk/synchrotron.h): log2 of z and X, and of the four laws for low and high
+ * frequencies. */
 struct kd_kappa_laws { float z, x, light_low, light_high, depth_low, depth_high; };
 kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
 {

@@ -24,7 +24,7 @@
 #define KD_BLOCK_stokes(F, U, A) \
     F(turn) F(convert) /* log2 of what a power law of electrons has to do with rho_V and rho_Q */ \
     F(gamma2)          /* log2 of the square of its least energy */ \
-    /* of a kappa distribution: physics/synchrotron.h */ \
+    /* of a kappa distribution: physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
     U(kappa_node) F(kappa_past) /* which of Marszewski's kappas is below, and the part of the way to the next */ \

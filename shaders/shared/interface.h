@@ -23,7 +23,7 @@
  * cy ahead, to the right and up: the direction is cos(y) (cos(x) c0 + sin(x) cx) + sin(y) cy, or cos(d) c0 + sin(d)
  * (x cx + y cy) / d with d^2 = x^2 + y^2. A photon that comes from there flies along m = -k, and has E = e_t + m_r
  * e_r + m_theta e_theta + m_phi e_phi; likewise L/sin(theta) by l_, p_theta by p_ and dw/dtau of the traced ray by
- * dw_: they are the legs of the observer's tetrad (src/physics/tetrad.h). */
+ * dw_: they are the legs of the observer's tetrad (src/physics/spacetime/tetrad.h). */
 /* clang-format off */
 #define KD_CAMERA_FIELDS_(F, U) \
     F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz) \

@@ -4,8 +4,9 @@
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/curve.h"
+#include "scene/hole.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -72,7 +73,7 @@ static enum kd_status span(const struct arguments *arguments, struct kd_scene *s
         return KD_OK;
     if (!kd_scene_spots(scene, on))
         return kd_error_set(error, KD_EINVAL, "--end is missing: without a spot there is no orbit to follow");
-    *to = scene->top.time + 2 * M_PI / kd_kerr_omega(scene->spacetime.spin, on[0]->r);
+    *to = scene->top.time + 2 * M_PI / kd_kerr_omega(kd_scene_hole(scene), on[0]->r);
     return KD_OK;
 }
 

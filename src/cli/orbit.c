@@ -5,7 +5,7 @@
 #include "cli/progress.h"
 #include "base/cores.h"
 #include "orbit/feed.h"
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 
 #include <pthread.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "cli/trace.h"
 
 #include "base/decimal.h"
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 #include "render/explain/steps.h"
 #include "render/rays/closed.h"
 

@@ -3,7 +3,7 @@
 #define KD_INTEGRAL_ASKED_H
 
 #include "observe/comparison.h"
-#include "physics/line_profile.h"
+#include "physics/disk/line_profile.h"
 #include "scene/asset.h"
 #include "scene/scene.h"
 

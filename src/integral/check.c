@@ -2,9 +2,9 @@
 #include "integral/internal.h"
 #include "integral/request.h"
 
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ bool kd_integral_given(const struct kd_integral_request *request, const char *na
 
 static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error *error)
 {
-    double isco = kd_kerr_isco(r->spin);
+    double isco = kd_kerr_isco(kd_hole(r->spin));
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
         return kd_error_field(
             error, "/inclination_deg",
@@ -71,7 +71,7 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
             return kd_error_field(error, pointer, "%s is given, and belongs to emissivity %s", belongs[i].name,
                                   belongs[i].words);
         }
-    double least = 1.05 * kd_kerr_horizon(r->spin);
+    double least = 1.05 * kd_hole(r->spin)->outer;
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
         return kd_error_field(error, "/height",
                               "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this spin",
@@ -202,9 +202,9 @@ done:
 
 static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd_error *error)
 {
-    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin));
-    double t = r->colour_correction *
-               kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
+    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(kd_hole(r->spin)));
+    double t = r->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(r->spin), hottest),
+                                                          kd_hole(r->spin), r->mass_msun, r->mdot_edd);
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = 1e-3 * t * KD_K_J_K / KD_H_J_S;
     if (isnan(r->frequency_max_hz))

@@ -2,11 +2,11 @@
 #include "base/pause.h"
 #include "integral/answer.h"
 #include "integral/kept.h"
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/disk_spectrum.h"
-#include "physics/kerr.h"
-#include "physics/transfer_function.h"
+#include "physics/disk/disk_spectrum.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/disk/transfer_function.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -280,7 +280,8 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     const struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
                                                     r->distance_pc, r->mdot_edd, r->colour_correction,
                                                     r->limb };
-    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin)), distance = r->distance_pc * KD_PARSEC_M;
+    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(kd_hole(r->spin))),
+           distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
     KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
@@ -292,10 +293,10 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
         c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
     }
     answer->values[0] = image->isco;
-    answer->values[1] =
-        kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
-    answer->values[2] =
-        kd_kerr_efficiency(r->spin) * kd_disk_rate(r->spin, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
+    answer->values[1] = kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(r->spin), hottest), kd_hole(r->spin),
+                                            r->mass_msun, r->mdot_edd);
+    answer->values[2] = kd_kerr_efficiency(kd_hole(r->spin)) *
+                        kd_disk_rate(kd_hole(r->spin), r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
     return status;
 }
@@ -309,7 +310,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };
-    KD_TRY(kd_kept_image(request->spin, request->inclination_deg, &image, error));
+    KD_TRY(kd_kept_image(kd_hole(request->spin), request->inclination_deg, &image, error));
     KD_TRY(compute[request->what](request, image, answer, error));
 done:
     free(image);

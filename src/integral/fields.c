@@ -2,7 +2,7 @@
 #include "base/schema.h"
 #include "integral/apart.h"
 #include "integral/request.h"
-#include "physics/disk_image.h"
+#include "physics/disk/disk_image.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,7 @@
 #include "integral/kept.h"
 
+#include "physics/spacetime/hole.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -43,15 +45,17 @@ static void keep(double spin, double inclination_deg, const struct kd_disk_image
     pthread_mutex_unlock(&lock);
 }
 
-enum kd_status kd_kept_image(double spin, double inclination_deg, struct kd_disk_image **out, struct kd_error *error)
+enum kd_status kd_kept_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
+                             struct kd_error *error)
 {
+    const double spin = hole->a;
     inclination_deg = inclination_deg > 90 ? 180 - inclination_deg : inclination_deg; /* from below as from above */
     struct kd_disk_image *image = *out = malloc(sizeof *image);
     if (!image)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the disk's image");
     if (look_up(spin, inclination_deg, image))
         return KD_OK;
-    if (!kd_disk_image_init(image, spin, inclination_deg * (M_PI / 180))) {
+    if (!kd_disk_image_init(image, hole, inclination_deg * (M_PI / 180))) {
         free(image);
         *out = NULL;
         return kd_error_field(error, "/spin",

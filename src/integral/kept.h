@@ -4,9 +4,11 @@
 #define KD_INTEGRAL_KEPT_H
 
 #include "base/error.h"
-#include "physics/disk_image.h"
+#include "physics/disk/disk_image.h"
+#include "physics/spacetime/hole.h"
 
 /* A copy of the image, made if it is not kept; the caller frees it. */
-enum kd_status kd_kept_image(double spin, double inclination_deg, struct kd_disk_image **out, struct kd_error *error);
+enum kd_status kd_kept_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
+                             struct kd_error *error);
 
 #endif

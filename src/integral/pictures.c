@@ -1,6 +1,6 @@
 #include "integral/pictures.h"
 
-#include "physics/scale.h"
+#include "physics/spacetime/scale.h"
 #include "render/output/flux.h"
 #include "render/view/camera.h"
 

@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "integral/compare.h"
-#include "physics/constants.h"
+#include "physics/math/constants.h"
 #include "render/output/wcs.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #include "integral/request.h"
 #include "integral/pictures.h"
 
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 #include "render/output/wcs.h"
 #include "scene/members.h"
 #include "scene/text.h"

@@ -2,7 +2,7 @@
 #ifndef KD_ORBIT_ASKED_H
 #define KD_ORBIT_ASKED_H
 
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 
 #include <stdbool.h>
 #include <stdint.h>

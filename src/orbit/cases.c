@@ -1,7 +1,7 @@
 #include "orbit/cases.h"
 
-#include "physics/kerr.h"
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
@@ -29,19 +29,19 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
     case KD_CASE_MERCURY: return mercury(spin);
     case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: some turns of whirl for each leaf */
         spec.e = 0.8;
-        spec.p = 1.0001 * kd_orbit_separatrix(spec.spin, spec.e, 1);
+        spec.p = 1.0001 * kd_orbit_separatrix(kd_hole(spec.spin), spec.e, 1);
         return spec;
     case KD_CASE_PLUNGE: /* thrown sideways too slowly */
         spec.form = KD_ORBIT_STATE;
-        spec.place_r = 2 * kd_kerr_isco(spec.spin);
+        spec.place_r = 2 * kd_kerr_isco(kd_hole(spec.spin));
         spec.theta_deg = 90;
         spec.frame = KD_OBSERVER_ZAMO;
         spec.v[2] = 0.2;
         return spec;
-    case KD_CASE_ISCO: spec.p = kd_kerr_isco(spec.spin); return spec;
+    case KD_CASE_ISCO: spec.p = kd_kerr_isco(kd_hole(spec.spin)); return spec;
     case KD_CASE_SPHERICAL:
         spec.inclination_deg = 60;
-        spec.p = 1.5 * kd_orbit_separatrix(spec.spin, 0, 0.5);
+        spec.p = 1.5 * kd_orbit_separatrix(kd_hole(spec.spin), 0, 0.5);
         return spec;
     case KD_CASES: break;
     }

@@ -4,7 +4,8 @@
 #include "base/slip.h"
 #include "orbit/cases.h"
 #include "orbit/fields.h"
-#include "physics/angle.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/hole.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
@@ -369,13 +370,14 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     double x = kd_cos_deg(s->inclination_deg), r = s->r;
     enum kd_status status;
     switch (s->form) {
-    case KD_ORBIT_SHAPE: status = kd_orbit_from_shape(s->spin, s->p, s->e, x, orbit, error); break;
+    case KD_ORBIT_SHAPE: status = kd_orbit_from_shape(kd_hole(s->spin), s->p, s->e, x, orbit, error); break;
     case KD_ORBIT_CONSTANTS:
         if (isnan(r) && s->energy >= 1)
             r = params->r_max;
-        status = kd_orbit_from_constants(s->spin, s->energy, s->momentum, s->carter, r, orbit, error);
+        status = kd_orbit_from_constants(kd_hole(s->spin), s->energy, s->momentum, s->carter, r, orbit, error);
         break;
-    default: status = kd_orbit_from_state(s->spin, s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
+    default:
+        status = kd_orbit_from_state(kd_hole(s->spin), s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
     }
     if (!status && s->form != KD_ORBIT_STATE)
         *start = kd_orbit_start(orbit, s->form == KD_ORBIT_SHAPE ? NAN : r, s->outward);

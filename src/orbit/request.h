@@ -19,7 +19,7 @@
 
 #include "base/error.h"
 #include "orbit/asked.h"
-#include "physics/orbit_path.h"
+#include "physics/orbit/orbit_path.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,8 +3,8 @@
 #include "base/pause.h"
 #include "orbit/cases.h"
 #include "orbit/step.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
@@ -28,10 +28,10 @@ static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
     const struct kd_observer_motion motion = kd_observer_motion_of(o->motion);
     char others[KD_OBSERVER_TEXT];
     run->image = (struct kd_place_image) { .off = NAN };
-    if (isfinite(o->r) && !(o->r > kd_kerr_horizon(run->orbit.a)))
+    if (isfinite(o->r) && !(o->r > kd_hole(run->orbit.a)->outer))
         return kd_error_field(error, "/seen/observer_r",
                               "observer_r is %.9g; it must be a radius outside the horizon, r = %.9g", o->r,
-                              kd_kerr_horizon(run->orbit.a));
+                              kd_hole(run->orbit.a)->outer);
     if (isfinite(o->r) && !kd_observer_exists(o->motion, &at))
         return kd_error_field(error, "/seen/observer_r",
                               "observer_r is %.9g, where there is no observer %s; observers there are %s", o->r,
@@ -91,7 +91,7 @@ static double mino_at(const struct kd_orbit_run *run, double time)
  * Next to a whirl a step that is too long does so. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_kerr_horizon(o->a)); /* or no number any more */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_hole(o->a)->outer); /* or no number any more */
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
@@ -107,7 +107,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
-    double horizon = 1 / kd_kerr_horizon(o->a), far = 1 / run->params->r_max;
+    double horizon = 1 / kd_hole(o->a)->outer, far = 1 / run->params->r_max;
     double time = run->params->time,
            turns = isnan(run->params->periods) || !o->circular ? LONGEST_TURNS : run->params->periods;
     double longest = turns * 2 * M_PI / kd_orbit_pace(o);

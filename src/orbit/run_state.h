@@ -3,8 +3,8 @@
 #define KD_ORBIT_RUN_STATE_H
 
 #include "orbit/asked.h"
-#include "physics/orbit_lanes.h"
-#include "physics/place_image.h"
+#include "physics/null/place_image.h"
+#include "physics/orbit/orbit_lanes.h"
 
 enum kd_orbit_end { KD_END_DURATION, KD_END_HORIZON, KD_END_FAR };
 const char *kd_orbit_end_name(enum kd_orbit_end end); /* "duration", "horizon", "r_max" */

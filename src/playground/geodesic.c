@@ -2,7 +2,7 @@
 
 #include "playground/body.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,21 +24,21 @@ static double pace(const struct kd_orbit *o)
     return sqrt(fastest);
 }
 
-enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, const double x[3], const double v[3],
-                                 double t, struct kd_error *error)
+enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct kd_hole *hole, const double x[3],
+                                 const double v[3], double t, struct kd_error *error)
 {
     const struct kd_playground_spherical at = kd_playground_spherical(x, v);
     struct kd_orbit orbit;
     struct kd_orbit_state start;
     enum kd_status status =
-        kd_orbit_from_state(spin, at.r, at.theta * 180 / M_PI, KD_OBSERVER_ZAMO, at.v, &orbit, &start, error);
+        kd_orbit_from_state(hole, at.r, at.theta * 180 / M_PI, KD_OBSERVER_ZAMO, at.v, &orbit, &start, error);
     if (status) {
         if (error && strncmp(error->pointer, "/velocity", 9))
             strcpy(error->pointer, "/position");
         return status;
     }
     *g = (struct kd_playground_geodesic) {
-        .spin = spin, .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN
+        .spin = hole->a, .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN
     };
     memcpy(g->from_x, x, sizeof g->from_x);
     memcpy(g->from_v, v, sizeof g->from_v);
@@ -74,9 +74,9 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 
 static enum kd_geodesic_fate fate_at(const struct kd_playground_geodesic *g, double r)
 {
-    return !(r > KD_GEODESIC_NEAR * kd_kerr_horizon(g->spin)) ? KD_GEODESIC_CAPTURED
-           : !(r < KD_GEODESIC_FAR)                           ? KD_GEODESIC_AWAY
-                                                              : KD_GEODESIC_GOES;
+    return !(r > KD_GEODESIC_NEAR * kd_hole(g->spin)->outer) ? KD_GEODESIC_CAPTURED
+           : !(r < KD_GEODESIC_FAR)                          ? KD_GEODESIC_AWAY
+                                                             : KD_GEODESIC_GOES;
 }
 
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps)

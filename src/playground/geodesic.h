@@ -1,13 +1,14 @@
 /* A test body follows an exact timelike geodesic of Kerr, from time to time. One thread a geodesic.
  *
- * The method is that of physics/orbit_path.h, by Mino time with a step of its own; where the body is at a coordinate
- * time is found between two steps. A place is x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta)
- * of its Boyer-Lindquist coordinates, and a velocity what an observer of zero angular momentum there measures along
- * e_r, e_theta, e_phi, put together as if these were the directions of a flat space. */
+ * The method is that of physics/orbit/orbit_path.h, by Mino time with a step of its own; where the body is at a
+ * coordinate time is found between two steps. A place is x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r
+ * cos(theta) of its Boyer-Lindquist coordinates, and a velocity what an observer of zero angular momentum there
+ * measures along e_r, e_theta, e_phi, put together as if these were the directions of a flat space. */
 #ifndef KD_PLAYGROUND_GEODESIC_H
 #define KD_PLAYGROUND_GEODESIC_H
 
-#include "physics/orbit_path.h"
+#include "physics/orbit/orbit_path.h"
+#include "physics/spacetime/hole.h"
 
 #define KD_GEODESIC_FAR 1e6 /* M; who goes farther is let go */
 #define KD_GEODESIC_NEAR \
@@ -23,8 +24,8 @@ struct kd_playground_geodesic {
 };
 
 /* KD_EINVAL, with the pointer "/position" or "/velocity", where there is no such motion. */
-enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, const double x[3], const double v[3],
-                                 double t, struct kd_error *error);
+enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct kd_hole *hole, const double x[3],
+                                 const double v[3], double t, struct kd_error *error);
 
 /* Goes on to the step that leads past the time t, which is not before that of the last call, or to where the body is
  * captured or let go: in up to `steps` steps, which are counted down. False: they are spent, and the next call goes

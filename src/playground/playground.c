@@ -1,5 +1,6 @@
 #include "playground/playground.h"
 
+#include "physics/spacetime/hole.h"
 #include "playground/hole.h"
 #include "playground/wave.h"
 
@@ -107,7 +108,7 @@ static enum kd_status put(struct kd_playground *p, size_t i, const struct kd_pla
 {
     enum kd_status status = check(p, body, error);
     if (!status && kerr(p))
-        status = kd_geodesic_begin(&p->geodesics[i], p->params.spin, body->x, body->v, p->t, error);
+        status = kd_geodesic_begin(&p->geodesics[i], kd_hole(p->params.spin), body->x, body->v, p->t, error);
     if (status)
         return status;
     p->bodies[i] = *body;

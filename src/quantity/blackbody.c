@@ -1,7 +1,7 @@
 #include "quantity/define.h"
 
-#include "physics/colour.h"
-#include "physics/constants.h"
+#include "physics/disk/colour.h"
+#include "physics/math/constants.h"
 
 #define PARAMETERS(P) \
     P(temperature_k, .unit = "K", .initial = "5772", .minimum = 100, .maximum = 1e9, .help = "temperature")

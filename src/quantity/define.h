@@ -11,7 +11,8 @@
 #ifndef KD_QUANTITY_DEFINE_H
 #define KD_QUANTITY_DEFINE_H
 
-#include "physics/observer.h"
+#include "physics/spacetime/hole.h"
+#include "physics/spacetime/observer.h"
 #include "quantity/quantity.h"
 
 #include <math.h>
@@ -78,7 +79,7 @@
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
 /* r at or outside the horizon of spin a, or that error. */
-enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error);
+enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error);
 /* Whether there is such an observer, or the error for /observer_r or the number that is wrong. */
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error);

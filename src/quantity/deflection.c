@@ -1,6 +1,7 @@
 #include "quantity/define.h"
 
-#include "physics/deflection.h"
+#include "physics/null/deflection.h"
+#include "physics/spacetime/hole.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -53,18 +54,20 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     double a = p->spin, b = p->b;
     (void)error;
     if (fresh) {
-        *m = (struct memory) { kd_deflection_strong(a), kd_deflection_strong(-a) };
-        o->b_critical = kd_deflection_critical(a), o->b_critical_retrograde = kd_deflection_critical(-a);
+        *m = (struct memory) { kd_deflection_strong(kd_hole(a)), kd_deflection_strong(kd_hole(-a)) };
+        o->b_critical = kd_deflection_critical(kd_hole(a)),
+        o->b_critical_retrograde = kd_deflection_critical(kd_hole(-a));
         o->strong_rate = m->with.rate, o->strong_offset = m->with.offset;
     }
-    o->angle = kd_deflection(a, b), o->angle_retrograde = kd_deflection(-a, b);
+    o->angle = kd_deflection(kd_hole(a), b), o->angle_retrograde = kd_deflection(kd_hole(-a), b);
     o->weak = kd_deflection_weak(b);
-    o->weak_second = kd_deflection_weak_second(a, b);
-    o->weak_second_retrograde = kd_deflection_weak_second(-a, b);
+    o->weak_second = kd_deflection_weak_second(kd_hole(a), b);
+    o->weak_second_retrograde = kd_deflection_weak_second(kd_hole(-a), b);
     o->strong = strong(m->with, b, o->b_critical);
     o->strong_retrograde = strong(m->against, b, o->b_critical_retrograde);
-    o->closest = kd_deflection_closest(a, b), o->closest_retrograde = kd_deflection_closest(-a, b);
-    o->farthest = kd_deflection_farthest(a, b), o->farthest_retrograde = kd_deflection_farthest(-a, b);
+    o->closest = kd_deflection_closest(kd_hole(a), b), o->closest_retrograde = kd_deflection_closest(kd_hole(-a), b);
+    o->farthest = kd_deflection_farthest(kd_hole(a), b),
+    o->farthest_retrograde = kd_deflection_farthest(kd_hole(-a), b);
     return KD_OK;
 }
 

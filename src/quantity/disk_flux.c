@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -44,12 +44,13 @@ static const char *const approximations[] = {
 static void fill_disk(const struct parameters *p, struct outputs *o)
 {
     double m_sun_kg = KD_GM_SUN_SI / KD_G_SI;
-    o->inner = kd_kerr_isco(p->spin);
-    o->r_peak = kd_disk_peak_page_thorne(p->spin);
-    o->t_peak_k = kd_disk_temperature(kd_disk_flux_page_thorne(p->spin, o->r_peak), p->spin, p->mass_msun, p->mdot_edd);
-    o->efficiency = kd_kerr_efficiency(p->spin);
+    o->inner = kd_kerr_isco(kd_hole(p->spin));
+    o->r_peak = kd_disk_peak_page_thorne(kd_hole(p->spin));
+    o->t_peak_k = kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(p->spin), o->r_peak), kd_hole(p->spin),
+                                      p->mass_msun, p->mdot_edd);
+    o->efficiency = kd_kerr_efficiency(kd_hole(p->spin));
     o->efficiency_newton = 1 / (2 * o->inner);
-    o->mdot_kg_s = kd_disk_rate(p->spin, p->mass_msun, p->mdot_edd);
+    o->mdot_kg_s = kd_disk_rate(kd_hole(p->spin), p->mass_msun, p->mdot_edd);
     o->mdot_msun_yr = o->mdot_kg_s * KD_YEAR_S / m_sun_kg;
     o->luminosity_w = o->efficiency * o->mdot_kg_s * KD_C_M_S * KD_C_M_S;
     o->luminosity_lsun = o->luminosity_w / KD_L_SUN_W;
@@ -60,16 +61,16 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
-    if (kd_quantity_outside_horizon(p->spin, p->r, error))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
         return KD_EINVAL;
     if (fresh)
         fill_disk(p, o);
-    o->page_thorne = kd_disk_flux_page_thorne(p->spin, p->r);
-    o->shakura_sunyaev = kd_disk_flux_shakura_sunyaev(p->spin, p->r);
-    o->page_thorne_w_m2 = kd_disk_flux_si(o->page_thorne, p->spin, p->mass_msun, p->mdot_edd);
-    o->shakura_sunyaev_w_m2 = kd_disk_flux_si(o->shakura_sunyaev, p->spin, p->mass_msun, p->mdot_edd);
-    o->t_eff_k = kd_disk_temperature(o->page_thorne, p->spin, p->mass_msun, p->mdot_edd);
-    o->t_eff_newton_k = kd_disk_temperature(o->shakura_sunyaev, p->spin, p->mass_msun, p->mdot_edd);
+    o->page_thorne = kd_disk_flux_page_thorne(kd_hole(p->spin), p->r);
+    o->shakura_sunyaev = kd_disk_flux_shakura_sunyaev(kd_hole(p->spin), p->r);
+    o->page_thorne_w_m2 = kd_disk_flux_si(o->page_thorne, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
+    o->shakura_sunyaev_w_m2 = kd_disk_flux_si(o->shakura_sunyaev, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
+    o->t_eff_k = kd_disk_temperature(o->page_thorne, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
+    o->t_eff_newton_k = kd_disk_temperature(o->shakura_sunyaev, kd_hole(p->spin), p->mass_msun, p->mdot_edd);
     return KD_OK;
 }
 

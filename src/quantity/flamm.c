@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/embedding.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/embedding.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
@@ -34,16 +34,16 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    if (kd_quantity_outside_horizon(p->spin, p->r, error))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
         return KD_EINVAL;
     if (fresh || m->r != p->r)
-        *m = (struct memory) { p->r, kd_embedding_height(p->spin, p->r) };
-    o->horizon = kd_kerr_horizon(p->spin);
-    o->radius = kd_embedding_radius(p->spin, p->r);
+        *m = (struct memory) { p->r, kd_embedding_height(kd_hole(p->spin), p->r) };
+    o->horizon = kd_hole(p->spin)->outer;
+    o->radius = kd_embedding_radius(kd_hole(p->spin), p->r);
     o->x = o->radius * kd_cos_deg(p->phi_deg);
     o->y = o->radius * kd_sin_deg(p->phi_deg);
     o->z = m->z;
-    o->proper_distance = kd_embedding_distance(p->spin, p->r);
+    o->proper_distance = kd_embedding_distance(kd_hole(p->spin), p->r);
     o->flamm = p->r >= 2 ? sqrt(8 * (p->r - 2)) : NAN;
     return KD_OK;
 }

@@ -1,7 +1,7 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -29,16 +29,16 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct outputs *o = KD_QUANTITY_OUT(out);
     double a = p->spin, r = p->r, u = kd_cos_deg(p->theta_deg), s = kd_sin_deg(p->theta_deg);
     (void)memory;
-    if (kd_quantity_outside_horizon(a, r, error))
+    if (kd_quantity_outside_horizon(kd_hole(a), r, error))
         return KD_EINVAL;
     if (fresh) {
-        o->horizon_omega = a / (2 * kd_kerr_horizon(a));
-        o->ergosphere = kd_kerr_ergosphere(a, u);
+        o->horizon_omega = a / (2 * kd_hole(a)->outer);
+        o->ergosphere = kd_kerr_ergosphere(kd_hole(a), u);
     }
-    o->omega = kd_kerr_dragging(a, r, u);
+    o->omega = kd_kerr_dragging(kd_hole(a), r, u);
     o->far_field = 2 * a / (r * r * r);
     bool axis = p->theta_deg == 0 || p->theta_deg == 180;
-    double reach = kd_kerr_rotation_reach(a, r, u, s);
+    double reach = kd_kerr_rotation_reach(kd_hole(a), r, u, s);
     o->omega_least = axis ? NAN : o->omega - reach;
     o->omega_most = axis ? NAN : o->omega + reach;
     return KD_OK;

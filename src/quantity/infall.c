@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/scale.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
@@ -47,7 +47,7 @@ static const char *const approximations[] = { NULL };
 static enum kd_status check(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                             struct kd_error *error)
 {
-    const double end = kd_kerr_inner_horizon(at->spin);
+    const double end = kd_hole(at->spin)->inner;
     if (!(at->r > end))
         return kd_quantity_outside(error, "r", at->r, "not outside %.9g M, where the model ends", end);
     if (kd_quantity_observer_exists(motion, at, error))
@@ -71,12 +71,12 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         .fall_energy = p->infall_energy,
         .fall_momentum = p->infall_momentum,
     };
-    const double horizon = kd_kerr_horizon(p->spin), second = kd_scale_seconds(p->mass_msun);
+    const double horizon = kd_hole(p->spin)->outer, second = kd_scale_seconds(p->mass_msun);
     if (check(&motion, &at, error))
         return KD_EINVAL;
     const struct kd_tetrad frame = kd_observer_tetrad(&motion, &at);
     bool within = at.r <= horizon;
-    o->end = kd_kerr_inner_horizon(p->spin);
+    o->end = kd_hole(p->spin)->inner;
     o->energy = kd_observer_energy(&motion, &at);
     o->proper_time_to_end = kd_infall_proper_time(&motion, &at, o->end);
     const struct kd_infall_way way = kd_infall_way(&motion, &at, o->end);
@@ -90,7 +90,8 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     if (!within) {
         const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
         const struct kd_tetrad rest = kd_observer_tetrad(&zamo, &at);
-        double gamma = (frame.t.energy - kd_kerr_dragging(at.spin, at.r, at.u) * motion.fall_momentum) / rest.t.energy;
+        double gamma =
+            (frame.t.energy - kd_kerr_dragging(kd_hole(at.spin), at.r, at.u) * motion.fall_momentum) / rest.t.energy;
         o->velocity = -frame.t.radial / rest.r.radial / gamma;
     }
     return KD_OK;

@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/constants.h"
-#include "physics/inspiral.h"
-#include "physics/scale.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/scale.h"
+#include "physics/waves/inspiral.h"
 
 #define PARAMETERS(P) \
     P(mass1_msun, .unit = "solar masses", .initial = "1.4398", .minimum = 1e-10, .maximum = 1e12, .help = "one mass") \

@@ -1,8 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/epicyclic.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/epicyclic.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -42,20 +42,20 @@ static const char *const approximations[] = { NULL };
 static void fill_hole(const struct parameters *p, struct outputs *o)
 {
     double a = p->spin;
-    o->horizon = kd_kerr_horizon(a);
-    o->inner_horizon = kd_kerr_inner_horizon(a);
+    o->horizon = kd_hole(a)->outer;
+    o->inner_horizon = kd_hole(a)->inner;
     o->horizon_omega = a / (2 * o->horizon);
-    o->ergosphere = kd_kerr_ergosphere(a, kd_cos_deg(p->theta_deg));
-    o->photon_prograde = kd_kerr_photon_orbit(a);
-    o->photon_retrograde = kd_kerr_photon_orbit(-a);
-    o->marginally_bound = kd_kerr_marginally_bound(a);
-    o->marginally_bound_retrograde = kd_kerr_marginally_bound(-a);
-    o->isco = kd_kerr_isco(a);
-    o->isco_retrograde = kd_kerr_isco(-a);
-    o->isco_energy = kd_kerr_energy(a, o->isco);
-    o->isco_momentum = kd_kerr_momentum(a, o->isco);
-    o->isco_omega = kd_kerr_omega(a, o->isco);
-    o->efficiency = kd_kerr_efficiency(a);
+    o->ergosphere = kd_kerr_ergosphere(kd_hole(a), kd_cos_deg(p->theta_deg));
+    o->photon_prograde = kd_kerr_photon_orbit(kd_hole(a));
+    o->photon_retrograde = kd_kerr_photon_orbit(kd_hole(-a));
+    o->marginally_bound = kd_kerr_marginally_bound(kd_hole(a));
+    o->marginally_bound_retrograde = kd_kerr_marginally_bound(kd_hole(-a));
+    o->isco = kd_kerr_isco(kd_hole(a));
+    o->isco_retrograde = kd_kerr_isco(kd_hole(-a));
+    o->isco_energy = kd_kerr_energy(kd_hole(a), o->isco);
+    o->isco_momentum = kd_kerr_momentum(kd_hole(a), o->isco);
+    o->isco_omega = kd_kerr_omega(kd_hole(a), o->isco);
+    o->efficiency = kd_kerr_efficiency(kd_hole(a));
 }
 
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
@@ -67,13 +67,13 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         fill_hole(p, o);
     double r = isinf(p->r) ? o->isco : p->r;
     bool orbit = r > o->photon_prograde;
-    if (kd_quantity_outside_horizon(p->spin, r, error))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), r, error))
         return KD_EINVAL;
-    o->energy = orbit ? kd_kerr_energy(p->spin, r) : NAN;
-    o->momentum = orbit ? kd_kerr_momentum(p->spin, r) : NAN;
-    o->omega_phi = orbit ? kd_kerr_omega(p->spin, r) : NAN;
-    o->kappa = orbit ? kd_epicyclic_radial(p->spin, r) : NAN;
-    o->omega_theta = orbit ? kd_epicyclic_vertical(p->spin, r) : NAN;
+    o->energy = orbit ? kd_kerr_energy(kd_hole(p->spin), r) : NAN;
+    o->momentum = orbit ? kd_kerr_momentum(kd_hole(p->spin), r) : NAN;
+    o->omega_phi = orbit ? kd_kerr_omega(kd_hole(p->spin), r) : NAN;
+    o->kappa = orbit ? kd_epicyclic_radial(kd_hole(p->spin), r) : NAN;
+    o->omega_theta = orbit ? kd_epicyclic_vertical(kd_hole(p->spin), r) : NAN;
     return KD_OK;
 }
 

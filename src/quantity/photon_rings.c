@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/critical.h"
-#include "physics/kerr.h"
-#include "physics/lensing.h"
+#include "physics/math/angle.h"
+#include "physics/null/critical.h"
+#include "physics/null/lensing.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -56,7 +56,7 @@ static double width_of(const struct memory *m, const struct parameters *p, int o
 /* From below the plane the picture is that from above, upside down. */
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
-    const double horizon = kd_kerr_horizon(p->spin);
+    const double horizon = kd_hole(p->spin)->outer;
     const bool below = p->inclination_deg > 90;
     m->inner = isinf(p->inner) ? horizon : p->inner;
     if (m->inner < horizon)

@@ -1,6 +1,7 @@
+#include "physics/spacetime/hole.h"
 #include "quantity/define.h"
 
-#include "physics/potential.h"
+#include "physics/spacetime/potential.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
@@ -30,8 +31,8 @@ static const char *const approximations[] = {
 
 static void fill_extrema(const struct parameters *p, struct outputs *o)
 {
-    struct kd_potential_extrema matter = kd_potential_of_matter(p->spin, p->l),
-                                light = kd_potential_of_light(p->spin, p->l);
+    struct kd_potential_extrema matter = kd_potential_of_matter(kd_hole(p->spin), p->l),
+                                light = kd_potential_of_light(kd_hole(p->spin), p->l);
     o->r_max_matter = matter.r_max;
     o->v_max_matter = matter.v_max;
     o->r_min_matter = matter.r_min;
@@ -45,12 +46,12 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
-    if (kd_quantity_outside_horizon(p->spin, p->r, error))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), p->r, error))
         return KD_EINVAL;
     if (fresh)
         fill_extrema(p, o);
-    o->v_matter = kd_potential(p->spin, p->l, 1, p->r);
-    o->v_light = kd_potential(p->spin, p->l, 0, p->r);
+    o->v_matter = kd_potential(kd_hole(p->spin), p->l, 1, p->r);
+    o->v_light = kd_potential(kd_hole(p->spin), p->l, 0, p->r);
     o->newton = 1 - 1 / p->r + p->l * p->l / (2 * p->r * p->r);
     return KD_OK;
 }

@@ -1,8 +1,9 @@
+#include "physics/spacetime/hole.h"
 #include "quantity/define.h"
 
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
-#include "physics/scale.h"
+#include "physics/spacetime/scale.h"
+#include "physics/waves/qnm.h"
+#include "physics/waves/ringdown.h"
 
 #include <stdlib.h>
 
@@ -63,8 +64,8 @@ static void fill_fits(const struct parameters *p, struct outputs *o)
 {
     double a = fabs(p->spin);
     bool with = p->l == 2 && p->m == (p->spin < 0 ? -2 : 2);
-    struct kd_ringdown_fit fit = kd_ringdown_fit(with ? (int)p->n : -1, a);
-    o->quality_cubic = with && p->n == 0 ? kd_ringdown_quality_cubic(a) : NAN;
+    struct kd_ringdown_fit fit = kd_ringdown_fit(with ? (int)p->n : -1, kd_hole(a));
+    o->quality_cubic = with && p->n == 0 ? kd_ringdown_quality_cubic(kd_hole(a)) : NAN;
     o->quality_cubic_error = o->quality_cubic / o->quality - 1;
     o->fit_omega_re = fit.omega_re;
     o->fit_quality = fit.quality;
@@ -81,7 +82,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         return kd_quantity_outside(error, "m", p->m, "and l is %g; it must be -%g to %g", p->l, p->l, p->l);
     if (fresh) {
         struct kd_qnm mode;
-        if (!kd_qnm_find((int)p->l, (int)p->m, (int)p->n, p->spin, &mode))
+        if (!kd_qnm_find((int)p->l, (int)p->m, (int)p->n, kd_hole(p->spin), &mode))
             return kd_quantity_outside(error, "spin", p->spin, "where the iteration for this mode does not settle");
         o->omega_re = creal(mode.omega), o->omega_im = cimag(mode.omega);
         o->separation_re = creal(mode.separation), o->separation_im = cimag(mode.separation);

@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/ring_image.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/angle.h"
+#include "physics/null/ring_image.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -52,8 +52,9 @@ static double g_of(const struct parameters *p, double r, const struct kd_ring_im
 {
     double s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), lambda = -at->alpha * s;
     double eta = (at->alpha * at->alpha - p->spin * p->spin) * c * c + at->beta * at->beta;
-    return r >= kd_kerr_isco(p->spin) ? kd_disk_redshift(p->spin, r, lambda)
-                                      : kd_disk_redshift_plunging(p->spin, r, lambda, eta, at->sense > 0);
+    return r >= kd_kerr_isco(kd_hole(p->spin))
+               ? kd_disk_redshift(kd_hole(p->spin), r, lambda)
+               : kd_disk_redshift_plunging(kd_hole(p->spin), r, lambda, eta, at->sense > 0);
 }
 
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)
@@ -67,11 +68,11 @@ static enum kd_status make_rings(const struct parameters *p, struct memory *m, s
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
                                    "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
-    m->r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
-    if (m->r <= kd_kerr_horizon(p->spin))
-        return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_kerr_horizon(p->spin));
-    bool found = kd_ring_image_init(&m->rings[0], p->spin, up, m->r, 0) &&
-                 kd_ring_image_init(&m->rings[1], p->spin, up, m->r, 1);
+    m->r = isinf(p->r) ? kd_kerr_isco(kd_hole(p->spin)) : p->r;
+    if (m->r <= kd_hole(p->spin)->outer)
+        return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_hole(p->spin)->outer);
+    bool found = kd_ring_image_init(&m->rings[0], kd_hole(p->spin), up, m->r, 0) &&
+                 kd_ring_image_init(&m->rings[1], kd_hole(p->spin), up, m->r, 1);
     return found ? KD_OK : not_found(m, error);
 }
 

@@ -1,9 +1,9 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/ring_image.h"
-#include "physics/ring_view.h"
+#include "physics/math/angle.h"
+#include "physics/null/ring_image.h"
+#include "physics/null/ring_view.h"
+#include "physics/spacetime/kerr.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -54,7 +54,7 @@ static enum kd_status make(const struct parameters *p, double r, struct memory *
     const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
     if (isinf(at.r)) { /* from below the plane it looks the same but for beta */
-        m->far = kd_ring_image_plain(p->spin, (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
+        m->far = kd_ring_image_plain(kd_hole(p->spin), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
         return KD_OK;
     }
     if (kd_quantity_observer_exists(&motion, &at, error))
@@ -86,11 +86,11 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
+    const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(kd_hole(p->spin)) : p->r;
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i,
                                    "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
-    if (kd_quantity_outside_horizon(p->spin, r, error) || (fresh && make(p, r, m, error)))
+    if (kd_quantity_outside_horizon(kd_hole(p->spin), r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
         return kd_quantity_outside(error, "r", r, "too near the horizon for its image to be found; it must be larger");

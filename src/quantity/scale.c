@@ -1,10 +1,10 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/constants.h"
-#include "physics/critical.h"
-#include "physics/kerr.h"
-#include "physics/scale.h"
+#include "physics/math/angle.h"
+#include "physics/math/constants.h"
+#include "physics/null/critical.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
 
 #define PARAMETERS(P) \
     P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*") \
@@ -86,12 +86,12 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->ring_uas = hole ? hole->ring_uas : NAN;
     o->ring_error_uas = hole ? hole->ring_error_uas : NAN;
     o->ring_over_shadow = o->ring_uas / o->shadow_uas;
-    double horizon = kd_kerr_horizon(p->spin);
+    double horizon = kd_hole(p->spin)->outer;
     o->horizon_km = horizon * o->m_km;
     o->horizon_au = o->horizon_km * 1e3 / KD_AU_M;
     o->light_crossing_s = 2 * horizon * o->m_s;
-    o->isco_period_s = 2 * M_PI / kd_kerr_omega(p->spin, kd_kerr_isco(p->spin)) * o->m_s;
-    o->photon_period_s = 2 * M_PI / kd_kerr_omega(p->spin, kd_kerr_photon_orbit(p->spin)) * o->m_s;
+    o->isco_period_s = 2 * M_PI / kd_kerr_omega(kd_hole(p->spin), kd_kerr_isco(kd_hole(p->spin))) * o->m_s;
+    o->photon_period_s = 2 * M_PI / kd_kerr_omega(kd_hole(p->spin), kd_kerr_photon_orbit(kd_hole(p->spin))) * o->m_s;
     o->fall_s = KD_SCALE_FALL * o->m_s;
     o->fall_longest_s = KD_SCALE_FALL_LONGEST * o->m_s;
     return KD_OK;

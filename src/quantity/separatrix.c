@@ -1,7 +1,8 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/orbit.h"
+#include "physics/math/angle.h"
+#include "physics/orbit/timelike.h"
+#include "physics/spacetime/hole.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
@@ -30,10 +31,10 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory, (void)fresh, (void)error;
-    o->p = kd_orbit_separatrix(p->spin, p->e, kd_cos_deg(p->inclination_deg));
+    o->p = kd_orbit_separatrix(kd_hole(p->spin), p->e, kd_cos_deg(p->inclination_deg));
     o->r_min = o->p / (1 + p->e);
     o->r_max = o->p / (1 - p->e);
-    o->circle = kd_orbit_least_circle(p->spin, kd_cos_deg(p->inclination_deg));
+    o->circle = kd_orbit_least_circle(kd_hole(p->spin), kd_cos_deg(p->inclination_deg));
     return KD_OK;
 }
 

@@ -1,7 +1,7 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/critical.h"
+#include "physics/math/angle.h"
+#include "physics/null/critical.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

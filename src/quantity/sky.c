@@ -1,7 +1,7 @@
 #include "quantity/define.h"
 
-#include "physics/angle.h"
-#include "physics/sky_view.h"
+#include "physics/math/angle.h"
+#include "physics/null/sky_view.h"
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \

@@ -1,6 +1,6 @@
 #include "quantity/define.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "scene/observer_fault.h"
 #include "scene/number.h"
 
@@ -49,9 +49,9 @@ enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, dou
     return kd_error_field(error, pointer, "%s is %s, %s", name, number, text);
 }
 
-enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error)
+enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error)
 {
-    double horizon = kd_kerr_horizon(a);
+    double horizon = hole->outer;
     return r >= horizon
                ? KD_OK
                : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; it must be outside", horizon);
@@ -61,8 +61,8 @@ enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *moti
                                            struct kd_error *error)
 {
     static const struct kd_observer_names names = { "", "", "observer_r", "observer" };
-    const double horizon = kd_kerr_horizon(at->spin);
-    if (!(at->r > horizon) && kd_observers[motion->observer].outside(at->spin, at->u) >= horizon)
+    const double horizon = kd_hole(at->spin)->outer;
+    if (!(at->r > horizon) && kd_observers[motion->observer].outside(kd_hole(at->spin), at->u) >= horizon)
         return kd_quantity_outside(error, "observer_r", at->r, "not outside the horizon at %.9g M", horizon);
     enum kd_status status = kd_observer_check_place(&names, motion->observer, at, error);
     return status || !isfinite(at->r) ? status : kd_observer_check_numbers(&names, motion, at, error);

@@ -1,10 +1,10 @@
 #include "quantity/define.h"
 
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/scale.h"
-#include "physics/tidal.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
+#include "physics/waves/tidal.h"
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, \
@@ -71,15 +71,15 @@ static void fill_star(const struct parameters *p, struct kd_tidal t, struct outp
     double to_msun_yr = p->mass_msun * KD_YEAR_S / unit_s, fallback = kd_tidal_fallback_time(t);
     o->tidal_radius = kd_tidal_radius(t);
     o->tidal_radius_km = o->tidal_radius * kd_scale_metres(p->mass_msun) * 1e-3;
-    o->horizon = kd_kerr_horizon(p->spin);
-    o->marginally_bound = kd_kerr_marginally_bound(p->spin);
-    o->hills_msun = kd_tidal_hills_mass(t, p->spin) * p->mass_msun;
-    o->capture_msun = kd_tidal_capture_mass(t, p->spin) * p->mass_msun;
+    o->horizon = kd_hole(p->spin)->outer;
+    o->marginally_bound = kd_kerr_marginally_bound(kd_hole(p->spin));
+    o->hills_msun = kd_tidal_hills_mass(t, kd_hole(p->spin)) * p->mass_msun;
+    o->capture_msun = kd_tidal_capture_mass(t, kd_hole(p->spin)) * p->mass_msun;
     o->energy_spread = kd_tidal_energy_spread(t);
     o->fallback_s = fallback * unit_s;
     o->fallback_days = o->fallback_s / day;
     o->peak_msun_yr = kd_tidal_fallback_rate(t, fallback) * to_msun_yr;
-    o->peak_eddington = o->peak_msun_yr / (kd_disk_rate(p->spin, p->mass_msun, 1) * KD_YEAR_S / m_sun_kg);
+    o->peak_eddington = o->peak_msun_yr / (kd_disk_rate(kd_hole(p->spin), p->mass_msun, 1) * KD_YEAR_S / m_sun_kg);
     o->above_eddington_days = o->peak_eddington > 1 ? o->fallback_days * pow(o->peak_eddington, 0.6) : NAN;
 }
 

@@ -1,7 +1,7 @@
 #include "scene/aim.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
@@ -11,7 +11,7 @@ static const double BESIDE = 1e-7;
 
 static struct kd_vantage beside_horizon(struct kd_vantage at)
 {
-    const double horizon = kd_kerr_horizon(at.spin);
+    const double horizon = kd_hole(at.spin)->outer;
     if (fabs(at.r - horizon) < BESIDE)
         at.r = horizon + BESIDE;
     return at;

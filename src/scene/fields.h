@@ -29,7 +29,7 @@
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
 
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M", \

@@ -1,12 +1,12 @@
 #include "scene/scene.h"
 
-#include "physics/angle.h"
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
-#include "physics/scale.h"
-#include "physics/worldline.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/scale.h"
+#include "physics/spacetime/worldline.h"
+#include "physics/waves/qnm.h"
+#include "physics/waves/ringdown.h"
 
 #define TIME_END 1e12 /* of `time` in fields.h, either way */
 
@@ -66,12 +66,12 @@ bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_observer_motion motion = kd_scene_observer(scene);
-    const double horizon = kd_kerr_horizon(at.spin);
+    const double horizon = kd_hole(at.spin)->outer;
     if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
         return false;
     *out = (struct kd_fall_clock) {
         .to_horizon = at.r > horizon ? kd_infall_proper_time(&motion, &at, horizon) : NAN,
-        .to_end = kd_infall_proper_time(&motion, &at, kd_kerr_inner_horizon(at.spin)),
+        .to_end = kd_infall_proper_time(&motion, &at, kd_hole(at.spin)->inner),
         .second = kd_scale_seconds(scene->spacetime.mass_msun),
     };
     return true;
@@ -142,7 +142,7 @@ bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
     struct kd_qnm mode;
     if (!(scene->style.ringdown > 0) || t < 0)
         return false;
-    kd_qnm_find(2, 2, 0, fabs(scene->spacetime.spin), &mode); /* a valid scene's spin is in the domain */
+    kd_qnm_find(2, 2, 0, kd_hole(fabs(scene->spacetime.spin)), &mode); /* a valid scene's spin is in the domain */
     *wave = kd_ringdown_wave(mode.omega, t);
     return true;
 }

@@ -3,7 +3,7 @@
 #define KD_SCENE_OBSERVER_FAULT_H
 
 #include "base/error.h"
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 
 /* How whoever asks calls the fields. */
 struct kd_observer_names {

@@ -1,10 +1,11 @@
 #include "scene/observer_fault.h"
 #include "scene/rules.h"
 
-#include "physics/kerr.h"
-#include "physics/torus.h"
-#include "physics/qnm.h"
-#include "physics/worldline.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/disk/torus.h"
+#include "physics/waves/qnm.h"
+#include "physics/spacetime/worldline.h"
+#include "scene/hole.h"
 #include "scene/number.h"
 #include "scene/sky_scale.h"
 #include "scene/value.h"
@@ -111,7 +112,7 @@ static enum kd_status decades(const struct kd_scene *scene, struct kd_error *err
 
 static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *error)
 {
-    double r = scene->camera.r, least = kd_kerr_horizon(scene->spacetime.spin);
+    double r = scene->camera.r, least = kd_scene_hole(scene)->outer;
     if (r > least || scene->camera.observer == KD_OBSERVER_INFALL)
         return KD_OK;
     return kd_error_field(error, "/camera/r",
@@ -221,7 +222,7 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
 
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
 {
-    double least = kd_kerr_isco(scene->spacetime.spin);
+    double least = kd_kerr_isco(kd_scene_hole(scene));
     if (scene->disk.model == KD_DISK_NONE || scene->disk.inner >= least)
         return KD_OK;
     return kd_error_field(error, "/disk/inner",
@@ -232,7 +233,7 @@ static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *
 static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *error)
 {
     bool isco = isinf(scene->disk.inner);
-    double least = isco ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+    double least = isco ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.outer > least)
         return KD_OK;
     return kd_error_field(error, "/disk/outer", "disk.outer is %s M; it must be more than the inner edge, %s M%s",
@@ -256,19 +257,19 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
     const struct kd_volume *v = &scene->volume;
     const double least = kd_scene_volume_inner(scene);
     if (v->model == KD_VOLUME_TORUS) {
-        const double isco = kd_kerr_isco(scene->spacetime.spin);
+        const double isco = kd_kerr_isco(kd_scene_hole(scene));
         if (!(v->torus_radius > isco))
             return kd_error_field(error, "/volume/torus_radius",
                                   "volume.torus_radius is %s M; it must be more than the ISCO, %s M",
                                   show(v->torus_radius).text, show_bound(isco).text);
-        const double light = kd_kerr_photon_orbit(scene->spacetime.spin);
+        const double light = kd_kerr_photon_orbit(kd_scene_hole(scene));
         if (!(least < v->torus_radius) || !(least > light))
             return kd_error_field(error, "/volume/inner",
                                   "volume.inner is %s%s M; it must be less than volume.torus_radius, %s M, "
                                   "and more than the orbit of light, %s M",
                                   isinf(v->inner) ? "\"horizon\", for a torus " : "", show(least).text,
                                   show_bound(v->torus_radius).text, show_bound(light).text);
-        const struct kd_torus torus = kd_torus_of(scene->spacetime.spin, least, v->torus_radius);
+        const struct kd_torus torus = kd_torus_of(kd_scene_hole(scene), least, v->torus_radius);
         if (!isfinite(torus.outer) || !(torus.log_most > 0))
             return kd_error_field(error, "/volume/torus_radius",
                                   "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like "
@@ -301,7 +302,7 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_jets *j = &scene->jets;
-    double least = fmax(j->inner, 1.05 * kd_kerr_horizon(scene->spacetime.spin));
+    double least = fmax(j->inner, 1.05 * kd_scene_hole(scene)->outer);
     if (!(j->brightness > 0))
         return KD_OK;
     const double slowest = -JETS_GROWTH / log2(j->outer / least);
@@ -319,7 +320,7 @@ static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_field *r = kd_field_find("spots", "r");
-    double least = kd_kerr_isco(scene->spacetime.spin);
+    double least = kd_kerr_isco(kd_scene_hole(scene));
     for (size_t i = 0; i < scene->spots.count; i++) {
         const struct kd_spot *spot = &scene->spots.at[i];
         char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
@@ -350,7 +351,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
 {
     const struct kd_body *b = &scene->bodies.at[index];
     const struct kd_vantage at = kd_body_vantage(scene, b);
-    const double least = BODIES_CLEAR * kd_kerr_horizon(scene->spacetime.spin),
+    const double least = BODIES_CLEAR * kd_scene_hole(scene)->outer,
                  v[] = { b->velocity_r, b->velocity_theta, b->velocity_phi };
     const bool circular = kd_observer_sense(b->motion) != 0;
     const struct kd_observer_row *row = &kd_observers[b->motion];
@@ -366,7 +367,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
     }
     if (!kd_observer_exists((enum kd_observer)b->motion, &at)) {
         snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s",
-                 show_bound(row->outside(at.spin, at.u)).text, row->edge, row->word, row->why);
+                 show_bound(row->outside(kd_hole(at.spin), at.u)).text, row->edge, row->word, row->why);
         return body_field("r", index, show(b->r).text, allowed, error);
     }
     if (b->motion == KD_OBSERVER_VELOCITY && !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= 0.999 * 0.999)) {

@@ -5,7 +5,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 #include "scene/fields.h"
 
 #include <math.h>
@@ -103,7 +103,7 @@ bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);
 
 /* Moves the observer on along its own path by so much of its own time, 0 or more: camera.r, camera.azimuth_deg and
- * time. A valid scene whose observer has such a path (physics/worldline.h). `time` is then that of Boyer and
+ * time. A valid scene whose observer has such a path (physics/spacetime/worldline.h). `time` is then that of Boyer and
  * Lindquist with disk.slow_light, as far as the horizon, else that of ingoing Kerr-Schild coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 

@@ -1,6 +1,6 @@
 #include "scene/sky_scale.h"
 
-#include "physics/scale.h"
+#include "physics/spacetime/scale.h"
 #include "scene/table.h"
 
 static double uas_of_m(const struct kd_scene *scene)

@@ -1,8 +1,8 @@
 /* The positions of the two eyes of a stereo pair. */
 #include "scene/scene.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
@@ -53,7 +53,7 @@ static struct view view_of(const struct kd_camera *c)
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
     const double a = at->spin, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;
-    const double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    const double delta = kd_hole_delta(kd_hole(a), r);
     const double p = leg->energy * w2 - a * s * leg->momentum + (falls ? leg->radial : 0);
     out[0] += leg->radial / sigma;
     out[1] += r * leg->polar / sigma;
@@ -64,7 +64,7 @@ static void step_aside(const struct kd_scene *scene, const double local[3], doub
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     struct kd_vantage at = kd_scene_vantage(scene);
-    const double horizon = kd_kerr_horizon(at.spin), beside = 1e-5;
+    const double horizon = kd_hole(at.spin)->outer, beside = 1e-5;
     if (fabs(at.r - horizon) < beside * horizon)
         at.r = horizon * (1 + beside);
     const struct kd_tetrad f = kd_observer_tetrad(&motion, &at);

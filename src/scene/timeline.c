@@ -1,6 +1,6 @@
 #include "scene/timeline.h"
 
-#include "physics/worldline.h"
+#include "physics/spacetime/worldline.h"
 #include "scene/sky_scale.h"
 #include "scene/table.h"
 

@@ -24,8 +24,8 @@
  * "free": as they say. A keyframe without it has that of the keyframe before, the first the timeline's. Between two
  * that are not alike the camera turns from the one to the other along a great circle.
  *
- * "proper_time" moves the observer on along its own path (physics/worldline.h) from where the scene has it, by so
- * much of its own time since the beginning, in M, or, if it falls, "horizon" or "end": that of the outer horizon,
+ * "proper_time" moves the observer on along its own path (physics/spacetime/worldline.h) from where the scene has it,
+ * by so much of its own time since the beginning, in M, or, if it falls, "horizon" or "end": that of the outer horizon,
  * and that of the last place a camera can be. A keyframe without it has that of the keyframe before, the first has
  * 0. It is interpolated as numbers are, but for "catmull-rom" by the monotone cubic; where it takes the observer is
  * exact. With "distances": "geometric" camera.r, camera.field_m and camera.field_uas go by equal ratios instead of

@@ -4,9 +4,9 @@
 #include "scene/timeline.h"
 #include "scene/tree.h"
 
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/worldline.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/worldline.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,8 +51,8 @@ static double proper_time_to(const struct kd_scene *scene, const char *word)
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
         return NAN;
-    double r = !strcmp(word, "horizon") ? kd_kerr_horizon(at.spin)
-               : !strcmp(word, "end")   ? kd_infall_last(at.spin)
+    double r = !strcmp(word, "horizon") ? kd_hole(at.spin)->outer
+               : !strcmp(word, "end")   ? kd_infall_last(kd_hole(at.spin))
                                         : NAN;
     return r <= at.r ? kd_infall_proper_time(&motion, &at, r) : NAN;
 }

@@ -1,7 +1,8 @@
 #include "scene/scene.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "scene/asset.h"
+#include "scene/hole.h"
 #include "scene/number.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.m
 
 double kd_scene_volume_inner(const struct kd_scene *scene)
 {
-    const double horizon = kd_kerr_horizon(scene->spacetime.spin),
+    const double horizon = kd_scene_hole(scene)->outer,
                  least = (kd_scene_is_radio(scene) ? CLEAR_RADIO : CLEAR) * horizon;
     if (isinf(scene->volume.inner) && scene->volume.model == KD_VOLUME_TORUS)
         return fmax(TORUS * scene->volume.torus_radius, least);

@@ -3,8 +3,8 @@
 #include "photon.h"
 #include "studio.h"
 
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 
 #include <math.h>
@@ -68,7 +68,8 @@ static void emission_angle(void **state)
         struct kd_frame opaque = studio_render(&scene);
         scene.disk.emission_opacity = DEPTH;
         struct kd_frame thin = studio_render(&scene);
-        double a = scene.spacetime.spin, peak = kd_disk_flux_page_thorne(a, kd_disk_peak_page_thorne(a));
+        double a = scene.spacetime.spin,
+               peak = kd_disk_flux_page_thorne(kd_hole(a), kd_disk_peak_page_thorne(kd_hole(a)));
         int looked_at = 0;
         for (uint32_t i = 0; i < thin.width * thin.height; i++) {
             uint32_t x = i % thin.width, y = i / thin.width;
@@ -78,7 +79,8 @@ static void emission_angle(void **state)
             struct ks_photon photon = photon_of(&scene, x, y);
             struct ks_path path = ks_trace(photon, 1);
             assert_int_equal(path.crossings, 1);
-            double tilt = cosine(&photon, &path), depth = DEPTH * kd_disk_flux_page_thorne(a, path.r[0]) / peak;
+            double tilt = cosine(&photon, &path),
+                   depth = DEPTH * kd_disk_flux_page_thorne(kd_hole(a), path.r[0]) / peak;
             double off = fabs(seen / all - (1 - exp(-depth / tilt)));
             if (!(off < 1.5e-3))
                 fail_msg("view %zu, (%u, %u), r %g: %g of the light, expected %g", v, x, y, path.r[0], seen / all,

@@ -4,8 +4,9 @@
 #include "studio.h"
 
 #include "contraction.h"
-#include "physics/null_geodesic.h"
-#include "physics/plunge.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/orbit/plunge.h"
+#include "physics/spacetime/hole.h"
 #include "render/view/camera.h"
 #include "render/emit/particles.h"
 #include "render/emit/plunging.h"
@@ -104,7 +105,7 @@ static void redshift_of_light(void **state)
         double a = scene.spacetime.spin;
         struct kd_frame plain = shot(&scene, false, false), slowed = shot(&scene, false, true),
                         full = shot(&scene, true, true), moved = shot(&scene, true, false);
-        const struct kd_plunge plunge = kd_plunge_of(a);
+        const struct kd_plunge plunge = kd_plunge_of(kd_hole(a));
         for (uint32_t y = 0; y < 120; y++)
             for (uint32_t x = 0; x < 160; x++) {
                 struct ray ray = ray_of(&scene, x, y);
@@ -171,7 +172,7 @@ static void surface_density(void **state)
             (1 - 0.001) * n * step / (kd_particle_radius(&scene, 0.02 + step) - kd_particle_radius(&scene, 0.02));
         double r_there = kd_particle_radius(&scene, 0.02 + step / 2);
         circling *= pow(isco / r_there, 1 - scene.disk.density_index); /* dN/dr goes as r^(1 - p) */
-        double edge = circling / (2 * M_PI * isco * kd_kerr_ut(0.5, isco));
+        double edge = circling / (2 * M_PI * isco * kd_kerr_ut(kd_hole(0.5), isco));
         for (uint32_t y = 0; y < PIXELS; y++)
             for (uint32_t x = 0; x < PIXELS; x++) {
                 struct ray ray = ray_of(&scene, x, y);

@@ -3,7 +3,7 @@
 #ifndef KD_TEST_EXTREMES_H
 #define KD_TEST_EXTREMES_H
 
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
 #include "render/render.h"
 
 #include <stdbool.h>

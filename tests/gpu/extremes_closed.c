@@ -2,8 +2,8 @@
  * is what the kernels are judged by. */
 #include "extremes.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "null_extremes.h"
 

@@ -6,7 +6,7 @@
  * few roundings are unsure. */
 #include "extremes.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 #include "vk/vk.h"
 
@@ -110,7 +110,7 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         found++;
     for (int n = 0; n < p.crossings; n++) { /* from the horizon, and on the way out from infinity */
         double w = 1 / p.crossing[n].r;
-        least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_kerr_horizon(v->spin) - w));
+        least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }
     /* Some twenty roundings: as many as the chain from a pixel to its labels and the motion has. */
     bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
@@ -125,7 +125,7 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         const struct kd_null_crossing *x = &p.crossing[n];
         double w = map[(uint64_t)n * plan->rays];
         t->r[t->n++] = fmax(fabs(1 / w / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
-        if (!kd_plan_holds(plan, KD_LENS_PHI) || x->r < 1.6 * kd_kerr_horizon(v->spin))
+        if (!kd_plan_holds(plan, KD_LENS_PHI) || x->r < 1.6 * kd_hole(v->spin)->outer)
             continue;
         double phi = map[(uint64_t)(ORDERS + n) * plan->rays];
         t->phi = fmax(t->phi, fmax(turn(phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]));
@@ -180,7 +180,7 @@ static void look(struct kd_renderer *renderer, const struct camera *v, const str
 
 static void look_with_all(struct kd_renderer *renderer, const struct camera *v)
 {
-    for (int k = v->r > 1.05 * kd_kerr_photon_orbit(-fabs(v->spin)) ? 0 : 2; k < 4; k++)
+    for (int k = v->r > 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(v->spin))) ? 0 : 2; k < 4; k++)
         look(renderer, v, &kernels[k]);
 }
 
@@ -213,15 +213,15 @@ void extreme_lenses(struct kd_renderer *renderer)
             const char *name;
             double r, fov, yaw;
         } places[] = {
-            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin), 120, 180 },
-            { "r photon", kd_kerr_photon_orbit(spin), 120, 90 },
-            { "r photon, retrograde", kd_kerr_photon_orbit(-spin), 120, 90 },
+            { "1.0001 r+", 1.0001 * kd_hole(spin)->outer, 120, 180 },
+            { "r photon", kd_kerr_photon_orbit(kd_hole(spin)), 120, 90 },
+            { "r photon, retrograde", kd_kerr_photon_orbit(kd_hole(-spin)), 120, 90 },
             { "r 1e6", 1e6, 2e-3, 0 },
         };
         for (int k = 0; k < 8; k++) {
             char what[48];
             if (places[k / 2].r <
-                1.000001 * kd_kerr_horizon(spin)) /* a prograde photon orbit that a float does not part from it */
+                1.000001 * kd_hole(spin)->outer) /* a prograde photon orbit that a float does not part from it */
                 continue;
             snprintf(what, sizeof what, "%s, i %d, %s", spins[a].name, k % 2 ? 90 : 60, places[k / 2].name);
             look_with_all(renderer, &(struct camera) { what, spin, k % 2 ? 90 : 60, places[k / 2].r, places[k / 2].fov,

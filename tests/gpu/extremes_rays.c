@@ -3,7 +3,7 @@
  * that admits it. From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"
 #include "render/rays/device.h"
 #include "render/rays/check.h"
@@ -128,7 +128,7 @@ static void judge_crossings(const struct view *v, const struct kd_null_path *p, 
         double phi = fmax(turn(c[n].phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]);
         t->r[t->n++] = r;
         bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* see docs/accuracy.md */
-        if (x->r > 1.6 * kd_kerr_horizon(v->spin) && !thrown)
+        if (x->r > 1.6 * kd_hole(v->spin)->outer && !thrown)
             t->phi = fmax(t->phi, phi);
     }
 }
@@ -187,7 +187,7 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
     /* From next to the horizon a half turn leads far out or back in, with no more steps than elsewhere. */
-    if (v->r < 1.1 * kd_kerr_horizon(v->spin)) {
+    if (v->r < 1.1 * kd_hole(v->spin)->outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;
     }
@@ -263,9 +263,9 @@ static void observers(struct kd_renderer *renderer)
             const char *name;
             double r;
         } places[] = {
-            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin) },
-            { "r photon", kd_kerr_photon_orbit(spin) },
-            { "r photon, retrograde", kd_kerr_photon_orbit(-spin) },
+            { "1.0001 r+", 1.0001 * kd_hole(spin)->outer },
+            { "r photon", kd_kerr_photon_orbit(kd_hole(spin)) },
+            { "r photon, retrograde", kd_kerr_photon_orbit(kd_hole(-spin)) },
             { "r 1e6", 1e6 },
         };
         for (int k = 0; k < 8; k++) {

@@ -3,8 +3,8 @@
 #define KD_TEST_RANDOM_CAMERA_H
 
 #include "base/random.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -26,11 +26,10 @@ static double random_spin(struct kd_random *random)
  * then. */
 static double random_radius(struct kd_random *random, enum kd_observer observer, double spin, double inclination_deg)
 {
-    const double u = cos(inclination_deg * (M_PI / 180)), horizon = kd_kerr_horizon(spin),
-                 inner = kd_kerr_inner_horizon(spin);
+    const double u = cos(inclination_deg * (M_PI / 180)), horizon = kd_hole(spin)->outer, inner = kd_hole(spin)->inner;
     if (observer == KD_OBSERVER_INFALL && !below(random, 3))
         return fmax(inner + (horizon - inner) * between(random, 0.05, 1), 0.02);
-    const double edge = observer == KD_OBSERVER_INFALL ? horizon : kd_observers[observer].outside(spin, u);
+    const double edge = observer == KD_OBSERVER_INFALL ? horizon : kd_observers[observer].outside(kd_hole(spin), u);
     return fmin(edge * (1 + decades(random, -6, below(random, 2) ? 1.5 : 7)), 1e7);
 }
 

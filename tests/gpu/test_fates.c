@@ -10,10 +10,11 @@
 #include "random_camera.h"
 #include "render_support.h"
 
-#include "physics/critical.h"
-#include "physics/kerr.h"
+#include "physics/null/critical.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/closed.h"
 #include "render/view/camera.h"
+#include "scene/hole.h"
 
 #include "interface.h"
 
@@ -53,7 +54,7 @@ static int fate_within(const struct kd_camera_exact *c, const struct kd_camera_l
 static void truth_of(const struct kd_scene *scene, struct truth *out)
 {
     const struct kd_camera_exact c = kd_camera_exact(scene);
-    const bool within = scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin);
+    const bool within = scene->camera.r <= kd_scene_hole(scene)->outer;
     const uint32_t orders = (uint32_t)scene->accuracy.orders;
     static struct kd_ray_crossing crossings[RAYS * MOST_ORDERS];
     static struct kd_ray_end ends[RAYS];

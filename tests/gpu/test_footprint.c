@@ -2,7 +2,7 @@
  * thousandth of a step apart in double precision (tests/oracle). They share no formula: here the singular value
  * comes from the angle that maximises it. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/render.h"
 #include "render/view/layout.h"

@@ -6,11 +6,12 @@
  * much, which is measured on the oracle itself. */
 #include "kerr_schild.h"
 #include "image/colour_map.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/format.h"
 #include "render/device/internal.h"
 #include "render/view/layout.h"
+#include "scene/hole.h"
 
 #include "interface.h"
 #include "render_support.h"
@@ -124,7 +125,7 @@ static double apart(int kind, double x, double y)
  * side. */
 static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
 {
-    double in = kd_kerr_isco(scene->spacetime.spin), out = scene->disk.outer, r = path->r[n];
+    double in = kd_kerr_isco(kd_scene_hole(scene)), out = scene->disk.outer, r = path->r[n];
     bool there = n < path->crossings;
     *near = there && (fabs(r / in - 1) < 1e-3 || fabs(r / out - 1) < 1e-3);
     return there && r > in && r < out;
@@ -280,7 +281,7 @@ static void test_temperature(void **state)
     (void)state;
     struct kd_scene scene =
         scene_of(0.9, 75, INFINITY, "r_0,g_0,temperature_0,intensity_0,optical_depth_0,intensity_1");
-    double largest = kd_disk_flux_page_thorne(0.9, kd_disk_peak_page_thorne(0.9));
+    double largest = kd_disk_flux_page_thorne(kd_hole(0.9), kd_disk_peak_page_thorne(kd_hole(0.9)));
     for (int clear = 0; clear < 2; clear++) {
         scene.disk.opacity = clear ? 0.25 : 1;
         struct kd_frame frame = frame_of(&scene);
@@ -289,9 +290,10 @@ static void test_temperature(void **state)
         int n = 0;
         for (int k = 0; k < PIXELS; k++) {
             assert_true(isnan(t[k]) == isnan(r[k]) && isnan(depth[k]) == isnan(r[k]));
-            if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(0.9))
+            if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(kd_hole(0.9)))
                 continue;
-            double want = scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(0.9, r[k]) / largest, 0.25);
+            double want =
+                scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25);
             assert_true(fabs(t[k] / want - 1) < 2e-4); /* the table is linear between 1024 nodes */
             assert_true(
                 fabs(light[k] / (scene.disk.opacity * pow(g[k] * t[k] / scene.disk.peak_temperature_k, 4)) - 1) < 1e-5);
@@ -317,7 +319,8 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
 static void test_plunge(void **state)
 {
     (void)state;
-    const double a = 0.3, isco = kd_kerr_isco(a), omega = omega_of(a, isco), ut = 1 / sqrt(line(a, isco, omega));
+    const double a = 0.3, isco = kd_kerr_isco(kd_hole(a)), omega = omega_of(a, isco),
+                 ut = 1 / sqrt(line(a, isco, omega));
     const double u_t = ut * (-(1 - 2 / isco) - 2 * a / isco * omega),
                  u_phi = ut * (-2 * a / isco + (isco * isco + a * a + 2 * a * a / isco) * omega);
     struct kd_scene scene = scene_of(a, 60, INFINITY, "r_0,g_0,temperature_0");

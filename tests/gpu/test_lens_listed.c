@@ -2,7 +2,7 @@
  * three methods from a ray to its end. And what becomes of rays that were given up. */
 #include "render_support.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/accuracy/table.h"
 #include "render/device/internal.h"
 #include "render/rays/rays.h"
@@ -113,9 +113,9 @@ static void test_engines_agree(void **state)
         struct kd_scene scene = scene_of(v);
         scene.accuracy.profile = KD_PROFILE_HIGH;
         struct lens single = trace(&scene);
-        assert_int_equal(single.plan.path, views[v].r > 1.05 * kd_kerr_photon_orbit(-fabs(scene.spacetime.spin))
-                                               ? KD_LENS_CLOSED
-                                               : KD_LENS_MAP);
+        assert_int_equal(single.plan.path,
+                         views[v].r > 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene.spacetime.spin))) ? KD_LENS_CLOSED
+                                                                                                        : KD_LENS_MAP);
         for (size_t k = 0; k < sizeof engines / sizeof *engines; k++) {
             char what[120];
             bool wide = engines[k].precision == KD_PRECISION_F64 && engines[k].engine != KD_ENGINE_CLOSED;
@@ -204,7 +204,7 @@ static void test_profiles(void **state)
                       (ends[i].n_crossings != exact_ends[i].n_crossings || ends[i].fate != exact_ends[i].fate);
             for (uint32_t j = 0; j < ends[i].n_crossings && j < exact_ends[i].n_crossings; j++) {
                 double r = exact[i * ORDERS + (int)j].r;
-                if (r >= kd_kerr_isco(view.spin) && r <= KD_ACCURACY_FAR)
+                if (r >= kd_kerr_isco(kd_hole(view.spin)) && r <= KD_ACCURACY_FAR)
                     errors[n++] = fabs(found[i * ORDERS + (int)j].r / r - 1);
             }
         }
@@ -337,7 +337,7 @@ static void test_noise_is_named(void **state)
         scene.image.width = 160;
         scene.image.height = 90;
         scene.spacetime.spin = cases[k].spin;
-        scene.camera.r = cases[k].radius * kd_kerr_horizon(cases[k].spin);
+        scene.camera.r = cases[k].radius * kd_hole(cases[k].spin)->outer;
         scene.camera.inclination_deg = 80;
         scene.camera.yaw_deg = 180;
         scene.camera.fov_deg = 60;

@@ -5,7 +5,7 @@
  * ray. The amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
  * curve. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/render.h"
 
 #include "interface.h"
@@ -56,7 +56,7 @@ struct lens {
 };
 
 /* Whether the plan chooses the closed form: outside the orbits of light. */
-static bool has_closed_form(const struct view *v) { return v->r > 1.05 * kd_kerr_photon_orbit(-fabs(v->a)); }
+static bool has_closed_form(const struct view *v) { return v->r > 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(v->a))); }
 
 /* steps: of a half period; 0: as the plan chooses. */
 static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, int steps)
@@ -109,7 +109,7 @@ static bool undecided(const struct sample *s, int n, double inner)
 static void judge(const struct view *v, const struct lens *lens, const struct sample *samples, int n,
                   struct tally *radius, struct tally *azimuth)
 {
-    double inner = kd_kerr_horizon(v->a);
+    double inner = kd_hole(v->a)->outer;
     for (int k = 0; k < GRID * GRID; k++) {
         const struct sample *s = &samples[k];
         float w = lens->planes[n * (int)lens->plan.rays + k];
@@ -308,7 +308,7 @@ static void test_promise(void **state)
         struct tally t = { 0 };
         for (int k = 0; k < GRID * GRID; k++)
             if (samples[0][k].path.crossings && lens.planes[k] > 0 &&
-                !undecided(&samples[0][k], 0, kd_kerr_horizon(0.9)))
+                !undecided(&samples[0][k], 0, kd_hole(0.9)->outer))
                 t.errors[t.count++] = fabs(1 / (double)lens.planes[k] / samples[0][k].path.r[0] - 1);
         assert_true(t.count > 900);
         assert_true(median(&t) < 1e-6);

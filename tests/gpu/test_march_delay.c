@@ -1,8 +1,9 @@
 /* Slow light of volumes: when light left each place of a ray, against the Kerr-Schild oracle, which knows no Mino
  * time; and what turbulent gas with a height shows by it, against pictures of the times at which light left by the
  * lens map, and by the oracle. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/explain/explain.h"
+#include "scene/hole.h"
 
 #include "render_support.h"
 
@@ -72,7 +73,7 @@ static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged 
     static double places[2 * KD_TOLD_STRETCHES][2], want[2 * KD_TOLD_STRETCHES], off[2 * KD_TOLD_STRETCHES];
     struct kd_frame frame = told_at(scene, x, y);
     const struct kd_told_ray *told = &frame.told->middle;
-    const double near_horizon = 1.05 * kd_kerr_horizon(scene->spacetime.spin);
+    const double near_horizon = 1.05 * kd_scene_hole(scene)->outer;
     for (size_t i = 0; i < 2 * told->n_stretches; i++) {
         places[i][0] = 1 / (double)told->stretches[i / 2].w[i % 2];
         places[i][1] = (double)told->stretches[i / 2].u[i % 2];

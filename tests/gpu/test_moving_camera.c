@@ -3,10 +3,11 @@
  * momentum, the directions into which aberration turns those of the picture. No observer of the table moves so; this
  * one is put in its place. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "render/render.h"
 #include "render/view/camera.h"
+#include "scene/hole.h"
 
 #include "render_support.h"
 
@@ -110,7 +111,7 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path, const char
             double w = planes[order * RAYS + k];
             bool sure = (want.crossings > order) == (beside.crossings > order);
             if (!sure || (want.crossings > order &&
-                          (want.r[order] > 1e4 || want.r[order] < 1.001 * kd_kerr_horizon(scene->spacetime.spin))))
+                          (want.r[order] > 1e4 || want.r[order] < 1.001 * kd_scene_hole(scene)->outer)))
                 continue;
             wrong += (w > 0) != (want.crossings > order) && !(w > 0 && w < 1e-4);
             if (w > 0 && want.crossings > order)

@@ -1,8 +1,8 @@
 /* Every kind of observer by what its camera sees: the whole sky in six pictures, judged by frames and rays in
  * Kerr-Schild coordinates. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "render/render.h"
 #include "render/view/camera.h"
 
@@ -237,7 +237,7 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
     for (int order = 0; order < ORDERS; order++) {
         double w = planes[order * RAYS + k], phi = planes[(ORDERS + order) * RAYS + k];
         bool has = want.crossings > order, sure = has == (beside.crossings > order);
-        if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_kerr_horizon(seer->spin))))
+        if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_hole(seer->spin)->outer)))
             continue;
         o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
         if (w > 0 && has)

@@ -1,9 +1,9 @@
-/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit.h and the metric,
- * rates against differences; parts of a list, and what is refused. */
+/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit/timelike.h and the
+ * metric, rates against differences; parts of a list, and what is refused. */
 #include "render/output/particle_list.h"
 
-#include "physics/kerr.h"
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
+#include "physics/spacetime/kerr.h"
 #include "render_support.h"
 
 #include <math.h>
@@ -107,8 +107,8 @@ static void test_falling(void **state)
     for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
         struct kd_scene scene = scene_of(spins[s], 0);
         scene.disk.plunging = 0.2;
-        double isco = kd_kerr_isco(spins[s]), energy = kd_kerr_energy(spins[s], isco), worst = 0;
-        double momentum = kd_kerr_momentum(spins[s], isco);
+        double isco = kd_kerr_isco(kd_hole(spins[s])), energy = kd_kerr_energy(kd_hole(spins[s]), isco), worst = 0;
+        double momentum = kd_kerr_momentum(kd_hole(spins[s]), isco);
         size_t n, fell = 0;
         struct row *rows = all_at(&scene, "777.5", &n);
         for (size_t i = 0; i < n; i++) {
@@ -128,7 +128,7 @@ static void test_falling(void **state)
     }
 }
 
-/* The guiding orbit by physics/orbit.c; on it rates and constants are of one orbit, about it they are to first
+/* The guiding orbit by physics/orbit/timelike.c; on it rates and constants are of one orbit, about it they are to first
  * order: what is left falls with the square of the epicycles. */
 static void test_constants(void **state)
 {
@@ -144,8 +144,8 @@ static void test_constants(void **state)
             for (size_t i = 0; i < n; i++) {
                 const struct kd_particle_orbit o = orbit_of(&scene, &grid, i);
                 struct kd_orbit orbit;
-                if (o.r > kd_orbit_separatrix(spins[s], 0, 1) * (1 + 1e-9)) {
-                    OK(kd_orbit_from_shape(spins[s], o.r, 0, 1, &orbit, &error));
+                if (o.r > kd_orbit_separatrix(kd_hole(spins[s]), 0, 1) * (1 + 1e-9)) {
+                    OK(kd_orbit_from_shape(kd_hole(spins[s]), o.r, 0, 1, &orbit, &error));
                     assert_true(fabs(rows[i].energy / orbit.energy - 1) < 1e-6);
                     assert_true(fabs(rows[i].momentum / orbit.momentum - 1) < 1e-6);
                 }

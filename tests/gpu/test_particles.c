@@ -2,7 +2,8 @@
  * times, periods, the seed; and frames that hold them. */
 #include "render/emit/particles.h"
 
-#include "physics/orbit_bound.h"
+#include "physics/orbit/orbit_bound.h"
+#include "physics/spacetime/hole.h"
 #include "render_support.h"
 #include "render/device/prepare.h"
 #include "render/emit/deposit.h"
@@ -92,11 +93,11 @@ static void sample(struct period *p, int i, double step, double value)
 static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
 
 /* The frequencies of small oscillations by another way: those of a bound geodesic that hardly leaves the circle,
- * from its actions (src/physics/orbit_bound.h, which shares nothing with epicyclic.c). */
+ * from its actions (src/physics/orbit/orbit_bound.h, which shares nothing with epicyclic.c). */
 static struct kd_orbit_frequencies frequencies(double a, double r)
 {
     struct kd_orbit orbit;
-    OK(kd_orbit_from_shape(a, r, 1e-6, cos(1e-6), &orbit, &error));
+    OK(kd_orbit_from_shape(kd_hole(a), r, 1e-6, cos(1e-6), &orbit, &error));
     struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
     struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
     return kd_orbit_frequencies_of(&bound);

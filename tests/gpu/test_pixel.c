@@ -1,11 +1,12 @@
 /* What is told of one pixel: its light adds up to the picture's own linear light, and its crossings are those of
  * listed rays and of layers. The picture is the same whether it is told of or not. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
 #include "render/explain/explain.h"
 #include "render/lens/label.h"
 #include "render/rays/rays.h"
 #include "render/view/critical_pixels.h"
+#include "scene/hole.h"
 
 #include "render_support.h"
 
@@ -194,7 +195,7 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         if (p->order > 1 || p->order >= x.end.n_crossings || c->r > 100)
             continue;
         near("r of the picture over r", 1 / ((double)p->w * c->r), 1, 2e-4);
-        if (c->r > 1.05 * kd_kerr_isco(scene->spacetime.spin) && kd_explained_has_gas(p))
+        if (c->r > 1.05 * kd_kerr_isco(kd_scene_hole(scene)) && kd_explained_has_gas(p))
             near("g of the picture", (double)p->g, c->g, 2e-4);
     }
     if (x.path.course.end != KD_COURSE_CAPTURED && x.path.course.end != KD_COURSE_ESCAPED)
@@ -378,7 +379,7 @@ static void negative_energies(void **state)
         for (size_t k = 0; k < frame.told->middle.n_places; k++) {
             const struct kd_told_place *p = &frame.told->middle.places[k];
             const double r = p->order < x.end.n_crossings ? x.crossings[p->order].r : 0;
-            if (kd_explained_has_gas(p) && r > 1.05 * kd_kerr_isco(0.998)) {
+            if (kd_explained_has_gas(p) && r > 1.05 * kd_kerr_isco(kd_hole(0.998))) {
                 near("g of light whose energy is below 0", (double)p->g / x.crossings[p->order].g, 1, 1e-3);
                 compared++;
             }
@@ -517,7 +518,7 @@ static void from_within(void **state)
                 if (p->phi != 0)
                     near("phi of the picture", remainder((double)p->phi - c->phi, 2 * M_PI), 0, 5e-4);
                 crossed++;
-                if (kd_explained_has_gas(p) && c->r > 1.05 * kd_kerr_isco(scene.spacetime.spin)) {
+                if (kd_explained_has_gas(p) && c->r > 1.05 * kd_kerr_isco(kd_hole(scene.spacetime.spin))) {
                     near("g of the picture over g", (double)p->g / c->g, 1, 3e-4);
                     gas++;
                 }

@@ -6,7 +6,7 @@
 #include "cgs.h"
 #include "kerr_schild.h"
 #include "integral/pictures.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/output/flux.h"
 #include "torus_turns.h"
@@ -79,7 +79,7 @@ static void circle(double a, double r, const struct metric *m, double out[4])
 static void flow_of(const struct kd_scene *scene, double a, double r, double u, double out[4])
 {
     const struct metric m = metric_of(a, r, u);
-    const double edge = kd_kerr_isco(a);
+    const double edge = kd_kerr_isco(kd_hole(a));
     if (scene->volume.flow == KD_VOLUME_REST) {
         const double normal[4] = { -1, 0, 0, 0 }, scale = 1 / sqrt(-m.i[0][0]);
         raise(m.i, normal, out);

@@ -3,7 +3,7 @@
 #include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/plunging.h"
 #include "render_support.h"
 #include "render/device/prepare.h"
@@ -39,8 +39,8 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
  * u^r. */
 static void slopes(double a, double r, double *dr, double *dphi)
 {
-    double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco),
-           delta = r * r - 2 * r + a * a;
+    double isco = kd_kerr_isco(kd_hole(a)), e = kd_kerr_energy(kd_hole(a), isco),
+           l = kd_kerr_momentum(kd_hole(a), isco), delta = r * r - 2 * r + a * a;
     double pp = r * r + a * a + 2 * a * a / r;
     double ut = (pp * e - 2 * a * l / r) / delta, up = (2 * a * e / r + (1 - 2 / r) * l) / delta;
     *dr = -sqrt(fmax(e * ut - l * up - 1, 0) * delta) / r / ut;
@@ -163,19 +163,19 @@ static void test_slopes(void **state)
             OK(kd_scene_validate(&scene, &error));
             OK(kd_plan_make(&scene, &c, &plan[k], &error));
             assert_true(kd_plan_holds(&plan[k], KD_LENS_SLOPE) && plan[k].planes == 3 * plan[k].orders);
-            bool closed = scene.camera.r > 1.05 * kd_kerr_photon_orbit(-0.3);
+            bool closed = scene.camera.r > 1.05 * kd_kerr_photon_orbit(kd_hole(-0.3));
             assert_true(plan[k].path == (k ? KD_LENS_LISTED : closed ? KD_LENS_CLOSED : KD_LENS_MAP));
             planes[k] = test_malloc(4 * plan[k].planes * plan[k].rays);
             OK(kd_render_lens(renderer, &scene, &plan[k], planes[k], NULL, &error));
         }
         uint64_t n = plan[0].rays, orders = plan[0].orders;
-        double isco = kd_kerr_isco(0.3), worst = 0;
+        double isco = kd_kerr_isco(kd_hole(0.3)), worst = 0;
         int signs[2] = { 0 }, far = 0;
         for (uint64_t at = 0; at < orders * n; at++) {
             uint64_t slope = at + 2 * orders * n;
             double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][slope], planes[1][slope] };
             if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 &&
-                  1 / w[0] > 1.02 * kd_kerr_horizon(0.3)))
+                  1 / w[0] > 1.02 * kd_hole(0.3)->outer))
                 continue; /* not of both, or next to the critical curve */
             double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
             far += off > 1e-3;

@@ -2,8 +2,8 @@
  * (kerr_schild_transport.h), which shares no equation with the kernels' constant of Walker and Penrose; and Stokes
  * layers among themselves. */
 #include "kerr_schild_transport.h"
-#include "physics/kerr.h"
-#include "physics/scattering.h"
+#include "physics/disk/scattering.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/output/format.h"
 #include "render/view/camera.h"
@@ -130,7 +130,7 @@ static void judge(const struct view *view)
                                                                                   "polarization_fraction_1" };
     struct kd_scene scene = scene_of(view, "evpa_0,evpa_1,polarization_fraction_0,polarization_fraction_1,r_0,r_1");
     struct kd_frame frame = frame_of(&scene);
-    const double isco = kd_kerr_isco(view->spin);
+    const double isco = kd_kerr_isco(kd_hole(view->spin));
     double worst = 0;
     int compared = 0, behind = 0, fallen = 0;
     for (int k = 0; k < PIXELS; k += STRIDE)

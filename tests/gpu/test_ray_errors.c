@@ -5,7 +5,7 @@
 #include "null_extremes.h"
 #include "null_reference.h"
 #include "null_series.h"
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 #include "render/accuracy/table.h"
 #include "render/device/internal.h"
 #include "render/rays/rays.h"

@@ -1,7 +1,7 @@
 /* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction,
  * fate, and the error that comes with each ray against the error that was made. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/rays/device.h"
 
@@ -54,7 +54,7 @@ static void judge_crossing(const struct hole *o, const struct ks_path *p, const 
     double gain = fabs(log(q->r[n] / p->r[n])) / 1e-6;
     t->r = fmax(t->r, fabs(c->r / p->r[n] - 1) / (1 + gain));
     t->crossings++;
-    if (p->r[n] < 1.6 * kd_kerr_horizon(o->a))
+    if (p->r[n] < 1.6 * kd_hole(o->a)->outer)
         return;
     double phi_gain = turn(q->phi[n] - p->phi[n]) / 1e-6, delay_gain = fabs(q->delay[n] - p->delay[n]) / 1e-6;
     t->phi = fmax(t->phi, turn(c->phi - p->phi[n]) / (1 + phi_gain));
@@ -334,7 +334,7 @@ static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision
         for (int n = 0; n < found; n++) {
             worst = fmax(worst, fabs(crossings[k * ORDERS + n].r / p->r[n] - 1));
             gain = fmax(gain, fabs(log(q->r[n] / p->r[n])) / 1e-6);
-            if (p->r[n] < 1.6 * kd_kerr_horizon(holes[h].a) || worst > 1e-2)
+            if (p->r[n] < 1.6 * kd_hole(holes[h].a)->outer || worst > 1e-2)
                 continue;
             turns += fabs(crossings[k * ORDERS + n].phi - exact[k * ORDERS + n].phi) > 3;
             compared++;

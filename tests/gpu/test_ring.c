@@ -2,8 +2,8 @@
  * off it; its light against that of a plane picture. */
 #include "render_support.h"
 
-#include "physics/kerr.h"
-#include "physics/lensing.h"
+#include "physics/null/lensing.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/ring.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ static void every_edge_is_where_it_belongs(void **state)
         const struct kd_ring ring = kd_ring_of(&scene);
         struct kd_plan plan;
         float *w = trace(&scene, &plan);
-        const double sources[] = { kd_kerr_horizon(views[k].spin), 6, 30, INFINITY };
+        const double sources[] = { kd_hole(views[k].spin)->outer, 6, 30, INFINITY };
         int skipped = 0;
         for (uint32_t x = 0; x < WIDTH; x++) {
             const struct kd_critical_point column = kd_ring_column(&ring, x);

@@ -5,6 +5,7 @@
  *   test_sample [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_sample 200 7
  *
  * Without arguments it is short. */
+#include "physics/spacetime/hole.h"
 #include "random_camera.h"
 #include "render_support.h"
 
@@ -12,6 +13,7 @@
 #include "render/plan/parts.h"
 #include "render/rays/closed.h"
 #include "render/view/camera.h"
+#include "scene/hole.h"
 
 #include "interface.h"
 
@@ -128,7 +130,7 @@ static void follow(const struct kd_scene *scene)
 /* Radii of both against the closed form. */
 static void judge(const struct kd_scene *scene, const struct map *a, const struct map *b, struct tally *t)
 {
-    if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
+    if (scene->camera.r <= kd_scene_hole(scene)->outer)
         return;
     follow(scene);
     for (uint32_t i = 0; i < JUDGED; i++) {
@@ -319,7 +321,7 @@ static void a_tolerance_of_a_picture(void **state)
                 for (uint32_t order = 0; order < ends[i].n_crossings; order++) {
                     const double r = truth[i * ORDERS + order].r,
                                  off = fabs(plane(&map, KD_LENS_W, order)[i * EVERY] * r - 1);
-                    if (!(r < 1e3) || r < kd_kerr_isco(scene.spacetime.spin))
+                    if (!(r < 1e3) || r < kd_kerr_isco(kd_hole(scene.spacetime.spin)))
                         continue;
                     n[order]++;
                     beyond[order] += off > tolerance;

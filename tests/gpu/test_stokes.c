@@ -5,7 +5,7 @@
 #include "render_support.h"
 
 #include "kerr_schild_transport.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/flux.h"
 #include "synchrotron_cgs.h"
 #include "torus_turns.h"

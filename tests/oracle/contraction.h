@@ -2,7 +2,7 @@
 #ifndef KD_TESTS_CONTRACTION_H
 #define KD_TESTS_CONTRACTION_H
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
@@ -10,7 +10,8 @@
  * and L of the ISCO, k_r from k.g.k = 0. Nothing here knows of potentials. */
 static inline double redshift_of_plunge(double a, double r, double lambda, double eta, double sign)
 {
-    double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco);
+    double isco = kd_kerr_isco(kd_hole(a)), e = kd_kerr_energy(kd_hole(a), isco),
+           l = kd_kerr_momentum(kd_hole(a), isco);
     double delta = r * r - 2 * r + a * a, pp = r * r + a * a + 2 * a * a / r;
     double itt = -pp / delta, itp = -2 * a / (r * delta), ipp = (1 - 2 / r) / delta, irr = delta / (r * r);
     double ut = -itt * e + itp * l, up = -itp * e + ipp * l, energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;

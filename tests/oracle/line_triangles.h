@@ -6,7 +6,7 @@
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
 
-#include "physics/disk_image.h"
+#include "physics/disk/disk_image.h"
 
 #include <math.h>
 #include <stdlib.h>

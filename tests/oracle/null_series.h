@@ -9,7 +9,7 @@
  *                                        lambda)/Delta
  *
  * w = 1/r and n the unit vector of the direction, which do not single out turning points or the axis. Labels as in
- * physics/null_geodesic.h; azimuths source minus observer. Pure; any thread. */
+ * physics/null/null_geodesic.h; azimuths source minus observer. Pure; any thread. */
 #ifndef KD_TESTS_NULL_SERIES_H
 #define KD_TESTS_NULL_SERIES_H
 

@@ -2,7 +2,7 @@
 #ifndef KD_TESTS_WHIRL_REFERENCE_H
 #define KD_TESTS_WHIRL_REFERENCE_H
 
-#include "physics/orbit.h"
+#include "physics/orbit/timelike.h"
 
 /* beside: how far L is from that of the whirl, relative. From r = `from` to the horizon (t and phi infinite, given as 0), back to
  * r = 100, or, bound, a radial period. */

@@ -115,7 +115,9 @@ def row(a, energy_text, beside):
 
 def main():
     print("/* Made by tests/oracle/whirl_reference.py; do not edit. Bodies that come to whirl, by quadrature. */")
-    print('#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n#include "physics/orbit.h"\n')
+    print(
+        '#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n#include "physics/orbit/timelike.h"\n'
+    )
     print(
         "/* beside: how far L is from that of the whirl, relative. From r = `from` to the horizon (t and phi infinite, given as 0), back to\n"
         " * r = 100, or, bound, a radial period. */"

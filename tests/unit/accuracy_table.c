@@ -1,5 +1,5 @@
 /* The accuracy table: the choice from made-up ones, the document there and back, the file, and the rays. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/accuracy_store.h"
 
 #include <setjmp.h>
@@ -265,7 +265,7 @@ static double least_potential(double a, double inclination_deg, const double *x)
 {
     double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;
     double l = -x[0] * s, eta = (x[0] * x[0] - a * a) * u2 + x[1] * x[1], least = INFINITY;
-    for (double r = kd_kerr_horizon(a) * 1.0001; r < 6; r += 1e-5) {
+    for (double r = kd_hole(a)->outer * 1.0001; r < 6; r += 1e-5) {
         double q = r * r + a * a - a * l, delta = (r - 2) * r + a * a;
         least = fmin(least, q * q - delta * (eta + (l - a) * (l - a)));
     }

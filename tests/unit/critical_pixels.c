@@ -2,7 +2,7 @@
  * curve. And where the rays on such a pixel stand. */
 #include "render/view/critical_pixels.h"
 
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
 #include "render/view/camera.h"
 
 #include <math.h>

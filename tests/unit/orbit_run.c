@@ -1,6 +1,6 @@
 /* Requests for orbits, read and refused, and what following them gives. */
 #include "orbit/feed.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -284,8 +284,8 @@ static void ends(void **state)
         if (!isnan(request.params.time))
             assert_true(fabs(last->place.t / request.params.time - 1) < 1e-9);
         if (run.end == KD_END_HORIZON)
-            assert_true(fabs(last->place.r / kd_kerr_horizon(run.orbit.a) - 1) < 1e-13 &&
-                        isfinite(last->place.proper) && !(last->place.t < last[-1].place.t));
+            assert_true(fabs(last->place.r / kd_hole(run.orbit.a)->outer - 1) < 1e-13 && isfinite(last->place.proper) &&
+                        !(last->place.t < last[-1].place.t));
         if (run.end == KD_END_FAR)
             assert_true(last->place.r >= 99.9999 && last[-1].place.r < last->place.r);
         if (!(run.worst.energy < 1e-10 && run.worst.carter < 1e-10))

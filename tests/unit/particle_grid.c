@@ -1,7 +1,8 @@
 /* The guiding radii of particles are fine enough for the rows of their grid, however particles are spread. */
 #include "render/emit/particles.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +16,7 @@
 /* What n radii of equal shares leave on each row of the grid, by distance as the kernel shares them out. */
 static void spread(const struct kd_scene *scene, const struct kd_particle_grid *grid, uint32_t n, double *out)
 {
-    double isco = kd_kerr_isco(scene->spacetime.spin), inner = isinf(scene->disk.inner) ? isco : scene->disk.inner;
+    double isco = kd_kerr_isco(kd_scene_hole(scene)), inner = isinf(scene->disk.inner) ? isco : scene->disk.inner;
     for (uint32_t i = 0; i <= grid->rows; i++)
         out[i] = 0;
     for (uint32_t k = 0; k < n; k++) {

@@ -1,5 +1,5 @@
 /* Cosines and sines of degrees against 40 digits (mpmath), next to the quarter turns above all. */
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Carlson's and Legendre's integrals against quadratures of their definitions to 40 digits
  * (tests/oracle/null_reference.py); Jacobi's functions against the integrals that they invert. */
-#include "physics/carlson.h"
-#include "physics/elliptic.h"
+#include "physics/math/carlson.h"
+#include "physics/math/elliptic.h"
 
 #include "carlson_reference.h"
 

@@ -1,6 +1,6 @@
 /* Colour of a black body against published chromaticities and efficacies, and against a second quadrature
  * whose Planck function is itself proved by Stefan and Boltzmann. */
-#include "physics/colour.h"
+#include "physics/disk/colour.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* The course of a ray, place by place, against the Hamiltonian integrated in Kerr-Schild coordinates: another
  * method, other coordinates, no common formula. What lies between crossings is judged by rays that set out from
  * there. */
-#include "physics/null_course.h"
+#include "physics/null/null_course.h"
 
 #include "kerr_schild.h"
 

@@ -1,10 +1,10 @@
 /* Critical curve, spherical photon orbits and local frames: against 60-digit searches for the ray that just
  * does not turn (tests/oracle/critical_reference.py), published values, and closed-form rays on either side
  * of the curve. */
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "critical_reference.h"
 
@@ -101,15 +101,15 @@ static void equatorial_orbits_keep_time(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(spins); i++) {
         double a = spins[i];
-        struct kd_shell s = kd_shell_of(a);
+        struct kd_shell s = kd_shell_of(kd_hole(a));
         struct kd_shell_orbit pro = kd_shell_orbit_at(&s, s.prograde), retro = kd_shell_orbit_at(&s, s.retrograde);
         struct kd_shell_exponents p = kd_shell_exponents(&pro), q = kd_shell_exponents(&retro);
-        near(pro.r, kd_kerr_photon_orbit(a), 2e-15, "prograde orbit", a, 0);
-        near(retro.r, kd_kerr_photon_orbit(-a), 4e-15, "retrograde orbit", a, 0);
-        near(p.delta / p.tau, kd_kerr_omega(a, pro.r), 1e-15, "prograde velocity", a, 0);
-        near(q.delta / q.tau, -kd_kerr_omega(-a, retro.r), 1e-15, "retrograde velocity", a, 0);
-        near(pro.lambda, 1 / kd_kerr_omega(a, pro.r), 1e-14, "prograde lambda", a, 0);
-        near(retro.lambda, -1 / kd_kerr_omega(-a, retro.r), 1e-14, "retrograde lambda", a, 0);
+        near(pro.r, kd_kerr_photon_orbit(kd_hole(a)), 2e-15, "prograde orbit", a, 0);
+        near(retro.r, kd_kerr_photon_orbit(kd_hole(-a)), 4e-15, "retrograde orbit", a, 0);
+        near(p.delta / p.tau, kd_kerr_omega(kd_hole(a), pro.r), 1e-15, "prograde velocity", a, 0);
+        near(q.delta / q.tau, -kd_kerr_omega(kd_hole(-a), retro.r), 1e-15, "retrograde velocity", a, 0);
+        near(pro.lambda, 1 / kd_kerr_omega(kd_hole(a), pro.r), 1e-14, "prograde lambda", a, 0);
+        near(retro.lambda, -1 / kd_kerr_omega(kd_hole(-a), retro.r), 1e-14, "retrograde lambda", a, 0);
         near(pro.eta, 0, 1e-13, "prograde eta", a, 0);
     }
 }
@@ -121,9 +121,9 @@ static void orbits_are_double_roots(void **state)
     for (size_t i = 3; i < COUNT(spins) - 1; i++)
         for (int k = 0; k <= 10; k++) {
             double a = spins[i], place;
-            struct kd_shell s = kd_shell_of(a);
+            struct kd_shell s = kd_shell_of(kd_hole(a));
             place = s.prograde + (s.retrograde - s.prograde) * k / 10;
-            struct kd_shell_orbit o = kd_shell_orbit_at(&s, place), same = kd_shell_orbit_of_radius(a, o.r);
+            struct kd_shell_orbit o = kd_shell_orbit_at(&s, place), same = kd_shell_orbit_of_radius(kd_hole(a), o.r);
             double delta = o.r * o.r - 2 * o.r + a * a, w = o.r * o.r + a * a - a * o.lambda;
             double kappa = o.eta + (o.lambda - a) * (o.lambda - a);
             near(w * w, delta * kappa, 1e-11, "R", a, o.r);
@@ -133,8 +133,8 @@ static void orbits_are_double_roots(void **state)
                 near(same.eta, o.eta, 1e-8, "eta of r", a, o.r);
             }
         }
-    assert_true(isnan(kd_shell_orbit_of_radius(0, 3).lambda));
-    assert_true(isnan(kd_shell_orbit_of_radius(0.5, 4.1).lambda));
+    assert_true(isnan(kd_shell_orbit_of_radius(kd_hole(0), 3).lambda));
+    assert_true(isnan(kd_shell_orbit_of_radius(kd_hole(0.5), 4.1).lambda));
 }
 
 /* A mirror for the spin, one for the equator, and no jump through a = 0, the axis or the equator. */
@@ -154,7 +154,7 @@ static void symmetric_and_continuous(void **state)
                 near(other.rho, p.rho, 1e-14, "rho in the mirror", a, angle);
                 near(other.alpha, -p.alpha, 1e-14, "alpha in the mirror", a, angle);
                 near(other.orbit.lambda, -p.orbit.lambda, 1e-12, "lambda in the mirror", a, angle);
-                assert_true(p.rho > 4 && p.rho < 6 && isfinite(p.beta) && p.orbit.r > kd_kerr_horizon(a));
+                assert_true(p.rho > 4 && p.rho < 6 && isfinite(p.beta) && p.orbit.r > kd_hole(a)->outer);
             }
     for (int k = 0; k <= 12; k++) {
         double angle = k * M_PI / 12;
@@ -217,7 +217,7 @@ static void the_edge_from_nearby(void **state)
     for (int n = 0; n < 5 * 4 * 6 * 2; n++) {
         double a = as[n % 5], u = us[n / 5 % 4], r = rs[n / 20 % 6];
         bool zamo = n / 120;
-        if (r <= kd_kerr_horizon(a) || (!zamo && r <= kd_kerr_ergosphere(a, u)))
+        if (r <= kd_hole(a)->outer || (!zamo && r <= kd_kerr_ergosphere(kd_hole(a), u)))
             continue;
         struct kd_critical c = curve_of(a, u, r, zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC);
         for (int k = 0; k < 16; k++) {
@@ -265,7 +265,8 @@ static void from_far_away(void **state)
  * Psaltis' A of a displaced circle is 0. */
 static double polygon(double a, double u, int n)
 {
-    double s = sqrt(1 - u * u), low = kd_kerr_photon_orbit(a), high = kd_kerr_photon_orbit(-a), area = 0;
+    double s = sqrt(1 - u * u), low = kd_kerr_photon_orbit(kd_hole(a)), high = kd_kerr_photon_orbit(kd_hole(-a)),
+           area = 0;
     double alpha0 = 0, beta0 = 0;
     for (int k = 0; k <= n; k++) { /* i = 90 degrees: all orbits are seen */
         double r = 0.5 * (low + high) - 0.5 * (high - low) * cos(M_PI * k / n);

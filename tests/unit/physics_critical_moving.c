@@ -2,7 +2,7 @@
  * either side of it, followed back in Kerr-Schild coordinates from frames that are made there, comes from the sky on
  * the one side and from the hole on the other. */
 #include "kerr_schild.h"
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 
 #include <math.h>
 #include <setjmp.h>

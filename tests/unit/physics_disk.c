@@ -1,7 +1,7 @@
 /* The thin disk against quadrature of its defining integral (tests/oracle/disk_reference.py), energy
  * conservation, and the redshift against a contraction with the metric. */
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 
 #include "contraction.h"
 #include "disk_reference.h"
@@ -28,27 +28,27 @@ static void flux_is_the_integral(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(flux_reference); i++) {
         const struct flux_reference *f = &flux_reference[i];
-        double gap = f->r - kd_kerr_isco(f->a), bound = 1e-11 + 4e-14 / (gap * gap);
-        close_to("flux", f->a, f->r, kd_disk_flux_page_thorne(f->a, f->r), f->flux, bound);
+        double gap = f->r - kd_kerr_isco(kd_hole(f->a)), bound = 1e-11 + 4e-14 / (gap * gap);
+        close_to("flux", f->a, f->r, kd_disk_flux_page_thorne(kd_hole(f->a), f->r), f->flux, bound);
     }
 }
 
-typedef double (*function)(double a, double r);
+typedef double (*function)(const struct kd_hole *hole, double r);
 
 /* Integral of 4 pi r F(r) weight(r) from the ISCO to infinity, in y = sqrt(r_isco/r), where the integrand is
  * a power series that starts with y: Simpson's rule. */
 static double luminosity(function flux, function weight, double a)
 {
     const int n = 20000;
-    double isco = kd_kerr_isco(a), sum = 0;
+    double isco = kd_kerr_isco(kd_hole(a)), sum = 0;
     for (int i = 1; i < n; i++) {
         double y = (double)i / n, r = isco / (y * y);
-        sum += (i % 2 ? 4 : 2) * 4 * M_PI * r * flux(a, r) * weight(a, r) * 2 * isco / (y * y * y);
+        sum += (i % 2 ? 4 : 2) * 4 * M_PI * r * flux(kd_hole(a), r) * weight(kd_hole(a), r) * 2 * isco / (y * y * y);
     }
     return sum / (3.0 * n); /* both ends are zero: F at the ISCO, y at infinity */
 }
 
-static double one(double a, double r) { return (void)a, (void)r, 1; }
+static double one(const struct kd_hole *hole, double r) { return (void)hole, (void)r, 1; }
 
 /* What both faces radiate, E times the energy in the gas's frame, is what the gas loses on its way in: 1 -
  * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within
@@ -59,10 +59,10 @@ static void luminosity_is_the_efficiency(void **state)
     const double spins[] = { -0.9999, -0.9, -0.5, 0, 1e-9, 0.3, 0.5, 0.9, 0.99, 0.998, 0.9999 };
     for (size_t i = 0; i < COUNT(spins); i++) {
         double a = spins[i];
-        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a), kd_kerr_efficiency(a),
-                 1e-8);
-        close_to("Newtonian luminosity", a, 0, luminosity(kd_disk_flux_shakura_sunyaev, one, a), 0.5 / kd_kerr_isco(a),
-                 1e-8);
+        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a),
+                 kd_kerr_efficiency(kd_hole(a)), 1e-8);
+        close_to("Newtonian luminosity", a, 0, luminosity(kd_disk_flux_shakura_sunyaev, one, a),
+                 0.5 / kd_kerr_isco(kd_hole(a)), 1e-8);
     }
 }
 
@@ -70,14 +70,14 @@ static void nothing_inside_the_isco(void **state)
 {
     (void)state;
     for (int n = -999; n < 1000; n += 3) {
-        double a = n / 1000.0, isco = kd_kerr_isco(a);
+        double a = n / 1000.0, isco = kd_kerr_isco(kd_hole(a));
         const function models[] = { kd_disk_flux_page_thorne, kd_disk_flux_shakura_sunyaev };
         for (int i = 0; i < 2; i++) {
-            assert_true(models[i](a, isco) == 0);
-            assert_true(models[i](a, 0.99 * isco) == 0);
-            assert_true(models[i](a, 1) == 0);
-            assert_true(models[i](a, 1.001 * isco) > 0);
-            assert_true(models[i](a, 1e7) > 0);
+            assert_true(models[i](kd_hole(a), isco) == 0);
+            assert_true(models[i](kd_hole(a), 0.99 * isco) == 0);
+            assert_true(models[i](kd_hole(a), 1) == 0);
+            assert_true(models[i](kd_hole(a), 1.001 * isco) > 0);
+            assert_true(models[i](kd_hole(a), 1e7) > 0);
         }
     }
 }
@@ -88,8 +88,8 @@ static void far_away_it_is_newtonian(void **state)
     (void)state;
     for (double a = -0.99; a < 1; a += 0.11) {
         double newton = 3 / (8 * M_PI * 1e24);
-        close_to("far flux", a, 1e8, kd_disk_flux_page_thorne(a, 1e8), newton, 5e-4);
-        close_to("far Newtonian flux", a, 1e8, kd_disk_flux_shakura_sunyaev(a, 1e8), newton, 5e-4);
+        close_to("far flux", a, 1e8, kd_disk_flux_page_thorne(kd_hole(a), 1e8), newton, 5e-4);
+        close_to("far Newtonian flux", a, 1e8, kd_disk_flux_shakura_sunyaev(kd_hole(a), 1e8), newton, 5e-4);
     }
 }
 
@@ -100,13 +100,13 @@ static void peak_of_the_flux(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(peak_reference); i++) {
         const struct peak_reference *p = &peak_reference[i];
-        double r = kd_disk_peak_page_thorne(p->a);
+        double r = kd_disk_peak_page_thorne(kd_hole(p->a));
         close_to("peak radius", p->a, r, r, p->r, 1e-13);
-        close_to("peak flux", p->a, r, kd_disk_flux_page_thorne(p->a, r), p->flux, 1e-10);
-        r = kd_disk_peak_shakura_sunyaev(p->a);
-        double top = kd_disk_flux_shakura_sunyaev(p->a, r);
-        assert_true(top > kd_disk_flux_shakura_sunyaev(p->a, r * (1 + 1e-6)) &&
-                    top > kd_disk_flux_shakura_sunyaev(p->a, r * (1 - 1e-6)));
+        close_to("peak flux", p->a, r, kd_disk_flux_page_thorne(kd_hole(p->a), r), p->flux, 1e-10);
+        r = kd_disk_peak_shakura_sunyaev(kd_hole(p->a));
+        double top = kd_disk_flux_shakura_sunyaev(kd_hole(p->a), r);
+        assert_true(top > kd_disk_flux_shakura_sunyaev(kd_hole(p->a), r * (1 + 1e-6)) &&
+                    top > kd_disk_flux_shakura_sunyaev(kd_hole(p->a), r * (1 - 1e-6)));
     }
 }
 
@@ -116,7 +116,8 @@ static void redshift_without_spin(void **state)
     (void)state;
     for (double r = 6; r < 1e5; r *= 1.3)
         for (double lambda = -5; lambda <= 5; lambda += 0.5)
-            close_to("g", 0, r, kd_disk_redshift(0, r, lambda), sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))), 1e-14);
+            close_to("g", 0, r, kd_disk_redshift(kd_hole(0), r, lambda), sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))),
+                     1e-14);
 }
 
 /* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega where the r-derivative of
@@ -137,9 +138,9 @@ static void redshift_with_spin(void **state)
     (void)state;
     const double spins[] = { -0.998, -0.9, -0.3, 1e-9, 0.3, 0.9, 0.998 };
     for (size_t i = 0; i < COUNT(spins); i++)
-        for (double r = kd_kerr_isco(spins[i]); r < 1e5; r *= 1.3)
+        for (double r = kd_kerr_isco(kd_hole(spins[i])); r < 1e5; r *= 1.3)
             for (double lambda = -6; lambda <= 1.5; lambda += 0.5)
-                close_to("g", spins[i], r, kd_disk_redshift(spins[i], r, lambda),
+                close_to("g", spins[i], r, kd_disk_redshift(kd_hole(spins[i]), r, lambda),
                          redshift_by_contraction(spins[i], r, lambda), 1e-12);
 }
 
@@ -151,15 +152,15 @@ static void redshift_of_plunging_gas(void **state)
     const double spins[] = { -0.998, -0.9, -0.3, 0, 0.3, 0.9, 0.99 };
     int tried = 0;
     for (size_t i = 0; i < COUNT(spins); i++)
-        for (double r = 1.05 * kd_kerr_horizon(spins[i]); r < 0.9 * kd_kerr_isco(spins[i]); r *= 1.07)
+        for (double r = 1.05 * kd_hole(spins[i])->outer; r < 0.9 * kd_kerr_isco(kd_hole(spins[i])); r *= 1.07)
             for (double lambda = -6; lambda <= 6; lambda += 0.5)
                 for (double eta = 0.01; eta < 40; eta *= 2) {
                     double a = spins[i], p = r * r + a * a - a * lambda, delta = r * r - 2 * r + a * a;
                     if (p < 0 || p * p - delta * (eta + (lambda - a) * (lambda - a)) < 1e-3)
                         continue;
-                    close_to("g outwards", a, r, kd_disk_redshift_plunging(a, r, lambda, eta, true),
+                    close_to("g outwards", a, r, kd_disk_redshift_plunging(kd_hole(a), r, lambda, eta, true),
                              redshift_of_plunge(a, r, lambda, eta, 1), 1e-10);
-                    close_to("g inwards", a, r, kd_disk_redshift_plunging(a, r, lambda, eta, false),
+                    close_to("g inwards", a, r, kd_disk_redshift_plunging(kd_hole(a), r, lambda, eta, false),
                              redshift_of_plunge(a, r, lambda, eta, -1), 1e-10);
                     tried++;
                 }
@@ -173,15 +174,15 @@ static void plunging_at_both_ends(void **state)
     (void)state;
     const double spins[] = { -0.998, -0.5, 0, 0.5, 0.9, 0.998 };
     for (size_t i = 0; i < COUNT(spins); i++) {
-        double a = spins[i], isco = kd_kerr_isco(a), h = kd_kerr_horizon(a);
+        double a = spins[i], isco = kd_kerr_isco(kd_hole(a)), h = kd_hole(a)->outer;
         for (int out = 0; out < 2; out++) {
-            double g = kd_disk_redshift_plunging(a, isco, -1, 2, out);
-            close_to("g at the ISCO", a, isco, g, kd_disk_redshift(a, isco, -1), 1e-9);
+            double g = kd_disk_redshift_plunging(kd_hole(a), isco, -1, 2, out);
+            close_to("g at the ISCO", a, isco, g, kd_disk_redshift(kd_hole(a), isco, -1), 1e-9);
         }
-        double g = kd_disk_redshift_plunging(a, h * (1 + 1e-9), 0, 2, true);
+        double g = kd_disk_redshift_plunging(kd_hole(a), h * (1 + 1e-9), 0, 2, true);
         assert_true(g > 0 && g < 1e-6);
-        g = kd_disk_redshift_plunging(a, h * (1 + 1e-9), 0, 2, false);
-        close_to("g inwards at the horizon", a, h, g, kd_disk_redshift_plunging(a, h, 0, 2, false), 1e-6);
+        g = kd_disk_redshift_plunging(kd_hole(a), h * (1 + 1e-9), 0, 2, false);
+        close_to("g inwards at the horizon", a, h, g, kd_disk_redshift_plunging(kd_hole(a), h, 0, 2, false), 1e-6);
         assert_true(g > 0.01 && g < 1);
     }
 }
@@ -193,13 +194,13 @@ static void temperature_in_kelvin(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(temperature_reference); i++) {
         const struct temperature_reference *t = &temperature_reference[i];
-        double flux = kd_disk_flux_page_thorne(t->a, t->r);
-        double got = kd_disk_temperature(flux, t->a, t->mass_msun, t->mdot_edd);
+        double flux = kd_disk_flux_page_thorne(kd_hole(t->a), t->r);
+        double got = kd_disk_temperature(flux, kd_hole(t->a), t->mass_msun, t->mdot_edd);
         close_to("temperature", t->a, t->r, got, t->kelvin, 1e-5);
-        close_to("sixteen times the mass", t->a, t->r, kd_disk_temperature(flux, t->a, 16 * t->mass_msun, t->mdot_edd),
-                 got / 2, 1e-14);
-        close_to("sixteen times the rate", t->a, t->r, kd_disk_temperature(flux, t->a, t->mass_msun, 16 * t->mdot_edd),
-                 got * 2, 1e-14);
+        close_to("sixteen times the mass", t->a, t->r,
+                 kd_disk_temperature(flux, kd_hole(t->a), 16 * t->mass_msun, t->mdot_edd), got / 2, 1e-14);
+        close_to("sixteen times the rate", t->a, t->r,
+                 kd_disk_temperature(flux, kd_hole(t->a), t->mass_msun, 16 * t->mdot_edd), got * 2, 1e-14);
     }
 }
 

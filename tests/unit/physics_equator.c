@@ -1,9 +1,9 @@
 /* Epicyclic frequencies, effective potentials and frame dragging against numbers worked out from the metric and
  * Carter's potentials (tests/oracle/equator_reference.py). */
-#include "physics/epicyclic.h"
-#include "physics/kerr.h"
-#include "physics/orbit_bound.h"
-#include "physics/potential.h"
+#include "physics/orbit/orbit_bound.h"
+#include "physics/spacetime/epicyclic.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/potential.h"
 
 #include "equator_reference.h"
 
@@ -31,18 +31,19 @@ static void frequencies(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(epicyclic_reference); i++) {
         const struct epicyclic_reference *e = &epicyclic_reference[i];
-        double isco = kd_kerr_isco(e->a), loss = 2e-15 * (e->r / (e->r - isco));
-        within("kappa", e->a, e->r, kd_epicyclic_radial(e->a, e->r), e->radial, (1e-14 + loss) * e->radial);
-        within("Omega_theta", e->a, e->r, kd_epicyclic_vertical(e->a, e->r), e->vertical, 1e-14 * e->vertical);
+        double isco = kd_kerr_isco(kd_hole(e->a)), loss = 2e-15 * (e->r / (e->r - isco));
+        within("kappa", e->a, e->r, kd_epicyclic_radial(kd_hole(e->a), e->r), e->radial, (1e-14 + loss) * e->radial);
+        within("Omega_theta", e->a, e->r, kd_epicyclic_vertical(kd_hole(e->a), e->r), e->vertical, 1e-14 * e->vertical);
     }
     for (double a = -0.99; a < 1; a += 0.09) {
-        double isco = kd_kerr_isco(a);
-        assert_true(kd_epicyclic_radial(a, isco) == 0);
-        assert_true(isnan(kd_epicyclic_radial(a, isco * (1 - 1e-9))));
-        assert_true(kd_epicyclic_radial(a, isco * (1 + 1e-9)) > 0);
+        double isco = kd_kerr_isco(kd_hole(a));
+        assert_true(kd_epicyclic_radial(kd_hole(a), isco) == 0);
+        assert_true(isnan(kd_epicyclic_radial(kd_hole(a), isco * (1 - 1e-9))));
+        assert_true(kd_epicyclic_radial(kd_hole(a), isco * (1 + 1e-9)) > 0);
     }
     for (double r = 6.5; r < 1e6; r *= 3) /* Schwarzschild: Omega_theta = Omega, kappa = Omega sqrt(1 - 6/r) */
-        within("kappa", 0, r, kd_epicyclic_radial(0, r), sqrt(1 - 6 / r) / (r * sqrt(r)), 1e-14 * pow(r, -1.5));
+        within("kappa", 0, r, kd_epicyclic_radial(kd_hole(0), r), sqrt(1 - 6 / r) / (r * sqrt(r)),
+               1e-14 * pow(r, -1.5));
 }
 
 /* Along geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the shear.
@@ -53,22 +54,22 @@ static void shear(void **state)
     (void)state;
     const double e = 1e-6;
     for (double a = -0.9; a < 1; a += 0.19)
-        for (double r = 1.1 * kd_kerr_isco(a); r < 300; r *= 1.7) {
+        for (double r = 1.1 * kd_kerr_isco(kd_hole(a)); r < 300; r *= 1.7) {
             struct kd_orbit orbit;
             struct kd_error error = { 0 };
-            assert_int_equal(kd_orbit_from_shape(a, r, e, 1, &orbit, &error), KD_OK);
+            assert_int_equal(kd_orbit_from_shape(kd_hole(a), r, e, 1, &orbit, &error), KD_OK);
             struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
             struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
             struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&bound);
-            within("kappa of a geodesic", a, r, kd_epicyclic_radial(a, r), f.r, 1e-9 * f.r);
-            double swing = -kd_epicyclic_shear(a, r) * r * e / f.r;
+            within("kappa of a geodesic", a, r, kd_epicyclic_radial(kd_hole(a), r), f.r, 1e-9 * f.r);
+            double swing = -kd_epicyclic_shear(kd_hole(a), r) * r * e / f.r;
             for (double phase = 0.3; phase < 12; phase += 0.7) {
                 struct kd_orbit_place at = kd_orbit_bound_at(&bound, phase / f.mino_r);
                 within("swing of phi", a, r, at.phi - f.phi * at.t, swing * sin(f.r * at.t), 1e-4 * fabs(swing));
             }
         }
     for (double a = 0; a < 0.9985; a += 0.002) /* the whole range of disks */
-        assert_true(kd_epicyclic_radial(a, kd_kerr_isco(a)) == 0);
+        assert_true(kd_epicyclic_radial(kd_hole(a), kd_kerr_isco(kd_hole(a))) == 0);
 }
 
 static void potentials(void **state)
@@ -78,11 +79,12 @@ static void potentials(void **state)
         const struct potential_reference *p = &potential_reference[i];
         /* Where a L < 0 two terms cancel: their size counts. Next to the horizon sqrt(r - r+) is known to 1e-16 of
          * r+. */
-        double near = 1e-15 / (p->r - kd_kerr_horizon(p->a)), drag = fabs(kd_kerr_dragging(p->a, p->r, 0) * p->l);
+        double near = 1e-15 / (p->r - kd_hole(p->a)->outer),
+               drag = fabs(kd_kerr_dragging(kd_hole(p->a), p->r, 0) * p->l);
         double loss = 2e-15 + fmin(near, 1e-9);
-        within("V of matter", p->a, p->r, kd_potential(p->a, p->l, 1, p->r), p->matter,
+        within("V of matter", p->a, p->r, kd_potential(kd_hole(p->a), p->l, 1, p->r), p->matter,
                loss * (2 * drag + fabs(p->matter)));
-        within("V of light", p->a, p->r, kd_potential(p->a, p->l, 0, p->r), p->light,
+        within("V of light", p->a, p->r, kd_potential(kd_hole(p->a), p->l, 0, p->r), p->light,
                loss * (2 * drag + fabs(p->light)));
     }
 }
@@ -93,7 +95,8 @@ static void turning_points(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(extrema_reference); i++) {
         const struct extrema_reference *e = &extrema_reference[i];
-        struct kd_potential_extrema m = kd_potential_of_matter(e->a, e->l), f = kd_potential_of_light(e->a, e->l);
+        struct kd_potential_extrema m = kd_potential_of_matter(kd_hole(e->a), e->l),
+                                    f = kd_potential_of_light(kd_hole(e->a), e->l);
         double s = 1e-13;
         within("r_max", e->a, e->l, m.r_max, e->r_max, s * e->r_max);
         within("r_min", e->a, e->l, m.r_min, e->r_min, s * e->r_min);
@@ -108,13 +111,15 @@ static void no_orbit(void **state)
 {
     (void)state;
     for (double a = -0.95; a < 1; a += 0.1) {
-        double least = kd_kerr_momentum(a, kd_kerr_isco(a));
-        assert_true(isnan(kd_potential_of_matter(a, least * (1 - 1e-9)).r_max));
-        struct kd_potential_extrema above = kd_potential_of_matter(a, least * (1 + 1e-9));
-        assert_true(above.r_max < kd_kerr_isco(a) && above.r_min > kd_kerr_isco(a) && above.v_max > above.v_min);
-        assert_true(isnan(kd_potential_of_light(a, 0).r_max) && isnan(kd_potential_of_light(a, 3).r_min));
+        double least = kd_kerr_momentum(kd_hole(a), kd_kerr_isco(kd_hole(a)));
+        assert_true(isnan(kd_potential_of_matter(kd_hole(a), least * (1 - 1e-9)).r_max));
+        struct kd_potential_extrema above = kd_potential_of_matter(kd_hole(a), least * (1 + 1e-9));
+        assert_true(above.r_max < kd_kerr_isco(kd_hole(a)) && above.r_min > kd_kerr_isco(kd_hole(a)) &&
+                    above.v_max > above.v_min);
+        assert_true(isnan(kd_potential_of_light(kd_hole(a), 0).r_max) &&
+                    isnan(kd_potential_of_light(kd_hole(a), 3).r_min));
     }
-    assert_true(isnan(kd_potential_of_matter(0, 0).r_max));
+    assert_true(isnan(kd_potential_of_matter(kd_hole(0), 0).r_max));
 }
 
 static void dragging(void **state)
@@ -123,8 +128,8 @@ static void dragging(void **state)
     for (size_t i = 0; i < COUNT(rotation_reference); i++) {
         const struct rotation_reference *d = &rotation_reference[i];
         double s = sqrt((1 - d->u) * (1 + d->u));
-        within("omega", d->a, d->r, kd_kerr_dragging(d->a, d->r, d->u), d->omega, 2e-15 * fabs(d->omega));
-        within("reach", d->a, d->r, kd_kerr_rotation_reach(d->a, d->r, d->u, s), d->reach, 2e-15 * d->reach);
+        within("omega", d->a, d->r, kd_kerr_dragging(kd_hole(d->a), d->r, d->u), d->omega, 2e-15 * fabs(d->omega));
+        within("reach", d->a, d->r, kd_kerr_rotation_reach(kd_hole(d->a), d->r, d->u, s), d->reach, 2e-15 * d->reach);
     }
 }
 

@@ -1,6 +1,6 @@
 /* Peters's inspiral against the quadrupole formula itself, summed over an orbit, against quadrature
  * (tests/oracle/inspiral_reference.py) and against pulsars in print. */
-#include "physics/inspiral.h"
+#include "physics/waves/inspiral.h"
 
 #include "inspiral_reference.h"
 

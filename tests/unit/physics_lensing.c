@@ -1,10 +1,10 @@
 /* Lensing bands: against quadratures in 60 digits (tests/oracle/critical_reference.py), published intervals,
  * and rays traced in closed form; and the demagnification from order to order. */
-#include "physics/lensing.h"
+#include "physics/null/lensing.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
-#include "physics/root.h"
+#include "physics/math/root.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "critical_reference.h"
 
@@ -68,7 +68,7 @@ static void rays_agree(void **state)
         int n = 1 + k / 240;
         struct kd_critical c = curve_of(a, u);
         struct kd_critical_point p = kd_critical_at(&c, angle);
-        if (source <= kd_kerr_horizon(a))
+        if (source <= kd_hole(a)->outer)
             continue;
         double d = kd_lensing_edge(&c, &p, n, source);
         if (isnan(d)) {
@@ -97,7 +97,7 @@ static void demagnification(void **state)
     const double spins[] = { 0, 0.5, 0.9, 0.998, 1 - 1e-6 }, cosines[] = { 1, 0.5, 0.1736 };
     for (int k = 0; k < 5 * 3 * 4 * 3; k++) {
         double a = spins[k % 5], u = cosines[k / 5 % 3], angle = -2.9 + 1.9 * (k / 15 % 4);
-        double source = k / 60 == 0 ? kd_kerr_horizon(a) : k / 60 == 1 ? 8 : INFINITY;
+        double source = k / 60 == 0 ? kd_hole(a)->outer : k / 60 == 1 ? 8 : INFINITY;
         struct kd_critical c = curve_of(a, u);
         struct kd_critical_point p = kd_critical_at(&c, angle);
         double gamma = kd_shell_exponents(&p.orbit).gamma, last = NAN, last_off = 1, floor = 1e-13 / sqrt(1 - a);

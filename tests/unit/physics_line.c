@@ -1,14 +1,14 @@
 /* Line profiles and spectra of disks against sums over rays of the image plane, transfer functions against rays
  * integrated in Kerr-Schild coordinates, lamps against rays of a lamp in flat space and against Schwarzschild's, and
  * the image of the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
-#include "physics/disk.h"
-#include "physics/disk_image.h"
-#include "physics/disk_spectrum.h"
-#include "physics/kerr.h"
-#include "physics/lamppost.h"
-#include "physics/line_profile.h"
-#include "physics/null_geodesic.h"
-#include "physics/transfer_function.h"
+#include "physics/disk/disk_image.h"
+#include "physics/disk/disk_spectrum.h"
+#include "physics/disk/lamppost.h"
+#include "physics/disk/line_profile.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/disk/transfer_function.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 
 #include "kerr_schild.h"
 #include "line_triangles.h"
@@ -47,7 +47,7 @@ static void test_rings_are_where_rays_lead(void **state)
     for (size_t s = 0; s < COUNT(spins); s++)
         for (size_t k = 0; k < COUNT(inclinations); k++) {
             double a = spins[s], i = inclinations[k];
-            assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+            assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
             for (size_t n = 0; n < COUNT(radii); n++) {
                 double r = radii[n] * image.isco;
                 struct kd_disk_ring gas = kd_disk_image_gas(&image, r);
@@ -57,7 +57,7 @@ static void test_rings_are_where_rays_lead(void **state)
                     struct kd_disk_light light = kd_disk_image_light(&image, &gas, alpha[j], beta[j]);
                     assert_int_equal(path.crossings, 1);
                     within("radius", a, i, path.r[0] / r, 1, 4e-4);
-                    double g = kd_disk_redshift(a, r, path.momentum[0]);
+                    double g = kd_disk_redshift(kd_hole(a), r, path.momentum[0]);
                     within("redshift", a, i, light.g, g, 1e-6);
                     within("angle", a, i, light.mu, g * path.p_z[0], 1e-3);
                 }
@@ -75,7 +75,7 @@ static void test_nodes(void **state)
     for (size_t s = 0; s < COUNT(spins); s++)
         for (size_t k = 0; k < COUNT(inclinations); k++) {
             double a = spins[s], i = inclinations[k];
-            assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+            assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
             for (int ring = 1; ring <= KD_DISK_IMAGE_RINGS; ring++) {
                 double r = image.origin + (image.isco - image.origin) * pow((double)KD_DISK_IMAGE_RINGS / ring, 4);
                 kd_disk_image_ring(&image, r, 1, image.angles, alpha, beta);
@@ -103,7 +103,7 @@ static void test_next_to_edge_on(void **state)
     double alpha[KD_DISK_IMAGE_ANGLES], beta[KD_DISK_IMAGE_ANGLES], x, y;
     (void)state;
     for (size_t h = 0; h < COUNT(holes); h++) {
-        assert_true(kd_disk_image_init(&image, holes[h].spin, holes[h].deg * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(holes[h].spin), holes[h].deg * RADIAN));
         for (double r = 1.02 * image.isco; r < 400; r *= 1.35) {
             kd_disk_image_ring(&image, r, 1, KD_DISK_IMAGE_ANGLES, alpha, beta);
             for (int j = 0; j < KD_DISK_IMAGE_ANGLES; j++) {
@@ -119,13 +119,13 @@ static void test_inclinations(void **state)
 {
     static struct kd_disk_image other;
     (void)state;
-    assert_true(kd_disk_image_init(&image, 0.5, 50 * RADIAN));
-    assert_true(kd_disk_image_init(&other, 0.5, 130 * RADIAN));
+    assert_true(kd_disk_image_init(&image, kd_hole(0.5), 50 * RADIAN));
+    assert_true(kd_disk_image_init(&other, kd_hole(0.5), 130 * RADIAN));
     for (int k = 0; k <= KD_DISK_IMAGE_RINGS; k++)
         for (int j = 0; j < image.angles; j++)
             within("stretch", 0.5, 130, other.stretch[k][j], image.stretch[k][j], 1e-8);
-    assert_false(kd_disk_image_init(&image, 0.5, 90 * RADIAN));
-    assert_false(kd_disk_image_init(&image, 0.5, 87.5 * RADIAN));
+    assert_false(kd_disk_image_init(&image, kd_hole(0.5), 90 * RADIAN));
+    assert_false(kd_disk_image_init(&image, kd_hole(0.5), 87.5 * RADIAN));
 }
 
 enum { EDGES = 60 };
@@ -134,7 +134,7 @@ enum { EDGES = 60 };
 static void sum_over_rays(double a, double i, double outer, const double *edges, double *in)
 {
     const int across = 500, around = 400;
-    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(a), first = log(0.9), last = log(1.25 * outer),
+    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(kd_hole(a)), first = log(0.9), last = log(1.25 * outer),
            step = (last - first) / across, all = 0;
     memset(in, 0, EDGES * sizeof *in);
     for (int k = 0; k < across; k++)
@@ -148,7 +148,7 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
             struct kd_null_path path = kd_null_trace_fast(&ray);
             if (!path.crossings || path.crossing[0].r < isco || path.crossing[0].r > outer)
                 continue;
-            double r = path.crossing[0].r, g = kd_disk_redshift(a, r, -ray.alpha * sin(i)),
+            double r = path.crossing[0].r, g = kd_disk_redshift(kd_hole(a), r, -ray.alpha * sin(i)),
                    light = g * g * g / (r * r * r) * rho * rho;
             all += light;
             for (int e = 0; e < EDGES; e++)
@@ -190,7 +190,7 @@ static void test_cumulative_share(void **state)
         edges[e + 1] = 1.6 * (e + 1) / EDGES;
     for (size_t k = 0; k < COUNT(cases); k++) {
         double a = cases[k].a, i = cases[k].i, sum = 0, worst = 0;
-        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         const struct kd_line_params params = { .inner = image.isco, .outer = outer, .index = 3 };
         struct kd_line_profile profile;
         struct kd_error error;
@@ -224,7 +224,7 @@ static void test_told_error(void **state)
         edges[e] = 1.7 * e / BINS;
     for (size_t k = 0; k < COUNT(cases); k++) {
         double a = cases[k].a, i = cases[k].i;
-        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         double apart = lt_profile(&image, cases[k].index, 400, 512, 256, edges, BINS, want);
         assert_true(apart >= 0);
         for (size_t t = COUNT(tolerances); t-- > 0;) {
@@ -259,7 +259,7 @@ static void test_bins_add_up(void **state)
     struct kd_line_profile profile;
     struct kd_error error;
     (void)state;
-    assert_true(kd_disk_image_init(&image, 0.9, 40 * RADIAN));
+    assert_true(kd_disk_image_init(&image, kd_hole(0.9), 40 * RADIAN));
     const struct kd_line_params params = { .inner = 3,
                                            .outer = 50,
                                            .emissivity = KD_LINE_BROKEN,
@@ -281,7 +281,7 @@ static void test_face_on(void **state)
 {
     double edges[] = { 0.1, 0.6, 0.7, 0.8, 0.9, 0.99 }, share[5];
     (void)state;
-    assert_true(kd_disk_image_init(&image, 0, 0));
+    assert_true(kd_disk_image_init(&image, kd_hole(0), 0));
     for (int energy = 0; energy < 2; energy++) {
         struct kd_line_params params = { .inner = 6, .outer = 200, .index = 2.5, .energy = energy };
         struct kd_line_profile profile;
@@ -331,18 +331,18 @@ static void test_lamp(void **state)
     struct kd_lamppost lamp;
     (void)state;
     /* Flat: far above a far ring. The deflection of light, some 4/b, is what is left. */
-    assert_true(kd_lamppost_init(&lamp, 0, 2000, 2, 1000, 10000));
+    assert_true(kd_lamppost_init(&lamp, kd_hole(0), 2000, 2, 1000, 10000));
     for (double r = 1200; r < 9000; r *= 1.7)
         within("flat", 0, r, kd_lamppost_at(&lamp, r) / (2000 / (4 * M_PI * pow(r * r + 4e6, 1.5))), 1, 0.01);
     /* Schwarzschild: the slope of r by differences, and the sum over rings of what they get is what was sent there. */
     for (double h = 3; h < 50; h *= 2.3) {
-        assert_true(kd_lamppost_init(&lamp, 0, h, 1.7, 6, 1000));
+        assert_true(kd_lamppost_init(&lamp, kd_hole(0), h, 1.7, 6, 1000));
         for (double delta = 0.7; delta < 1.5; delta += 0.2) {
             double r = quarter_turn(h, delta),
                    slope = (quarter_turn(h, delta + 1e-4) - quarter_turn(h, delta - 1e-4)) / 2e-4;
             if (r < 6 || r > 900)
                 continue;
-            within("reach", h, delta, kd_lamppost_reach(0, h, delta) / r, 1, 1e-7);
+            within("reach", h, delta, kd_lamppost_reach(kd_hole(0), h, delta) / r, 1, 1e-7);
             double ut = 1 / sqrt(1 - 3 / r), g = ut * sqrt(1 - 2 / h),
                    want = sin(delta) / slope * pow(g, 1.7) / (4 * M_PI * r * ut);
             within("lamp", h, delta, kd_lamppost_at(&lamp, r) / want, 1, 1e-4);
@@ -351,18 +351,18 @@ static void test_lamp(void **state)
     /* Kerr: photons of all rings, by the hole's time, are those of the angles between the rings at the ends. */
     static const double spins[] = { 0.9, 0.998, -0.5 };
     for (size_t s = 0; s < COUNT(spins); s++) {
-        double a = spins[s], h = 4, isco = kd_kerr_isco(a), sum = 0, low = 0, high = M_PI, outer = 500;
-        assert_true(kd_lamppost_init(&lamp, a, h, 0, isco, outer)); /* photon index 0: no g */
+        double a = spins[s], h = 4, isco = kd_kerr_isco(kd_hole(a)), sum = 0, low = 0, high = M_PI, outer = 500;
+        assert_true(kd_lamppost_init(&lamp, kd_hole(a), h, 0, isco, outer)); /* photon index 0: no g */
         for (int k = 0; k < 4000; k++) {
             double r = isco * pow(outer / isco, (k + 0.5) / 4000);
-            sum += kd_lamppost_at(&lamp, r) * 4 * M_PI * r * kd_kerr_ut(a, r) * r * log(outer / isco) / 4000;
+            sum += kd_lamppost_at(&lamp, r) * 4 * M_PI * r * kd_kerr_ut(kd_hole(a), r) * r * log(outer / isco) / 4000;
         }
         double ends[2];
         for (int end = 0; end < 2; end++) {
             low = 0, high = M_PI;
             for (int n = 0; n < 60; n++) {
                 double middle = 0.5 * (low + high);
-                *(kd_lamppost_reach(a, h, middle) < (end ? outer : isco) ? &low : &high) = middle;
+                *(kd_lamppost_reach(kd_hole(a), h, middle) < (end ? outer : isco) ? &low : &high) = middle;
             }
             ends[end] = cos(low);
         }
@@ -377,7 +377,7 @@ static struct start start_of(double a, double u, double alpha, double beta)
 {
     struct ks_path path = ks_trace(ks_from_infinity(a, u, alpha, beta), 1);
     assert_int_equal(path.crossings, 1);
-    return (struct start) { path.r[0], kd_disk_redshift(a, path.r[0], path.momentum[0]) };
+    return (struct start) { path.r[0], kd_disk_redshift(kd_hole(a), path.r[0], path.momentum[0]) };
 }
 
 /* d(g, r)/d(alpha, beta) by the oracle's rays; its 1e-11 over the step is 1e-8, and the step's square leaves 1e-6. */
@@ -400,7 +400,7 @@ static void test_transfer_function(void **state)
     for (size_t k = 0; k < COUNT(cases); k++) {
         double a = cases[k].a, i = cases[k].i, r = cases[k].r, u = cos(i * RADIAN), alpha, beta;
         struct kd_transfer_ring ring;
-        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         assert_true(kd_transfer_ring_of(&image, r, &ring));
         /* At its ends g does not change along the ring, so that its slope is that of r, but for a factor; the ends
          * are those of the oracle's rays. */
@@ -426,7 +426,7 @@ static void test_transfer_function(void **state)
         }
     }
     struct kd_transfer_ring ring;
-    assert_true(kd_disk_image_init(&image, 0.5, 0));
+    assert_true(kd_disk_image_init(&image, kd_hole(0.5), 0));
     assert_false(kd_transfer_ring_of(&image, 10, &ring));
 }
 
@@ -455,8 +455,8 @@ static void test_spectrum(void **state)
     const double outer = 200, mass = 12, distance = 3e3, rate = 0.2, hardening = 1.6;
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++) {
-        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN), isco = kd_kerr_isco(a),
-               squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
+        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN),
+               isco = kd_kerr_isco(kd_hole(a)), squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
         double frequencies[FREQUENCIES], off, step = log(1.25 * outer / 0.9) / ACROSS;
         /* M and Mdot in SI: L = mdot 4 pi G M m_p c/sigma_T, and Mdot c^2 is that over 1 - E at the ISCO */
         double m = 1476.625 * mass, root = sqrt(isco),
@@ -483,7 +483,7 @@ static void test_spectrum(void **state)
             double flat = table_flux[low] + (table_flux[low + 1] - table_flux[low]) * (r - table_r[low]) /
                                                 (table_r[low + 1] - table_r[low]);
             double t = hardening * pow(flat * power / (m * m) / 5.670374419e-8, 0.25),
-                   g = kd_disk_redshift(a, r, -ray.alpha * s);
+                   g = kd_disk_redshift(kd_hole(a), r, -ray.alpha * s);
             double area = rho * rho * squeeze * step * 2 * M_PI / AROUND * m * m /
                           pow(distance * 3.0856775815e16 * hardening * hardening, 2);
             for (int f = 0; f < FREQUENCIES && t > 0; f++) {
@@ -496,7 +496,7 @@ static void test_spectrum(void **state)
             isco, outer, mass, distance, rate, hardening, KD_LIMB_ISOTROPIC
         };
         struct kd_error error;
-        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         assert_int_equal(kd_disk_spectrum(&image, &params, frequencies, FREQUENCIES, flux, &off, &error), KD_OK);
         assert_true(off > 1e-8 && off < 5e-4);
         for (int f = 0; f < FREQUENCIES; f++)

@@ -1,6 +1,6 @@
 /* Null geodesics in closed form against Taylor series to 20 digits (tests/oracle/null_reference.py): every
  * case of roots, start and degeneracy, and rays 1e-10 from the critical curve. */
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
 
 #include "null_reference.h"
 

@@ -1,6 +1,6 @@
 /* Random null geodesics in closed form against the Hamiltonian integrated in Kerr-Schild coordinates: another
  * method, other coordinates, no common formula. */
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
 
 #include "kerr_schild.h"
 

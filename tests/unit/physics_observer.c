@@ -3,8 +3,8 @@
  * motion against the oracle's own frames. */
 #include "kerr_schild.h"
 #include "kerr_schild_frame.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -103,7 +103,7 @@ static void everywhere(check *each)
         size_t k = n / COUNT(spins) / COUNT(angles) / COUNT(heights);
         struct kd_observer_motion m = motions[k];
         struct kd_vantage at = { .spin = a, .u = cos(theta), .s = sin(theta) };
-        at.r = fmax(kd_observers[m.observer].outside(a, at.u), kd_kerr_horizon(a)) *
+        at.r = fmax(kd_observers[m.observer].outside(kd_hole(a), at.u), kd_hole(a)->outer) *
                (1 + height); /* these coordinates end there */
         m.fall_momentum *= at.s;
         m.fall_from *= at.r;
@@ -124,8 +124,8 @@ static void everywhere(check *each)
  * edge, over the distance to there. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    double edge = fmax(kd_observers[m->observer].outside(at->spin, at->u), kd_kerr_horizon(at->spin)),
-           inner = fabs(at->r - kd_kerr_horizon(at->spin));
+    double edge = fmax(kd_observers[m->observer].outside(kd_hole(at->spin), at->u), kd_hole(at->spin)->outer),
+           inner = fabs(at->r - kd_hole(at->spin)->outer);
     double moves = at->spin * at->spin / fabs(edge - 1);
     return (m->observer > KD_OBSERVER_ZAMO ? 100 : 8) * 2.2e-16 *
            ((at->r + moves) / (at->r - edge) + at->r / inner + 1);
@@ -143,7 +143,7 @@ static void near(double is, double wanted, double bound, const char *what, const
 static void slope(const struct kd_vantage *at, matrix out)
 {
     matrix g[4];
-    const double h = 1e-4 * (at->r - kd_kerr_horizon(at->spin));
+    const double h = 1e-4 * (at->r - kd_hole(at->spin)->outer);
     for (int k = 0; k < 4; k++) {
         struct kd_vantage beside = *at;
         beside.r += h * (k < 2 ? k - 2 : k - 1);
@@ -188,9 +188,10 @@ static void circular_orbit(const struct kd_observer_motion *m, const struct kd_v
     near(force(at, up), 0, 1e-9 + rounding(m, at), "force", m, at);
     if (fabs(at->u) < 1e-9) { /* Bardeen, Press & Teukolsky's circular orbits */
         double a = sense * at->spin, bound = 4 * rounding(m, at);
-        near((double)-down[T], kd_kerr_energy(a, at->r), bound * kd_kerr_energy(a, at->r), "E", m, at);
-        near((double)down[PHI], sense * kd_kerr_momentum(a, at->r), bound * fabs(kd_kerr_momentum(a, at->r)), "L", m,
+        near((double)-down[T], kd_kerr_energy(kd_hole(a), at->r), bound * kd_kerr_energy(kd_hole(a), at->r), "E", m,
              at);
+        near((double)down[PHI], sense * kd_kerr_momentum(kd_hole(a), at->r),
+             bound * fabs(kd_kerr_momentum(kd_hole(a), at->r)), "L", m, at);
     }
 }
 
@@ -254,7 +255,7 @@ static double cancelled(const struct kd_observer_motion *m, const struct kd_vant
     for (int i = 0; i < 4; i++)
         size += fabsl(p[i] * x[i]);
     return m->observer == KD_OBSERVER_INFALL
-               ? 16 * 2.2e-16 * (double)size * (1 + at->r / (at->r - kd_kerr_horizon(at->spin)))
+               ? 16 * 2.2e-16 * (double)size * (1 + at->r / (at->r - kd_hole(at->spin)->outer))
                : 0;
 }
 
@@ -374,8 +375,9 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     double lapse = kd_observer_tetrad(&zamo, at).t.energy;
-    double gamma = (frame->t.energy - kd_kerr_dragging(at->spin, at->r, at->u) * frame->t.momentum * at->s) / lapse;
-    return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - kd_kerr_horizon(at->spin))) : 1;
+    double gamma =
+        (frame->t.energy - kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) * frame->t.momentum * at->s) / lapse;
+    return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - kd_hole(at->spin)->outer)) : 1;
 }
 
 /* Components are given back, and a photon is seen where it comes from; a frame that mixes everything is one too. */

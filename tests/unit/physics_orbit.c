@@ -1,7 +1,7 @@
 /* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is
  * known of them. / */
-#include "physics/kerr.h"
-#include "physics/orbit_lanes.h"
+#include "physics/orbit/orbit_lanes.h"
+#include "physics/spacetime/kerr.h"
 
 #include "orbit_reference.h"
 
@@ -27,7 +27,7 @@ static struct kd_orbit shape(double a, double p, double e, double x)
 {
     struct kd_orbit orbit;
     struct kd_error error = { 0 };
-    if (kd_orbit_from_shape(a, p, e, x, &orbit, &error))
+    if (kd_orbit_from_shape(kd_hole(a), p, e, x, &orbit, &error))
         fail_msg("a = %g, p = %g, e = %g, x = %g: %s", a, p, e, x, error.message);
     return orbit;
 }
@@ -41,7 +41,7 @@ static struct kd_orbit_bound bound_of(const struct kd_orbit *orbit)
 /* How much closer to the separatrix than to 0 an orbit is magnifies rounding of its constants. */
 static double condition(const struct orbit_reference *e)
 {
-    return 1 + e->p / (e->p - kd_orbit_separatrix(e->spin, e->e, e->x));
+    return 1 + e->p / (e->p - kd_orbit_separatrix(kd_hole(e->spin), e->e, e->x));
 }
 
 static void constants_are_the_roots(void **state)
@@ -126,7 +126,7 @@ static void falls_are_the_quadratures(void **state)
             struct kd_orbit o;
             struct kd_error error = { 0 };
             struct kd_orbit_path path;
-            if (kd_orbit_from_constants(e->spin, e->energy, e->momentum, 0, e->from, &o, &error))
+            if (kd_orbit_from_constants(kd_hole(e->spin), e->energy, e->momentum, 0, e->from, &o, &error))
                 fail_msg("row %zu: %s", i, error.message);
             struct kd_orbit_state start = kd_orbit_start(&o, e->from, e->to > e->from);
             kd_orbit_path_init(&path, &o, &start, (enum kd_orbit_method)method);
@@ -242,11 +242,11 @@ static void circles_at_the_edge(void **state)
 {
     (void)state;
     for (double a = -0.95; a < 1; a += 0.95) {
-        double isco = kd_kerr_isco(a);
+        double isco = kd_kerr_isco(kd_hole(a));
         struct kd_orbit o = shape(a, isco, 0, 1);
         assert_int_equal(o.fate, KD_ORBIT_BOUND);
-        close_to(0, "E", o.energy, kd_kerr_energy(a, isco), 1e-14);
-        close_to(0, "L", o.momentum, kd_kerr_momentum(a, isco), 1e-13);
+        close_to(0, "E", o.energy, kd_kerr_energy(kd_hole(a), isco), 1e-14);
+        close_to(0, "L", o.momentum, kd_kerr_momentum(kd_hole(a), isco), 1e-13);
         for (int method = 0; method < 2; method++) {
             struct kd_orbit_state start = kd_orbit_start(&o, NAN, true);
             struct kd_orbit_path path;
@@ -262,7 +262,7 @@ static void circles_at_the_edge(void **state)
         struct kd_orbit well_inside = shape(a, 0.98 * isco, 0, 1);
         struct kd_orbit_state start = kd_orbit_start(&well_inside, NAN, true);
         struct kd_orbit_path path;
-        double horizon = 1 / kd_kerr_horizon(a);
+        double horizon = 1 / kd_hole(a)->outer;
         int k = 0;
         kd_orbit_path_init(&path, &well_inside, &start, KD_ORBIT_YOSHIDA6);
         for (; k < 100 * 64 && path.place[KD_PATH_W].value < horizon; k++)
@@ -280,7 +280,7 @@ static void constants_and_back(void **state)
         const struct orbit_reference *e = &orbit_reference[i];
         struct kd_orbit o = shape(e->spin, e->p, e->e, e->x), back;
         struct kd_error error = { 0 };
-        if (kd_orbit_from_constants(e->spin, o.energy, o.momentum, o.carter, NAN, &back, &error))
+        if (kd_orbit_from_constants(kd_hole(e->spin), o.energy, o.momentum, o.carter, NAN, &back, &error))
             fail_msg("row %zu: %s", i, error.message);
         assert_int_equal(back.fate, KD_ORBIT_BOUND);
         /* E near 1 has lost digits of 1 - E^2, a narrow range of r has lost half of them */
@@ -288,10 +288,10 @@ static void constants_and_back(void **state)
         close_to(i, "periastron", back.w_high, o.w_high, bound * o.w_high);
         close_to(i, "apastron", back.w_low, o.w_low, bound * o.w_low);
         if (e->e > 0 && e->p < 100) {
-            double inner = 0.5 * (1 / o.w_high + kd_kerr_horizon(e->spin));
+            double inner = 0.5 * (1 / o.w_high + kd_hole(e->spin)->outer);
             struct kd_orbit_bound b = bound_of(&o);
             if (inner < b.r[2] &&
-                !kd_orbit_from_constants(e->spin, o.energy, o.momentum, o.carter, inner, &back, &error))
+                !kd_orbit_from_constants(kd_hole(e->spin), o.energy, o.momentum, o.carter, inner, &back, &error))
                 assert_int_equal(back.fate, KD_ORBIT_PLUNGE);
         }
     }
@@ -311,8 +311,8 @@ static void states_are_what_is_seen(void **state)
         struct kd_orbit o;
         struct kd_orbit_state s;
         struct kd_error error = { 0 };
-        if (kd_orbit_from_state(a, at[0], at[1] * (180 / M_PI), zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC, v, &o, &s,
-                                &error))
+        if (kd_orbit_from_state(kd_hole(a), at[0], at[1] * (180 / M_PI), zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC,
+                                v, &o, &s, &error))
             fail_msg("row %zu: %s", i, error.message);
         double r = at[0], sine2 = sin(at[1]) * sin(at[1]), u = cos(at[1]);
         double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a;
@@ -346,7 +346,7 @@ static void from_any_phase(void **state)
         struct kd_orbit o;
         struct kd_orbit_state s;
         struct kd_orbit_path path;
-        assert_int_equal(kd_orbit_from_state(0.6, 14, 70, KD_OBSERVER_ZAMO, v[i], &o, &s, NULL), KD_OK);
+        assert_int_equal(kd_orbit_from_state(kd_hole(0.6), 14, 70, KD_OBSERVER_ZAMO, v[i], &o, &s, NULL), KD_OK);
         assert_int_equal(o.fate, KD_ORBIT_BOUND);
         struct kd_orbit_bound b = kd_orbit_bound_of(&o, &s);
         kd_orbit_path_init(&path, &o, &s, KD_ORBIT_YOSHIDA6);
@@ -379,9 +379,9 @@ static void azimuth_has_no_pole(void **state)
             struct kd_orbit_state s;
             struct kd_orbit_path path;
             double sum = 0, drag = 0, h = 1e-4, end = 0.6;
-            assert_int_equal(
-                kd_orbit_from_state(0.98, 12, rows[i].theta * (180 / M_PI), KD_OBSERVER_ZAMO, rows[i].v, &o, &s, NULL),
-                KD_OK);
+            assert_int_equal(kd_orbit_from_state(kd_hole(0.98), 12, rows[i].theta * (180 / M_PI), KD_OBSERVER_ZAMO,
+                                                 rows[i].v, &o, &s, NULL),
+                             KD_OK);
             assert_int_equal(o.carter < 0, rows[i].vortical);
             kd_orbit_path_init(&path, &o, &s, (enum kd_orbit_method)method);
             for (int k = 0; k < (int)(end / h); k++) { /* Simpson's rule over pairs of steps */
@@ -476,10 +476,11 @@ static void separatrix(void **state)
 {
     (void)state;
     for (double e = 0.125; e < 1; e += 0.125)
-        close_to(0, "p_s", kd_orbit_separatrix(0, e, 0.5), 6 + 2 * e, 1e-12);
+        close_to(0, "p_s", kd_orbit_separatrix(kd_hole(0), e, 0.5), 6 + 2 * e, 1e-12);
     for (double a = -0.99; a < 1; a += 0.11) {
-        close_to(1, "p_s, e = 0", kd_orbit_separatrix(a, 1e-9, 1), kd_kerr_isco(a), 1e-7);
-        close_to(2, "p_s, e = 1", kd_orbit_separatrix(a, 1 - 1e-9, -1), 2 * kd_kerr_marginally_bound(-a), 1e-7);
+        close_to(1, "p_s, e = 0", kd_orbit_separatrix(kd_hole(a), 1e-9, 1), kd_kerr_isco(kd_hole(a)), 1e-7);
+        close_to(2, "p_s, e = 1", kd_orbit_separatrix(kd_hole(a), 1 - 1e-9, -1),
+                 2 * kd_kerr_marginally_bound(kd_hole(-a)), 1e-7);
     }
 }
 
@@ -496,21 +497,23 @@ static void bad_input(void **state)
     struct kd_orbit_state s;
     struct kd_error error = { 0 };
     static const double fast[] = { 0.8, 0.6, 0.1 }, still[3];
-    refused("/spin", kd_orbit_from_shape(1, 8, 0.5, 1, &o, &error), &error);
-    refused("/e", kd_orbit_from_shape(0, 8, 1, 1, &o, &error), &error);
-    refused("/e", kd_orbit_from_shape(0, 8, -0.1, 1, &o, &error), &error);
-    refused("/p", kd_orbit_from_shape(0, 6.9, 0.5, 1, &o, &error), &error);
-    refused("/p", kd_orbit_from_shape(0, 1.9, 0, 1, &o, &error), &error);
-    refused("/p", kd_orbit_from_shape(0, 2.9, 0, 1, &o, &error), &error); /* inside the photon orbit */
-    refused("/p", kd_orbit_from_shape(0, INFINITY, 0, 1, &o, &error), &error);
-    refused("/carter", kd_orbit_from_constants(0, 0.95, 3, -1, NAN, &o, &error), &error);
-    refused("/r", kd_orbit_from_constants(0, 0.95, 3, 0, 1.9, &o, &error), &error);
-    refused("/r", kd_orbit_from_constants(0, 0.95, 4, 0, 1000, &o, &error), &error);
-    refused("/energy", kd_orbit_from_constants(0, -0.95, 4, 0, NAN, &o, &error), &error);
-    refused("/position/r", kd_orbit_from_state(0, 2, 57, KD_OBSERVER_ZAMO, still, &o, &s, &error), &error);
-    refused("/position/theta_deg", kd_orbit_from_state(0, 5, 181, KD_OBSERVER_ZAMO, still, &o, &s, &error), &error);
-    refused("/velocity", kd_orbit_from_state(0, 5, 57, KD_OBSERVER_ZAMO, fast, &o, &s, &error), &error);
-    refused("/velocity/frame", kd_orbit_from_state(0.9, 1.9, 86, KD_OBSERVER_STATIC, still, &o, &s, &error), &error);
+    refused("/spin", kd_orbit_from_shape(kd_hole(1), 8, 0.5, 1, &o, &error), &error);
+    refused("/e", kd_orbit_from_shape(kd_hole(0), 8, 1, 1, &o, &error), &error);
+    refused("/e", kd_orbit_from_shape(kd_hole(0), 8, -0.1, 1, &o, &error), &error);
+    refused("/p", kd_orbit_from_shape(kd_hole(0), 6.9, 0.5, 1, &o, &error), &error);
+    refused("/p", kd_orbit_from_shape(kd_hole(0), 1.9, 0, 1, &o, &error), &error);
+    refused("/p", kd_orbit_from_shape(kd_hole(0), 2.9, 0, 1, &o, &error), &error); /* inside the photon orbit */
+    refused("/p", kd_orbit_from_shape(kd_hole(0), INFINITY, 0, 1, &o, &error), &error);
+    refused("/carter", kd_orbit_from_constants(kd_hole(0), 0.95, 3, -1, NAN, &o, &error), &error);
+    refused("/r", kd_orbit_from_constants(kd_hole(0), 0.95, 3, 0, 1.9, &o, &error), &error);
+    refused("/r", kd_orbit_from_constants(kd_hole(0), 0.95, 4, 0, 1000, &o, &error), &error);
+    refused("/energy", kd_orbit_from_constants(kd_hole(0), -0.95, 4, 0, NAN, &o, &error), &error);
+    refused("/position/r", kd_orbit_from_state(kd_hole(0), 2, 57, KD_OBSERVER_ZAMO, still, &o, &s, &error), &error);
+    refused("/position/theta_deg", kd_orbit_from_state(kd_hole(0), 5, 181, KD_OBSERVER_ZAMO, still, &o, &s, &error),
+            &error);
+    refused("/velocity", kd_orbit_from_state(kd_hole(0), 5, 57, KD_OBSERVER_ZAMO, fast, &o, &s, &error), &error);
+    refused("/velocity/frame", kd_orbit_from_state(kd_hole(0.9), 1.9, 86, KD_OBSERVER_STATIC, still, &o, &s, &error),
+            &error);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* Places as they are seen: in the equatorial plane of a hole that spins against rays in closed form, which cross it
  * there; off the plane, of a hole that does not spin, against the same rays in a plane turned to be the equator's. */
-#include "physics/null_geodesic.h"
-#include "physics/place_image.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/null/place_image.h"
 
 #include <math.h>
 #include <setjmp.h>

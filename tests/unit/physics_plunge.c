@@ -1,8 +1,8 @@
 /* The plunge from the ISCO: closed forms against quadratures from the metric (tests/oracle/plunge_reference.py),
  * print, and what is conserved. */
-#include "physics/plunge.h"
+#include "physics/orbit/plunge.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include "plunge_reference.h"
 
@@ -34,7 +34,7 @@ static void from_the_metric(void **state)
     double worst[2][5] = { 0 };
     for (size_t i = 0; i < COUNT(plunge_reference); i++) {
         const struct plunge_reference *p = &plunge_reference[i];
-        struct kd_plunge plunge = kd_plunge_of(p->a);
+        struct kd_plunge plunge = kd_plunge_of(kd_hole(p->a));
         struct kd_plunge_event from = kd_plunge_at(&plunge, p->r0), to = kd_plunge_at(&plunge, p->r);
         struct kd_plunge_velocity u = kd_plunge_velocity(&plunge, p->r);
         const double pairs[][2] = { { to.t - from.t, p->t },
@@ -57,7 +57,7 @@ static void from_the_metric(void **state)
 static void without_spin(void **state)
 {
     (void)state;
-    struct kd_plunge plunge = kd_plunge_of(0);
+    struct kd_plunge plunge = kd_plunge_of(kd_hole(0));
     for (double r = 2.01; r < 5.95; r += 0.1) {
         double phi = kd_plunge_at(&plunge, r).phi;
         within("r", 0, r, 6 / (1 + 12 / (phi * phi)), r, 1e-14);
@@ -69,8 +69,8 @@ static void conserved(void **state)
 {
     (void)state;
     for (double a = -0.995; a < 1; a += 0.07) {
-        struct kd_plunge plunge = kd_plunge_of(a);
-        double isco = kd_kerr_isco(a), gap = isco - kd_kerr_horizon(a);
+        struct kd_plunge plunge = kd_plunge_of(kd_hole(a));
+        double isco = kd_kerr_isco(kd_hole(a)), gap = isco - kd_hole(a)->outer;
         for (double x = 0.02; x < 0.99; x += 0.02) {
             double r = isco - x * gap, h = 1e-3 * gap * fmin(x, 1 - x), ur = kd_plunge_velocity(&plunge, r).ur, ut = 0,
                    up = 0;
@@ -85,8 +85,8 @@ static void conserved(void **state)
             double norm = tt * ut * ut + 2 * tp * ut * up + pp * up * up + rr * ur * ur;
             double size = fabs(tt * ut * ut) + fabs(2 * tp * ut * up) + pp * up * up + rr * ur * ur;
             within("u.u", a, r, norm + size, size - 1, 1e-9);
-            within("E", a, r, -(tt * ut + tp * up) + ut, kd_kerr_energy(a, isco) + ut, 1e-9);
-            within("L", a, r, tp * ut + pp * up + ut, kd_kerr_momentum(a, isco) + ut, 1e-9);
+            within("E", a, r, -(tt * ut + tp * up) + ut, kd_kerr_energy(kd_hole(a), isco) + ut, 1e-9);
+            within("L", a, r, tp * ut + pp * up + ut, kd_kerr_momentum(kd_hole(a), isco) + ut, 1e-9);
         }
     }
 }
@@ -96,13 +96,13 @@ static void leaves_the_circle(void **state)
 {
     (void)state;
     for (double a = -0.9; a < 1; a += 0.3) {
-        struct kd_plunge plunge = kd_plunge_of(a);
-        double isco = kd_kerr_isco(a);
+        struct kd_plunge plunge = kd_plunge_of(kd_hole(a));
+        double isco = kd_kerr_isco(kd_hole(a));
         struct kd_plunge_event one = kd_plunge_at(&plunge, isco * (1 - 1e-8)),
                                two = kd_plunge_at(&plunge, isco * (1 - 2e-8));
         struct kd_plunge_velocity u = kd_plunge_velocity(&plunge, isco);
-        within("dphi/dt", a, isco, (two.phi - one.phi) / (two.t - one.t), kd_kerr_omega(a, isco), 1e-7);
-        within("u^t", a, isco, u.ut, kd_kerr_ut(a, isco), 1e-12);
+        within("dphi/dt", a, isco, (two.phi - one.phi) / (two.t - one.t), kd_kerr_omega(kd_hole(a), isco), 1e-7);
+        within("u^t", a, isco, u.ut, kd_kerr_ut(kd_hole(a), isco), 1e-12);
         assert_true(u.ur == 0);
     }
 }

@@ -1,7 +1,8 @@
 /* Quasi-normal modes against Teukolsky's equation solved in another way (tests/oracle/qnm_reference.py), against
  * numbers in print, and against what must hold for any of them. */
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
+#include "physics/spacetime/hole.h"
+#include "physics/waves/qnm.h"
+#include "physics/waves/ringdown.h"
 
 #include "qnm_reference.h"
 
@@ -18,7 +19,7 @@
 static struct kd_qnm found(int l, int m, int n, double a)
 {
     struct kd_qnm mode;
-    if (!kd_qnm_find(l, m, n, a, &mode))
+    if (!kd_qnm_find(l, m, n, kd_hole(a), &mode))
         fail_msg("l = %d, m = %d, n = %d, a = %.17g: no mode", l, m, n, a);
     return mode;
 }
@@ -112,11 +113,11 @@ static void one_branch(void **state)
                 double step = l == 2 ? 0.02 : 0.06;
                 for (int k = 1; k * step < 9.21; k++) {
                     double a = -expm1(-k * step);
-                    assert_true(kd_qnm_move(&fine, a));
+                    assert_true(kd_qnm_move(&fine, kd_hole(a)));
                     if (k % 6 == 0)
                         close_to("the fine walk", l, m, n, a, fine.at.omega, found(l, m, n, a).omega, 1e-9);
                 }
-                assert_true(kd_qnm_move(&fine, 0.3));
+                assert_true(kd_qnm_move(&fine, kd_hole(0.3)));
                 close_to("the walk back", l, m, n, 0.3, fine.at.omega, found(l, m, n, 0.3).omega, 1e-11);
                 assert_true(creal(fine.at.omega) > 0 && cimag(fine.at.omega) < 0);
             }
@@ -146,7 +147,7 @@ static void symmetry_and_domain(void **state)
     } outside[] = { { 1, 0, 0, 0 }, { 5, 0, 0, 0 }, { 2, 3, 0, 0 },       { 2, -3, 0, 0 }, { 2, 2, -1, 0 },
                     { 2, 2, 4, 0 }, { 2, 2, 0, 1 }, { 2, 2, 0, 0.99991 }, { 2, 2, 0, -1 }, { 2, 2, 0, NAN } };
     for (size_t i = 0; i < COUNT(outside); i++) {
-        assert_false(kd_qnm_find(outside[i].l, outside[i].m, outside[i].n, outside[i].a, &mode));
+        assert_false(kd_qnm_find(outside[i].l, outside[i].m, outside[i].n, kd_hole(outside[i].a), &mode));
         assert_true(isnan(creal(mode.omega)) && isnan(creal(mode.separation)));
     }
 }
@@ -162,8 +163,8 @@ static void fits(void **state)
         assert_true(kd_qnm_start(&b, 2, 2, n));
         double worst[2] = { 0, 0 };
         for (int k = 0; k <= 99; k++) {
-            assert_true(kd_qnm_move(&b, k / 100.0));
-            struct kd_ringdown_fit fit = kd_ringdown_fit(n, b.a);
+            assert_true(kd_qnm_move(&b, kd_hole(k / 100.0)));
+            struct kd_ringdown_fit fit = kd_ringdown_fit(n, kd_hole(b.a));
             worst[0] = fmax(worst[0], fabs(fit.omega_re / creal(b.at.omega) - 1));
             worst[1] = fmax(worst[1], fabs(fit.quality / kd_ringdown_quality(b.at.omega) - 1));
         }
@@ -171,10 +172,11 @@ static void fits(void **state)
             if (!(fabs(worst[i] - most[n][i]) < 5e-5))
                 fail_msg("n = %d: %s off by up to %.3g", n, i ? "Q" : "Re(omega)", worst[i]);
     }
-    assert_true(isnan(kd_ringdown_fit(3, 0.5).quality) && isnan(kd_ringdown_fit(0, 1).quality));
+    assert_true(isnan(kd_ringdown_fit(3, kd_hole(0.5)).quality) && isnan(kd_ringdown_fit(0, kd_hole(1)).quality));
     static const double cubic[][2] = { { 0, 0 }, { 0.5, 0.30 }, { 0.8, 1.035 }, { 0.999, -0.705 } };
     for (size_t i = 0; i < COUNT(cubic); i++) {
-        double a = cubic[i][0], off = kd_ringdown_quality_cubic(a) / kd_ringdown_quality(found(2, 2, 0, a).omega) - 1;
+        double a = cubic[i][0],
+               off = kd_ringdown_quality_cubic(kd_hole(a)) / kd_ringdown_quality(found(2, 2, 0, a).omega) - 1;
         if (!(fabs(off - cubic[i][1]) < 6e-3))
             fail_msg("a = %g: the cubic is off by %g", a, off);
     }

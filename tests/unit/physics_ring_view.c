@@ -1,7 +1,7 @@
 /* Rings as they are seen from within them, from next to the hole and from beyond the horizon: against rays
  * integrated in ingoing Kerr-Schild coordinates, in frames made in these (tests/oracle/kerr_schild.h). */
-#include "physics/kerr.h"
-#include "physics/ring_view.h"
+#include "physics/null/ring_view.h"
+#include "physics/spacetime/kerr.h"
 
 #include "kerr_schild.h"
 
@@ -129,7 +129,7 @@ static void everywhere(void **state)
         for (size_t i = 0; i < COUNT(inclinations); i++)
             for (double from = 0.05; from < 1e4; from *= 3)
                 for (double out = 1.01; out < 1e4; out *= 5) {
-                    const double a = spins[s], inner = kd_kerr_inner_horizon(a), plus = kd_kerr_horizon(a);
+                    const double a = spins[s], inner = kd_hole(a)->inner, plus = kd_hole(a)->outer;
                     const struct kd_vantage v = vantage(a, inclinations[i], inner + from);
                     const struct kd_observer_motion m = kd_observer_motion_of(KD_OBSERVER_INFALL);
                     for (int order = 0; order < 2; order++)

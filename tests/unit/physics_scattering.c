@@ -1,5 +1,5 @@
 /* Light from an atmosphere of electrons against Chandrasekhar's table, and against the flux that comes out of it. */
-#include "physics/scattering.h"
+#include "physics/disk/scattering.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
 /* What observers see of the sky, against frames and rays in Kerr-Schild coordinates: which directions are dark, how
  * light of the others is shifted, the least and the largest shift, and how large the dark disk is. */
 #include "kerr_schild.h"
-#include "physics/kerr.h"
-#include "physics/sky_view.h"
+#include "physics/null/sky_view.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>

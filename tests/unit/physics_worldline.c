@@ -2,9 +2,9 @@
  * Runge and Kutta's method of fourth order, with derivatives of the metric by differences, through the horizon.
  * Nothing is separated, nothing integrated in r. */
 #include "kerr_schild_frame.h"
-#include "physics/infall.h"
-#include "physics/kerr.h"
-#include "physics/worldline.h"
+#include "physics/spacetime/infall.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/worldline.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -98,9 +98,8 @@ static void what_falls_is_where_its_clock_says(void **state)
         double y[STATE] = { [R] = f->r, [THETA] = place.theta }, p[4];
         ks_inwards(&place, 1, body.energy, body.momentum, 0, p);
         y[P_R] = p[1];
-        const double horizon = kd_kerr_horizon(f->a),
-                     all =
-                         kd_infall_proper_time(&m, &at, fmin(0.7 * horizon + 0.3 * kd_kerr_inner_horizon(f->a), f->r));
+        const double horizon = kd_hole(f->a)->outer,
+                     all = kd_infall_proper_time(&m, &at, fmin(0.7 * horizon + 0.3 * kd_hole(f->a)->inner, f->r));
         assert_true(kd_worldline_is_known(&m, &at));
         enum { STEPS = 4000, LOOKS = 8 };
         for (int n = 1; n <= STEPS; n++) {
@@ -173,8 +172,9 @@ static void it_ends_where_a_camera_can_be_at_last(void **state)
         const struct kd_observer_motion m = kd_observer_motion_of(KD_OBSERVER_INFALL);
         struct kd_vantage at = { spins[i], 10, 0.5, sqrt(0.75) };
         struct kd_worldline_place got = kd_worldline_after(&m, &at, 1e5);
-        assert_true(got.ended && got.r == kd_infall_last(spins[i]) && isfinite(got.azimuth) && isfinite(got.time));
-        assert_true(got.r > kd_kerr_inner_horizon(spins[i]) && got.r < kd_kerr_horizon(spins[i]) && got.r >= 0.01);
+        assert_true(got.ended && got.r == kd_infall_last(kd_hole(spins[i])) && isfinite(got.azimuth) &&
+                    isfinite(got.time));
+        assert_true(got.r > kd_hole(spins[i])->inner && got.r < kd_hole(spins[i])->outer && got.r >= 0.01);
         assert_true(kd_worldline_goes_on(&m, &at));
         at.r = got.r;
         assert_false(kd_worldline_goes_on(&m, &at));

@@ -2,15 +2,15 @@
  * scenes that mean harm. */
 #include "playground_support.h"
 
-#include "physics/inspiral.h"
+#include "physics/waves/inspiral.h"
 #include "playground/tide.h"
 #include "playground/wave.h"
 
 #include <stdio.h>
 
 /* Two equal bodies far from the hole spiral together; with the loss exaggerated A times from A^(2/5) times as far,
- * so that the relation of pull and loss is the same. P. C. Peters 1964, eq. 5.10, by physics/inspiral.c: from d0 to
- * d1 it takes T(d0) - T(d1). */
+ * so that the relation of pull and loss is the same. P. C. Peters 1964, eq. 5.10, by physics/waves/inspiral.c: from d0
+ * to d1 it takes T(d0) - T(d1). */
 static void pairs_spiral_in_as_peters_says(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
-/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit_bound.h), which is no
+/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit/orbit_bound.h), which is no
  * integration; and snapshots, which start again to the bit. */
 #include "playground_support.h"
 
-#include "physics/orbit_bound.h"
+#include "physics/orbit/orbit_bound.h"
+#include "physics/spacetime/hole.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,8 +36,8 @@ static void test_bodies_follow_the_closed_form(void **state)
         const struct kd_playground_spherical from = kd_playground_spherical(body.x, body.v);
         struct kd_orbit orbit;
         struct kd_orbit_state start;
-        if (kd_orbit_from_state(params.spin, from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v, &orbit, &start,
-                                &error))
+        if (kd_orbit_from_state(kd_hole(params.spin), from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v, &orbit,
+                                &start, &error))
             fail_msg("%s", error.message);
         assert_int_equal(orbit.fate, KD_ORBIT_BOUND);
         const struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
@@ -122,7 +123,7 @@ static void circles_are_no_refusals(void **state)
         const double to[3] = { -v * sin(phi), v * cos(phi) * cos(tilt), v * cos(phi) * sin(tilt) };
         struct kd_playground_geodesic g;
         struct kd_error error = { 0 };
-        if (kd_geodesic_begin(&g, spin, x, to, 0, &error))
+        if (kd_geodesic_begin(&g, kd_hole(spin), x, to, 0, &error))
             fail_msg("spin %.17g, x %.17g %.17g %.17g, v %.17g %.17g %.17g: %s", spin, x[0], x[1], x[2], to[0], to[1],
                      to[2], error.message);
         const struct kd_orbit *o = &g.path.orbit;

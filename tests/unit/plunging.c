@@ -1,7 +1,7 @@
 /* The curve that plunging particles share, there and back: its table of radii against the closed form, at any spin. */
 #include "render/emit/plunging.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -29,8 +29,8 @@ static void there_and_back(void **state)
         const struct kd_plunging p = kd_plunging_of(&scene);
         static struct kd_plunging_path path;
         kd_plunging_path(&p, &path);
-        double worst[2] = { 0 }, before = INFINITY, gap = p.start - p.end, isco = kd_kerr_isco(spins[s]);
-        assert_true(p.start < isco && p.end > kd_kerr_horizon(spins[s]) && p.time > 0);
+        double worst[2] = { 0 }, before = INFINITY, gap = p.start - p.end, isco = kd_kerr_isco(kd_hole(spins[s]));
+        assert_true(p.start < isco && p.end > kd_hole(spins[s])->outer && p.time > 0);
         for (double phase = 0; phase <= 1; phase += 1 / 7777.0) {
             double turns, r = kd_plunging_radius(&path, phase, &turns);
             assert_true(r <= p.start && r < before && r > p.end * (1 - 1e-12));

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/constants.h"
+#include "physics/math/constants.h"
 #include "quantity/quantity.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* kd_rays_trace with the closed engine: against geodesics in Kerr-Schild coordinates, and what it does around them. */
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"
 
 #include "kerr_schild.h"
@@ -78,7 +78,7 @@ static void redshift(void **state)
 {
     (void)state;
     const struct kd_rays_params p = params_of(0.3, 50);
-    double isco = kd_kerr_isco(p.spin), last = NAN, last_r = NAN, step = 0;
+    double isco = kd_kerr_isco(kd_hole(p.spin)), last = NAN, last_r = NAN, step = 0;
     bool inside = false, outside = false;
     for (double beta = 2; beta < 7; beta += 0.001) {
         struct kd_ray_crossing c[ORDERS];
@@ -88,7 +88,7 @@ static void redshift(void **state)
             continue;
         assert_true(c[0].g > 0 && c[0].g < 3);
         if (c[0].r >= isco)
-            assert_true(fabs(c[0].g / kd_disk_redshift(p.spin, c[0].r, 4 * sin(50 * M_PI / 180)) - 1) < 1e-14);
+            assert_true(fabs(c[0].g / kd_disk_redshift(kd_hole(p.spin), c[0].r, 4 * sin(50 * M_PI / 180)) - 1) < 1e-14);
         if ((last_r - isco) * (c[0].r - isco) < 0)
             step = fabs(c[0].g - last);
         inside |= c[0].r < isco;
@@ -116,7 +116,7 @@ static void redshift_knows_the_turning_point(void **state)
             bool in = n + 1 < end.n_crossings && c[n + 1].r < c[n].r, out = n && c[n - 1].r < c[n].r;
             if (c[n].r >= 6 || in == out)
                 continue;
-            double want = kd_disk_redshift_plunging(0, c[n].r, 0, b * b, in);
+            double want = kd_disk_redshift_plunging(kd_hole(0), c[n].r, 0, b * b, in);
             assert_true(fabs(c[n].g / want - 1) < 1e-12);
             before += in;
             after += out;
@@ -249,8 +249,9 @@ static void observers_that_move(void **state)
                 !same_azimuth(c[n].phi, path.phi[n] - twist(p.spin, p.r), bound))
                 fail_msg("case %zu, look %g, %g, order %d: %.12g %.12g, not %.12g %.12g", k, look[0], look[1], n,
                          c[n].r, c[n].phi, path.r[n], path.phi[n] - twist(p.spin, p.r));
-            if (c[n].r > kd_kerr_isco(p.spin) * 1.001)
-                assert_true(fabs(c[n].g * constants[0] / kd_disk_redshift(p.spin, c[n].r, constants[1] / constants[0]) -
+            if (c[n].r > kd_kerr_isco(kd_hole(p.spin)) * 1.001)
+                assert_true(fabs(c[n].g * constants[0] /
+                                     kd_disk_redshift(kd_hole(p.spin), c[n].r, constants[1] / constants[0]) -
                                  1) < 10 * bound);
             crossings++;
         }

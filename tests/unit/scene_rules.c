@@ -2,7 +2,7 @@
 #include "scene_support.h"
 #include "scene/label.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/motion.h"
 
 struct rule {
@@ -257,7 +257,7 @@ static void inner_edge_may_touch_the_isco(void **state)
         struct kd_scene scene;
         kd_scene_defaults(&scene);
         scene.spacetime.spin = spin;
-        scene.disk.inner = kd_kerr_isco(spin);
+        scene.disk.inner = kd_kerr_isco(kd_hole(spin));
         assert_int_equal(kd_scene_validate(&scene, NULL), KD_OK);
         scene.disk.inner = nextafter(scene.disk.inner, 0);
         assert_int_equal(kd_scene_validate(&scene, NULL), KD_EINVAL);

@@ -5,9 +5,9 @@
  *     unit_told_lines [PROFILES [SEED]]      a long run: 2000 take some ten minutes
  */
 #include "base/random.h"
-#include "physics/kerr.h"
-#include "physics/lamppost.h"
-#include "physics/line_profile.h"
+#include "physics/disk/lamppost.h"
+#include "physics/disk/line_profile.h"
+#include "physics/spacetime/kerr.h"
 
 #include "line_triangles.h"
 
@@ -73,10 +73,10 @@ static struct asked ask(struct kd_random *random)
 {
     struct asked q = { .spin = any_spin(random), .inclination_deg = between(random, 0, 87) };
     struct kd_line_params *p = &q.params;
-    double isco = kd_kerr_isco(q.spin);
+    double isco = kd_kerr_isco(kd_hole(q.spin));
     p->inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 3));
     p->outer = one_in(random, 2) ? 400 : p->inner * exp(between(random, 0.05, 7));
-    ask_light(random, p, kd_kerr_horizon(q.spin));
+    ask_light(random, p, kd_hole(q.spin)->outer);
     p->tolerance = one_in(random, 4) ? 0 : pow(10, between(random, -4, -1));
     ask_edges(random, &q);
     return q;
@@ -139,9 +139,9 @@ static void test_lines(void **state)
         const struct kd_line_params *p = &q.params;
         struct kd_line_profile profile;
         struct kd_error error;
-        assert_true(kd_disk_image_init(&image, q.spin, q.inclination_deg * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(q.spin), q.inclination_deg * RADIAN));
         if (p->emissivity == KD_LINE_LAMPPOST &&
-            !kd_lamppost_init(&q.lamp, q.spin, p->height, p->photon_index, p->inner, p->outer))
+            !kd_lamppost_init(&q.lamp, kd_hole(q.spin), p->height, p->photon_index, p->inner, p->outer))
             continue;
         if (kd_line_profile(&image, p, q.edges, q.bins, share, &profile, &error))
             continue;

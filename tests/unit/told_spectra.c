@@ -6,10 +6,10 @@
  *     unit_told_spectra [SPECTRA [SEED]]      a long run: 200 take some ten minutes
  */
 #include "base/random.h"
-#include "physics/constants.h"
-#include "physics/disk.h"
-#include "physics/disk_spectrum.h"
-#include "physics/kerr.h"
+#include "physics/disk/disk_spectrum.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -45,7 +45,8 @@ static struct asked ask(struct kd_random *random)
     struct asked q = { .spin = one_in(random, 4) ? 1 - pow(10, between(random, -6, -2)) : between(random, 0, 0.998),
                        .inclination_deg = between(random, 80, 87) };
     q.spin = one_in(random, 2) ? -q.spin : q.spin;
-    const double isco = kd_kerr_isco(q.spin), inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 2));
+    const double isco = kd_kerr_isco(kd_hole(q.spin)),
+                 inner = one_in(random, 2) ? isco : isco * exp(between(random, 0, 2));
     q.params = (struct kd_disk_spectrum_params) { inner, inner * exp(between(random, 0.2, 5)),      10, 1e3, 0.2,
                                                   1.6,   (enum kd_line_limb)(3 * kd_random(random)) };
     for (int f = 0; f < FREQUENCIES; f++)
@@ -66,8 +67,8 @@ static bool add_ring(const struct asked *q, double r, double weight, int n, doub
     const struct kd_disk_spectrum_params *p = &q->params;
     const struct kd_disk_ring gas = kd_disk_image_gas(&image, r);
     const double apart = kd_disk_image_step(&image, r, APART),
-                 t = p->colour_correction *
-                     kd_disk_temperature(kd_disk_flux_page_thorne(q->spin, r), q->spin, p->mass_msun, p->mdot_edd);
+                 t = p->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(kd_hole(q->spin), r),
+                                                                kd_hole(q->spin), p->mass_msun, p->mdot_edd);
     if (!(t > 0))
         return true;
     for (int k = 0; k < 3; k++)
@@ -112,7 +113,7 @@ static void test_spectra(void **state)
         double flux[FREQUENCIES], fine[FREQUENCIES] = { 0 }, rough[FREQUENCIES] = { 0 }, told, off = 0, known = 0,
                                   largest = 0, scale[FREQUENCIES];
         struct kd_error error;
-        assert_true(kd_disk_image_init(&image, q.spin, q.inclination_deg * RADIAN));
+        assert_true(kd_disk_image_init(&image, kd_hole(q.spin), q.inclination_deg * RADIAN));
         if (kd_disk_spectrum(&image, &q.params, q.frequencies, FREQUENCIES, flux, &told, &error) ||
             !sum_rings(&q, PANELS, AROUND, fine) || !sum_rings(&q, PANELS / 2, AROUND / 2, rough))
             continue;

@@ -1,6 +1,6 @@
 #include "render/accuracy/sets.h"
 
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 
 #include <math.h>
 #include <stdbool.h>

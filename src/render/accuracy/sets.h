@@ -6,7 +6,7 @@
  * and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. They are not rounded: what
  * single precision loses by rounding them counts as its error. Rays within 5 % of the critical curve, with all their
  * crossings of order 2, belong to the near-critical set alone: there the error of any method is that of the arithmetic
- * times a condition number of hundreds. rho is counted from the centre of physics/critical.h. Pure; any thread. */
+ * times a condition number of hundreds. rho is counted from the centre of physics/null/critical.h. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 

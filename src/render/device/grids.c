@@ -2,6 +2,7 @@
 
 #include "render/device/internal.h"
 #include "scene/asset.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -54,7 +55,7 @@ static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scen
         kd_matter_grid_finish(&at->grid);
         *at->of = 0;
         KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, scene->volume.grid, &at->grid, error)
-                                   : kd_matter_grid_none(scene->spacetime.spin, &at->grid, error));
+                                   : kd_matter_grid_none(kd_scene_hole(scene), &at->grid, error));
         snprintf(at->of, sizeof at->of, "%s", hash_of(scene));
     }
     *out = &at->grid;

@@ -1,11 +1,12 @@
 /* These are bodies as an emitter: shaders/emit/bodies.glsl. */
 #include "render/emit/bodies.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 #include "render/emit/emitter.h"
 #include "render/emit/particles.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,8 +24,8 @@ static double motion_of(const struct kd_body *body, const struct kd_vantage *at,
         velocity[i] = x[i + 1] / x[0];
     const int sense = kd_observer_sense(motion.observer);
     if (sense)
-        return sense * kd_kerr_omega(sense * at->spin, at->r);
-    return motion.observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(at->spin, at->r, at->u) : 0;
+        return sense * kd_kerr_omega(kd_hole(sense * at->spin), at->r);
+    return motion.observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(kd_hole(at->spin), at->r, at->u) : 0;
 }
 
 static double omega_of(const struct kd_scene *scene, const struct kd_body *body)
@@ -83,7 +84,7 @@ static size_t unseen_of(const struct kd_scene *scene)
 {
     size_t unseen = 0;
     for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
-        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], scene->spacetime.spin);
+        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], kd_scene_hole(scene));
     return unseen;
 }
 

@@ -3,6 +3,7 @@
 #ifndef KD_RENDER_EMIT_BODIES_H
 #define KD_RENDER_EMIT_BODIES_H
 
+#include "physics/spacetime/hole.h"
 #include "render/emit/emission.h"
 #include "scene/crowd.h"
 #include "scene/scene.h"
@@ -35,7 +36,7 @@ size_t kd_bodies_words(size_t n);
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
 /* Whether it is among those that are packed. A body of temperature 0 is: it is dark, and hides what lies behind it. */
-bool kd_bodies_seen(const struct kd_seen_body *body, double spin);
+bool kd_bodies_seen(const struct kd_seen_body *body, const struct kd_hole *hole);
 /* Finds the numbers that go with them. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                      struct kd_bodies_block *out);

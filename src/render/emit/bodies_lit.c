@@ -10,7 +10,7 @@
  * side of it follows to the second order (shaders/emit/bodies.glsl). */
 #include "render/emit/bodies.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out)
             .t = t,
             .light = t * t * t * t * r * r * step * (2 * M_PI / KD_LIT_PLACES),
             .lapse = lapse,
-            .velocity = (kd_kerr_omega(a, r) - kd_kerr_dragging(a, r, 0)) * along / lapse,
+            .velocity = (kd_kerr_omega(kd_hole(a), r) - kd_kerr_dragging(kd_hole(a), r, 0)) * along / lapse,
         };
     }
     return true;

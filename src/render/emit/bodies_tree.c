@@ -1,7 +1,7 @@
 #include "render/emit/bodies.h"
 
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,11 +31,10 @@ struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(double a, const struct kd_seen_body *b)
 {
-    const double r = b->r, sigma = r * r + a * a * b->u * b->u,
-                 delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    const double r = b->r, sigma = r * r + a * a * b->u * b->u, delta = kd_hole_delta(kd_hole(a), r);
     const double w2 = r * r + a * a, big = w2 * w2 - a * a * delta * b->s * b->s;
     return (struct metric) { sqrt(sigma * delta / big), sqrt(sigma / delta), sqrt(sigma), sqrt(big / sigma),
-                             kd_kerr_dragging(a, r, b->u) };
+                             kd_kerr_dragging(kd_hole(a), r, b->u) };
 }
 
 static double speed2(const struct kd_seen_body *b)
@@ -43,11 +42,11 @@ static double speed2(const struct kd_seen_body *b)
     return b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2];
 }
 
-bool kd_bodies_seen(const struct kd_seen_body *b, double spin)
+bool kd_bodies_seen(const struct kd_seen_body *b, const struct kd_hole *hole)
 {
-    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 &&
-           b->s >= 0 && b->s <= 1 && isfinite(b->phi) && speed2(b) < 1 && isfinite(b->radius) && b->albedo >= 0 &&
-           b->albedo <= 1 && b->temperature_k >= 0 && b->brightness >= 0;
+    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * hole->outer && b->r <= 1e12 && fabs(b->u) <= 1 && b->s >= 0 &&
+           b->s <= 1 && isfinite(b->phi) && speed2(b) < 1 && isfinite(b->radius) && b->albedo >= 0 && b->albedo <= 1 &&
+           b->temperature_k >= 0 && b->brightness >= 0;
 }
 
 static double turn_of(const struct metric *g, const struct kd_seen_body *b)
@@ -191,7 +190,7 @@ static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct 
 {
     size_t seen = 0;
     for (size_t i = 0; i < n; i++)
-        if (kd_bodies_seen(&bodies[i], view->spin))
+        if (kd_bodies_seen(&bodies[i], kd_hole(view->spin)))
             balls[seen++] = ball_of(&bodies[i], i, view);
     return seen;
 }
@@ -215,7 +214,7 @@ void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct k
     double low[3] = { 0 }, high[3] = { 0 }, outermost = 1, reach = 0;
     size_t seen = 0;
     for (size_t i = 0; i < n; i++) {
-        if (!kd_bodies_seen(&bodies[i], view->spin))
+        if (!kd_bodies_seen(&bodies[i], kd_hole(view->spin)))
             continue;
         const struct ball ball = ball_of(&bodies[i], i, view);
         for (int k = 0; k < 3; k++) {
@@ -230,7 +229,7 @@ void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct k
         return;
     const double middle[3] = { 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]) };
     for (size_t i = 0; i < n; i++) {
-        if (!kd_bodies_seen(&bodies[i], view->spin))
+        if (!kd_bodies_seen(&bodies[i], kd_hole(view->spin)))
             continue;
         const struct ball ball = ball_of(&bodies[i], i, view);
         reach = fmax(reach,

@@ -1,6 +1,6 @@
 #include "render/emit/emitter.h"
 
-#include "physics/colour.h"
+#include "physics/disk/colour.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,10 @@
 /* This is the smooth disk as an emitter: shaders/emit/disk.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/colour.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/colour.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,9 +32,9 @@ static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
 
 static double largest_flux(const struct kd_scene *scene)
 {
-    double a = scene->spacetime.spin;
+    const struct kd_hole *hole = kd_scene_hole(scene);
     bool newton = scene->disk.model == KD_DISK_SHAKURA_SUNYAEV;
-    return flux_of(scene)(a, newton ? kd_disk_peak_shakura_sunyaev(a) : kd_disk_peak_page_thorne(a));
+    return flux_of(scene)(hole, newton ? kd_disk_peak_shakura_sunyaev(hole) : kd_disk_peak_page_thorne(hole));
 }
 
 double kd_disk_peak_temperature(const struct kd_scene *scene)
@@ -41,21 +42,21 @@ double kd_disk_peak_temperature(const struct kd_scene *scene)
     double a = scene->spacetime.spin;
     if (scene->disk.colour == KD_COLOUR_PEAK)
         return scene->disk.peak_temperature_k;
-    return kd_disk_temperature(largest_flux(scene), a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
+    return kd_disk_temperature(largest_flux(scene), kd_hole(a), scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
 double kd_disk_heat(const struct kd_scene *scene, double r)
 {
     const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1),
                  fade = f * f * (3 - 2 * f);
-    return r > kd_kerr_isco(scene->spacetime.spin)
-               ? pow(scene->disk.opacity * fade * flux_of(scene)(scene->spacetime.spin, r) / largest_flux(scene), 0.25)
+    return r > kd_kerr_isco(kd_scene_hole(scene))
+               ? pow(scene->disk.opacity * fade * flux_of(scene)(kd_scene_hole(scene), r) / largest_flux(scene), 0.25)
                : 0;
 }
 
 double kd_disk_inner(const struct kd_scene *scene)
 {
-    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+    return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
 void kd_disk_reach(const struct kd_scene *scene, double radii[2])
@@ -93,10 +94,11 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     kd_disk_flux_fn flux = flux_of(scene);
-    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak = largest_flux(scene);
+    const struct kd_hole *hole = kd_scene_hole(scene);
+    double isco = kd_kerr_isco(hole), peak = largest_flux(scene);
     for (int i = 0; i < KD_DISK_TABLE; i++) {
         double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
-        out->disk[i][0] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));
+        out->disk[i][0] = (float)(pow(flux(hole, r) / peak, 0.25) * pow(r, 0.75));
         if (i > 0)
             out->disk[i - 1][1] = out->disk[i][0] - out->disk[i - 1][0];
     }

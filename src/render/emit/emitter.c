@@ -1,7 +1,8 @@
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <string.h>
@@ -240,7 +241,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .along_hollow = (float)hollow_of_all(scene),
         .along_knot = (float)knot_of_all(scene),
         .along_u = (float)height_of_all(scene),
-        .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
+        .r_isco = (float)kd_kerr_isco(kd_scene_hole(scene)),
         .one_minus_a = (float)(1 - scene->spacetime.spin),
         .inner = (float)kd_disk_inner(scene),
         .outer = (float)scene->disk.outer,

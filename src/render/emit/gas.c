@@ -1,8 +1,9 @@
 /* This is turbulent gas as an emitter: shaders/emit/gas.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
+#include "scene/hole.h"
 
 #include <math.h>
 
@@ -43,7 +44,7 @@ static unsigned varies(const struct kd_scene *scene) { return stirs(scene) ? kd_
 
 static double inner_radius(const struct kd_scene *scene)
 {
-    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+    return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
 /* The logarithm has the standard deviation `amplitude` in all octaves together. */
@@ -109,7 +110,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     uint64_t n = 0, seed = (uint64_t)scene->gas.seed;
     for (int j = 0; j < KD_GAS_RINGS; j++) {
         float (*row)[4] = &out->gas[j * (KD_GAS_OCTAVES + 1)];
-        double omega = kd_kerr_omega(scene->spacetime.spin, r_in * exp(KD_GAS_RING * j)), turned = omega * time;
+        double omega = kd_kerr_omega(kd_scene_hole(scene), r_in * exp(KD_GAS_RING * j)), turned = omega * time;
         double phase =
             2 * M_PI * random_of(seed, ++n) + remainder(turned, 2 * M_PI) - scene->camera.azimuth_deg * (M_PI / 180);
         row[0][0] = (float)remainder(phase, 2 * M_PI);

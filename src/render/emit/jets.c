@@ -1,7 +1,8 @@
 /* These are two jets as an emitter: shaders/emit/jets.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +13,7 @@ static bool present(const struct kd_scene *scene) { return scene->jets.brightnes
 
 static double inner(const struct kd_scene *scene)
 {
-    return fmax(scene->jets.inner, CLEAR * kd_kerr_horizon(scene->spacetime.spin));
+    return fmax(scene->jets.inner, CLEAR * kd_scene_hole(scene)->outer);
 }
 
 static void reach(const struct kd_scene *scene, double radii[2])

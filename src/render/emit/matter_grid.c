@@ -2,8 +2,8 @@
 
 #include "base/clock.h"
 #include "image/npy.h"
-#include "physics/constants.h"
-#include "physics/kerr.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/matter_array.h"
 #include "scene/tree.h"
 
@@ -257,7 +257,7 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
-    const double a = g->spin, edge = 1.001 * kd_kerr_horizon(a), t = kd_matter_array_at(&r->array, i);
+    const double a = g->spin, edge = 1.001 * kd_hole(a)->outer, t = kd_matter_array_at(&r->array, i);
     const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
                  s2 = sin(theta) * sin(theta), r2 = radius * radius;
     const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a,
@@ -473,10 +473,10 @@ void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], d
     *spin = grid->spin;
 }
 
-enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error)
+enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_grid *out, struct kd_error *error)
 {
     *out = (struct kd_matter_grid) {
-        .rows = 2, .columns = 2, .layers = 1, .spin = spin, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI
+        .rows = 2, .columns = 2, .layers = 1, .spin = hole->a, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI
     };
     out->nodes = calloc(4 * KD_MATTER_FLOATS, sizeof *out->nodes);
     if (!out->nodes)

@@ -15,6 +15,7 @@
 #define KD_RENDER_EMIT_MATTER_GRID_H
 
 #include "base/error.h"
+#include "physics/spacetime/hole.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -65,6 +66,6 @@ enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *reader, double un
                                       struct kd_error *error);
 void kd_matter_reader_close(struct kd_matter_reader *reader); /* accepts NULL */
 /* Makes a grid of no matter at all, as of a scene that names none. */
-enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error);
+enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_grid *out, struct kd_error *error);
 
 #endif

@@ -2,11 +2,12 @@
 
 #include "render/emit/emitter.h"
 
-#include "physics/epicyclic.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/epicyclic.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/deposit.h"
 #include "render/emit/plunging.h"
 #include "render/view/layout.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@
 
 static double inner(const struct kd_scene *scene)
 {
-    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+    return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
 /* Guiding orbits reach beyond the edges of the disk by as much as their particles swing, so that as many come in as
@@ -25,7 +26,7 @@ static struct span span_of(const struct kd_scene *scene)
 {
     double reach = scene->disk.epicycles;
     return (struct span) {
-        .low = fmax(kd_kerr_isco(scene->spacetime.spin), inner(scene) * (1 - reach)),
+        .low = fmax(kd_kerr_isco(kd_scene_hole(scene)), inner(scene) * (1 - reach)),
         .high = scene->disk.outer * (1 + reach),
         .s = 2 - scene->disk.density_index, /* particles per area as r^-p: those inside r are as r^s - low^s */
     };
@@ -136,16 +137,17 @@ uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particl
 
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k)
 {
-    double a = scene->spacetime.spin, r = kd_particle_radius(scene, (k + 0.5) / radii);
+    const struct kd_hole *hole = kd_scene_hole(scene);
+    double r = kd_particle_radius(scene, (k + 0.5) / radii);
     struct kd_particle_orbit o = {
         .r = r,
-        .omega = kd_kerr_omega(a, r),
-        .kappa = kd_epicyclic_radial(a, r),
-        .vertical = kd_epicyclic_vertical(a, r),
+        .omega = kd_kerr_omega(hole, r),
+        .kappa = kd_epicyclic_radial(hole, r),
+        .vertical = kd_epicyclic_vertical(hole, r),
     };
     double share = o.kappa / o.omega, reach = scene->disk.epicycles * r * share * share;
     o.swing_r = reach / r;
-    o.swing_phi = o.kappa > 0 ? reach / o.kappa * kd_epicyclic_shear(a, r) : 0;
+    o.swing_phi = o.kappa > 0 ? reach / o.kappa * kd_epicyclic_shear(hole, r) : 0;
     return o;
 }
 
@@ -229,8 +231,8 @@ static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid
  * per ln r on circles, n/(2 pi r^2 u^t). */
 double kd_particle_plunge_depth(const struct kd_scene *scene)
 {
-    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), share = scene->disk.plunging;
-    return share / (1 - share) * isco * isco * kd_kerr_ut(a, isco) /
+    double a = scene->spacetime.spin, isco = kd_kerr_isco(kd_hole(a)), share = scene->disk.plunging;
+    return share / (1 - share) * isco * isco * kd_kerr_ut(kd_hole(a), isco) /
            (density(scene, isco) * kd_plunging_of(scene).time);
 }
 

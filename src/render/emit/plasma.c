@@ -1,12 +1,13 @@
 /* This is matter that is seen at one radio frequency as an emitter: shaders/emit/plasma.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/constants.h"
-#include "physics/kerr.h"
-#include "physics/synchrotron.h"
-#include "physics/torus.h"
+#include "physics/disk/synchrotron.h"
+#include "physics/disk/torus.h"
+#include "physics/math/constants.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/matter_grid.h"
 #include "render/emit/radio.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,7 +44,7 @@ static void reach(const struct kd_scene *scene, double radii[2])
     radii[0] = kd_scene_volume_inner(scene);
     radii[1] = scene->volume.outer;
     if (scene->volume.model == KD_VOLUME_TORUS)
-        radii[1] = fmin(radii[1], kd_torus_of(scene->spacetime.spin, radii[0], scene->volume.torus_radius).outer);
+        radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
 /* Where a layer has thinned out, cos(theta): x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
@@ -56,14 +57,14 @@ static double height(const struct kd_scene *scene)
         return 1;
     if (v->model == KD_VOLUME_TORUS)
         return fmin(
-            1.01 * kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
+            1.01 * kd_torus_of(kd_scene_hole(scene), kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
     return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
 }
 
 /* Where the fall begins. */
 static double knot(const struct kd_scene *scene)
 {
-    const double isco = kd_kerr_isco(scene->spacetime.spin);
+    const double isco = kd_kerr_isco(kd_scene_hole(scene));
     const bool falls = scene->volume.model == KD_VOLUME_RIAF && scene->volume.flow == KD_VOLUME_ORBITS;
     return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
 }
@@ -141,7 +142,7 @@ static void fill_electrons(struct kd_plasma_block *out, const struct kd_volume *
 static void fill_torus(struct kd_plasma_block *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
-    const struct kd_torus t = kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius);
+    const struct kd_torus t = kd_torus_of(kd_scene_hole(scene), kd_scene_volume_inner(scene), v->torus_radius);
     const double share = (v->adiabatic_index - 1) / v->adiabatic_index;
     out->torus_momentum = (float)t.l;
     out->torus_edge = (float)t.edge;

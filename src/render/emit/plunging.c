@@ -1,7 +1,7 @@
 #include "render/emit/plunging.h"
 
-#include "physics/kerr.h"
-#include "physics/root.h"
+#include "physics/math/root.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 
@@ -14,11 +14,11 @@ bool kd_plunging_is_on(const struct kd_scene *scene)
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene)
 {
     double a = scene->spacetime.spin;
-    struct kd_plunging o = { .curve = kd_plunge_of(a) };
+    struct kd_plunging o = { .curve = kd_plunge_of(kd_hole(a)) };
     double way = o.curve.isco - o.curve.horizon;
     o.start = o.curve.isco - way / 32;
     o.end = o.curve.horizon + way / 64;
-    o.omega = kd_kerr_omega(a, o.curve.isco);
+    o.omega = kd_kerr_omega(kd_hole(a), o.curve.isco);
     o.first = kd_plunge_at(&o.curve, o.start);
     o.time = kd_plunge_at(&o.curve, o.end).t - o.first.t;
     return o;

@@ -1,4 +1,4 @@
-/* The particles that fall have one curve for all (physics/plunge.h), from a thirty-second of the way between the
+/* The particles that fall have one curve for all (physics/orbit/plunge.h), from a thirty-second of the way between the
  * ISCO and the horizon to all but a sixty-fourth of it, again and again. At its ends the curve takes for ever. Where
  * it starts here gas falls at 1e-3 without spin, at 7e-4 for a = 0.9, about as fast as a disk of alpha = 0.1 and h/r
  * = 0.1 drifts, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973), and goes round 3 times (a = 0), 7 (0.9) or 38 (0.998)
@@ -13,7 +13,7 @@
 #ifndef KD_RENDER_EMIT_PLUNGING_H
 #define KD_RENDER_EMIT_PLUNGING_H
 
-#include "physics/plunge.h"
+#include "physics/orbit/plunge.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* This is how light of the plane is polarised: shaders/emit/polarization.glsl. It shines nowhere itself. */
 #include "render/emit/emitter.h"
 
-#include "physics/scattering.h"
+#include "physics/disk/scattering.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 #include "render/emit/radio.h"
 
-#include "physics/constants.h"
+#include "physics/math/constants.h"
 #include "render/view/camera.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
 /* This is a struck hole as a factor of light: shaders/emit/ringdown.glsl. */
+#include "physics/spacetime/hole.h"
 #include "render/emit/emitter.h"
 
-#include "physics/ringdown.h"
+#include "physics/waves/ringdown.h"
 
 #include <math.h>
 
@@ -20,7 +21,7 @@ static unsigned varies(const struct kd_scene *scene)
     double since = scene->top.time - scene->style.ringdown_time;
     if (since < 0 || (scene->accuracy.orders < 2 && !kd_emit_along(scene))) /* the march goes along all orders */
         return 0;
-    const struct kd_ringdown_fit mode = kd_ringdown_fit(0, fabs(scene->spacetime.spin));
+    const struct kd_ringdown_fit mode = kd_ringdown_fit(0, kd_hole(fabs(scene->spacetime.spin)));
     return scene->style.ringdown * exp(-mode.omega_re / (2 * mode.quality) * since) > SEEN ? KD_DIMS_WITH_TIME : 0;
 }
 

@@ -1,8 +1,9 @@
 #include "render/emit/sky_noise.h"
 
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
+#include "scene/hole.h"
 
 #include <float.h>
 #include <math.h>
@@ -36,7 +37,7 @@ bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
 {
     double r = scene->camera.r, rounding = precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
     /* Who falls sees the sky as large as from further out. */
-    if (!(r < KD_SKY_NEAR * kd_kerr_horizon(scene->spacetime.spin)) || scene->camera.observer == KD_OBSERVER_INFALL)
+    if (!(r < KD_SKY_NEAR * kd_scene_hole(scene)->outer) || scene->camera.observer == KD_OBSERVER_INFALL)
         return false;
     const struct kd_scene whole = kd_scene_whole(scene);
     const struct kd_camera_exact camera = kd_camera_exact(&whole);

@@ -1,8 +1,9 @@
 /* These are hot spots as an emitter: shaders/emit/spots.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/emit/particles.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +32,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     size_t n = kd_scene_spots(scene, on);
     double degrees = M_PI / 180, time = scene->top.time - kd_particle_delay(scene);
     for (size_t i = 0; i < n; i++) {
-        double omega = kd_kerr_omega(scene->spacetime.spin, on[i]->r), size = on[i]->size;
+        double omega = kd_kerr_omega(kd_scene_hole(scene), on[i]->r), size = on[i]->size;
         double phase = remainder(omega * time, 2 * M_PI) + (on[i]->phase_deg - scene->camera.azimuth_deg) * degrees;
         out->spots.at[i] = (struct kd_spot_block) {
             .r = (float)on[i]->r,
@@ -65,7 +66,7 @@ static void reach(const struct kd_scene *scene, double radii[2])
         radii[0] = fmin(radii[0], on[i]->r - REACH * on[i]->size);
         radii[1] = fmax(radii[1], on[i]->r + REACH * on[i]->size);
     }
-    radii[0] = fmax(radii[0], kd_kerr_isco(scene->spacetime.spin));
+    radii[0] = fmax(radii[0], kd_kerr_isco(kd_scene_hole(scene)));
 }
 
 #define WHEN(name, condition) \

@@ -2,7 +2,7 @@
  * shaders/emit/stokes.glsl. It shines nowhere itself. */
 #include "render/emit/emitter.h"
 
-#include "physics/synchrotron.h"
+#include "physics/disk/synchrotron.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 #include "render/explain/explain.h"
 
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 #include "render/lens/label.h"
 #include "render/plan/sample.h"
 #include "render/plan/tile.h"

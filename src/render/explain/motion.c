@@ -1,7 +1,7 @@
 #include "render/explain/motion.h"
 
-#include "physics/kerr.h"
-#include "physics/null_polar.h"
+#include "physics/null/null_polar.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -55,9 +55,9 @@ static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *con
 
 struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
 {
-    struct kd_ray_motion m = { .ray = *ray, .horizon = kd_kerr_horizon(ray->spin), .turning_r = NAN };
+    struct kd_ray_motion m = { .ray = *ray, .horizon = kd_hole(ray->spin)->outer, .turning_r = NAN };
     const struct kd_null_motion constants =
-        kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+        kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     m.within = !(ray->radius > m.horizon);
     m.lambda = constants.lambda, m.eta = constants.eta;
     m.roots = kd_null_roots_of(&constants);

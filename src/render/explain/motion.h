@@ -1,12 +1,12 @@
 /* The motion of one ray: the case of its roots in r and in theta, its turning points, why it ends, and points of its
- * path. From the closed form of physics/null_geodesic.h and the steps of physics/null_course.h, for `kerrd pixel` and
- * `kerrd rays --trace`. Pure, any thread. */
+ * path. From the closed form of physics/null/null_geodesic.h and the steps of physics/null/null_course.h, for `kerrd
+ * pixel` and `kerrd rays --trace`. Pure, any thread. */
 #ifndef KD_RENDER_EXPLAIN_MOTION_H
 #define KD_RENDER_EXPLAIN_MOTION_H
 
 #include "base/json.h"
-#include "physics/null_course.h"
-#include "physics/null_quartic.h"
+#include "physics/null/null_course.h"
+#include "physics/null/null_quartic.h"
 #include "render/rays/rays.h"
 
 #define KD_PATH_PLACES 4000 /* at most */

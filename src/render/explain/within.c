@@ -1,9 +1,9 @@
 /* Follows a ray of an observer within the horizon, where closed forms end: by the steps of
- * physics/null_course.h in ingoing coordinates. */
+ * physics/null/null_course.h in ingoing coordinates. */
 #include "render/explain/motion.h"
 
-#include "physics/disk.h"
-#include "physics/kerr.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/spacetime/kerr.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,8 +14,8 @@
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
     const double a = m->ray.spin;
-    return r >= kd_kerr_isco(a) ? kd_disk_redshift(a, r, m->lambda)
-                                : kd_disk_redshift_plunging(a, r, m->lambda, m->eta, outwards);
+    return r >= kd_kerr_isco(kd_hole(a)) ? kd_disk_redshift(kd_hole(a), r, m->lambda)
+                                         : kd_disk_redshift_plunging(kd_hole(a), r, m->lambda, m->eta, outwards);
 }
 
 /* Azimuth and time stay ingoing within the horizon, where a crossing has no gas to have a g of. */
@@ -23,7 +23,7 @@ static struct kd_ray_crossing crossing_of(const struct kd_ray_motion *m, bool re
                                           bool inwards)
 {
     const bool outside = p->r > m->horizon;
-    const double twist = outside ? kd_kerr_twist(m->ray.spin, p->r) : 0;
+    const double twist = outside ? kd_kerr_twist(kd_hole(m->ray.spin), p->r) : 0;
     return (struct kd_ray_crossing) {
         .r = p->r,
         .phi = p->phi + (reversed ? -twist : twist),

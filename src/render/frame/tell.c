@@ -1,8 +1,9 @@
 /* This part of a frame tells the light of one pixel, ray by ray. */
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/frame/lens.h"
 #include "render/frame/tell.h"
 #include "render/lens/label.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -320,7 +321,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     if (by->engine == KD_ENGINE_CLOSED)
         return say_no_steps(
             told, "the picture's engine is the closed form, which takes no steps: accuracy.engine chooses another");
-    if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
+    if (scene->camera.r <= kd_scene_hole(scene)->outer)
         return say_no_steps(
             told, "the observer is within the horizon, where lists of rays have no labels: the path has its own steps");
     kd_lens_label(&counted, j->plan, told->middle.x, told->middle.y, &label);

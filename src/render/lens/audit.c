@@ -2,9 +2,10 @@
 
 #include "render/view/layout.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/lens/label.h"
 #include "render/lens/listed.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -103,7 +104,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
     enum kd_status status;
     KD_TRY(read_rows(r, plan, map, s, error));
     KD_TRY(kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error));
-    compare(plan, s, place, n, kd_kerr_isco(scene->spacetime.spin), out);
+    compare(plan, s, place, n, kd_kerr_isco(kd_scene_hole(scene)), out);
 done:
     return status;
 }

@@ -2,13 +2,14 @@
 
 #include "render/view/layout.h"
 
-#include "physics/kerr.h"
-#include "physics/null_course.h"
+#include "physics/null/null_course.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 #include "render/view/critical_pixels.h"
 #include "render/rays/closed.h"
 #include "render/rays/device.h"
 #include "render/view/ring.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -244,7 +245,7 @@ enum { PLACES = 2048 };
 static void follow_within(struct work *w, const struct kd_scene *scene, size_t i, struct kd_null_place *places)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
-    const double horizon = kd_kerr_horizon(at.spin);
+    const double horizon = kd_hole(at.spin)->outer;
     const uint32_t orders = w->plan->orders ? w->plan->orders : 1;
     const bool reversed = w->energy[i] < 0;
     const struct kd_null_ray ray = {
@@ -268,7 +269,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
         const bool inwards = places[k + 1].r < p->r;
         if (p->crossing < 0 || (uint32_t)p->crossing >= orders || (inwards && p->r <= horizon))
             continue; /* what still leaves may be within the horizon, as the kernel has it */
-        const double twist = p->r > horizon ? kd_kerr_twist(at.spin, p->r) : 0;
+        const double twist = p->r > horizon ? kd_kerr_twist(kd_hole(at.spin), p->r) : 0;
         w->crossings[i * orders + (uint32_t)p->crossing] =
             (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };
         w->inwards[i * orders + (uint32_t)p->crossing] = inwards;
@@ -280,7 +281,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* By the steps of physics/null_course.h in ingoing coordinates: of an observer within the horizon, where closed
+/* By the steps of physics/null/null_course.h in ingoing coordinates: of an observer within the horizon, where closed
  * forms end. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
@@ -305,7 +306,7 @@ enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan 
     for (size_t i = 0; i < n; i++)
         keep(&w, i, &labels[i]);
     const struct kd_ray_labels rays = { w.alpha_beta, w.outward, n };
-    if (scene->camera.r > kd_kerr_horizon(scene->spacetime.spin))
+    if (scene->camera.r > kd_scene_hole(scene)->outer)
         KD_TRY(kd_lens_trace(NULL, scene, plan, &closed, &rays, w.crossings, w.ends, error));
     else
         KD_TRY(trace_within(&w, scene, error));

@@ -2,7 +2,7 @@
 #include "render/output/fits_cards.h"
 
 #include "image/fits.h"
-#include "physics/scale.h"
+#include "physics/spacetime/scale.h"
 #include "scene/crowd.h"
 #include "scene/table.h"
 

@@ -1,6 +1,6 @@
 #include "render/output/particle_list.h"
 
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "scene/number.h"
 #include "scene/table.h"
 #include "scene/text.h"
@@ -135,7 +135,7 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
                               list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);
     if (list->orbits)
-        list->plunge = kd_plunge_of(list->scene.spacetime.spin);
+        list->plunge = kd_plunge_of(kd_hole(list->scene.spacetime.spin));
     return KD_OK;
 }
 
@@ -180,7 +180,7 @@ static void find_guide(struct guide *guide, const struct kd_particle_list *list,
         return;
     const struct kd_particle_orbit o = kd_particle_orbit(&list->scene, list->grid.radii, number);
     double a = list->scene.spacetime.spin;
-    *guide = (struct guide) { number, o, kd_kerr_energy(a, o.r), kd_kerr_momentum(a, o.r) };
+    *guide = (struct guide) { number, o, kd_kerr_energy(kd_hole(a), o.r), kd_kerr_momentum(kd_hole(a), o.r) };
 }
 
 static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle,

@@ -12,7 +12,7 @@
 #ifndef KD_RENDER_OUTPUT_PARTICLE_LIST_H
 #define KD_RENDER_OUTPUT_PARTICLE_LIST_H
 
-#include "physics/plunge.h"
+#include "physics/orbit/plunge.h"
 #include "render/emit/particles.h"
 #include "render/device/renderer.h"
 

@@ -1,7 +1,7 @@
 #include "render/output/wcs.h"
 
-#include "physics/angle.h"
-#include "physics/scale.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/scale.h"
 #include "render/view/camera.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 
 #include "interface.h"
 #include "lens.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 #include "render/accuracy/table.h"
 #include "render/view/camera.h"
 #include "render/view/layout.h"
@@ -14,6 +14,7 @@
 #include "render/plan/parts.h"
 #include "render/plan/room.h"
 #include "render/plan/sample.h"
+#include "scene/hole.h"
 
 #include <math.h>
 #include <string.h>
@@ -214,7 +215,7 @@ static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, st
 
 static double ergosphere(const struct kd_scene *scene)
 {
-    return kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(scene->camera.inclination_deg));
+    return kd_kerr_ergosphere(kd_scene_hole(scene), kd_cos_deg(scene->camera.inclination_deg));
 }
 
 /* Says whether E is positive for each ray of the camera, as the device's engines take it to be where rays are
@@ -254,13 +255,10 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
  * out outwards comes back. */
 static double beyond_orbits(const struct kd_scene *scene)
 {
-    return 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
+    return 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene->spacetime.spin)));
 }
 
-static bool within_horizon(const struct kd_scene *scene)
-{
-    return scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin);
-}
+static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }
 
 /* Within the horizon light is followed by lens_map.comp alone. The steps are those of a half turn, which takes the
  * longer the nearer the middle the observer is: w'' = 3K w^2 is quicker there by sqrt(6w) than where they were

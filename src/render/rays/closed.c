@@ -1,9 +1,9 @@
 #include "render/rays/closed.h"
 
-#include "physics/angle.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/angle.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 #include "base/cores.h"
 #include "base/pause.h"
 
@@ -33,9 +33,9 @@ static double redshift(const struct kd_rays_params *p, const double *alpha_beta,
 {
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
     double alpha = alpha_beta[0], beta = alpha_beta[1], lambda = -alpha * s;
-    if (r >= kd_kerr_isco(a))
-        return kd_disk_redshift(a, r, lambda);
-    return kd_disk_redshift_plunging(a, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
+    if (r >= kd_kerr_isco(kd_hole(a)))
+        return kd_disk_redshift(kd_hole(a), r, lambda);
+    return kd_disk_redshift_plunging(kd_hole(a), r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
 }
 
 static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, bool outward, bool errors,
@@ -146,7 +146,7 @@ static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
 {
-    double isco = kd_kerr_isco(params->spin);
+    double isco = kd_kerr_isco(kd_hole(params->spin));
     for (size_t i = 0; i < rays->n; i++)
         for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
             const double *alpha_beta = rays->alpha_beta + 2 * i;
@@ -163,7 +163,7 @@ double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, b
 {
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), w2 = 1 / (r * r);
     double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;
-    double d = (1 - kd_kerr_horizon(a) / r) * (1 - kd_kerr_inner_horizon(a) / r);
+    double d = (1 - kd_hole(a)->outer / r) * (1 - kd_hole(a)->inner / r);
     double carter = (alpha - a) * (alpha + a) * c * c + beta * beta + j * j;
     double slope = sqrt(fmax(0, all * all - d * carter * w2));
     return leaves_outwards(p, alpha_beta, outward, end, k) ? slope : -slope;

@@ -2,8 +2,8 @@
 #include "render/rays/device.h"
 
 #include "interface.h"
-#include "physics/angle.h"
-#include "physics/kerr.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/view/layout.h"
 #include "render/rays/start.h"
@@ -88,12 +88,13 @@ static void upload_states(const struct work *w, const struct set *set, const str
     } start;
     double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg);
     put(w, at, 0, p->spin);
-    put(w, at, 1, kd_kerr_horizon(p->spin));
+    put(w, at, 1, kd_hole(p->spin)->outer);
     put(w, at, 2, escape(w));
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];
         label(w, rays->alpha_beta + 2 * i, at_eye);
-        kd_rays_start(p->spin, p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR, &start.origin);
+        kd_rays_start(kd_hole(p->spin), p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR,
+                      &start.origin);
         for (size_t k = 0; k < per_start; k++)
             put(w, at, 4 + per_start * i + k, start.numbers[k]);
     }
@@ -103,7 +104,7 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
 {
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(set->rays);
-    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), r_plus = kd_kerr_horizon(p->spin);
+    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), r_plus = kd_hole(p->spin)->outer;
     const double header[HEADER] = {
         p->spin,
         u,
@@ -334,7 +335,7 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
         .wide = params->precision == KD_PRECISION_F64,
         .kerr_schild = params->engine >= KD_ENGINE_KS_EULER,
         .per_ray = 3 * params->orders + 4,
-        .least = nextafter(kd_kerr_horizon(params->spin), INFINITY),
+        .least = nextafter(kd_hole(params->spin)->outer, INFINITY),
         .told = told,
         .error = error,
         .steps = steps_of(params),

@@ -1,6 +1,6 @@
 #include "render/rays/looks.h"
 
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 #include "render/view/camera.h"
 #include "scene/observer_fault.h"
 

@@ -13,7 +13,7 @@
 #define KD_RENDER_RAYS_RAYS_H
 
 #include "base/error.h"
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 #include "render/accuracy/engine.h"
 #include "render/device/renderer.h"
 

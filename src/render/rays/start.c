@@ -1,5 +1,7 @@
 #include "render/rays/start.h"
 
+#include "physics/spacetime/hole.h"
+
 #include <math.h>
 
 /* The ray in Mino time: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r in y, their derivatives in
@@ -99,9 +101,10 @@ static void cartesian(const struct motion *m, const struct point *p, bool outwar
     }
 }
 
-void kd_rays_start(double a, double r, double u, double s, double alpha, double beta, bool outward, double far,
-                   struct kd_rays_origin *out)
+void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, double alpha, double beta, bool outward,
+                   double far, struct kd_rays_origin *out)
 {
+    const double a = hole->a;
     struct motion m = { .a = a, .l = -alpha * s, .q = (alpha * alpha - a * a) * u * u + beta * beta };
     m.k = m.q + (m.l - a) * (m.l - a);
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };

@@ -4,6 +4,8 @@
 #ifndef KD_RENDER_RAYS_START_H
 #define KD_RENDER_RAYS_START_H
 
+#include "physics/spacetime/hole.h"
+
 #include <stdbool.h>
 
 struct kd_rays_origin {
@@ -15,7 +17,7 @@ struct kd_rays_origin {
 /* a; r and cosine and sine of the observer's polar angle, 0 allowed; labels as in render/rays/rays.h. r = INFINITY:
  * the start is at `far`, or at eight times the impact parameter where that is more. outward: a finite observer's ray
  * that starts away from the hole. */
-void kd_rays_start(double a, double r, double u, double s, double alpha, double beta, bool outward, double far,
-                   struct kd_rays_origin *out);
+void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, double alpha, double beta, bool outward,
+                   double far, struct kd_rays_origin *out);
 
 #endif

@@ -1,9 +1,9 @@
 #include "render/selftest/accuracy_measure.h"
 
-#include "physics/angle.h"
-#include "physics/disk.h"
-#include "physics/kerr.h"
-#include "physics/null_geodesic.h"
+#include "physics/disk/thin_disk.h"
+#include "physics/math/angle.h"
+#include "physics/null/null_geodesic.h"
+#include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
 #include "render/rays/closed.h"
 #include "render/rays/device.h"
@@ -79,7 +79,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
         double r = path.crossing[k].r;
         bool sure = isfinite(path.crossing[k].error_r);
         crossings[k] = (struct kd_ray_crossing) { sure ? r : NAN, path.crossing[k].phi, path.crossing[k].delay,
-                                                  kd_disk_redshift(ray->spin, r, -ray->alpha * s) };
+                                                  kd_disk_redshift(kd_hole(ray->spin), r, -ray->alpha * s) };
     }
 }
 
@@ -174,7 +174,7 @@ static double error_of(double value, double truth, int quantity)
 static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t,
                   struct kd_accuracy_entry *e, size_t counts[KD_ACCURACY_QUANTITIES])
 {
-    double inner = kd_kerr_isco(t->view.spin); /* phi and t of Boyer and Lindquist diverge at the horizon */
+    double inner = kd_kerr_isco(kd_hole(t->view.spin)); /* phi and t of Boyer and Lindquist diverge at the horizon */
     bool delays = row->engine == KD_ENGINE_MINO_RKN4 || row->engine == KD_ENGINE_MINO_RKN6;
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_ray_end *end = &b->ends[i], *true_end = &t->ends[i];

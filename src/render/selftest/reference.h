@@ -7,7 +7,7 @@
 #ifndef KD_RENDER_SELFTEST_REFERENCE_H
 #define KD_RENDER_SELFTEST_REFERENCE_H
 
-#include "physics/observer.h"
+#include "physics/spacetime/observer.h"
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 #include "render/sky/frame.h"
 
-#include "physics/angle.h"
+#include "physics/math/angle.h"
 
 #include <math.h>
 

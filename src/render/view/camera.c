@@ -1,8 +1,9 @@
 #include "render/view/camera.h"
 
-#include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/observer.h"
+#include "physics/math/angle.h"
+#include "physics/spacetime/kerr.h"
+#include "physics/spacetime/observer.h"
+#include "scene/hole.h"
 
 #include <math.h>
 
@@ -45,8 +46,8 @@ static void near(struct kd_camera_exact *o, const struct kd_camera *c, double st
 double kd_camera_twist(const struct kd_scene *scene)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
-    bool falls = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(at.r) && at.r > kd_kerr_horizon(at.spin);
-    return falls ? kd_kerr_twist(at.spin, at.r) : 0;
+    bool falls = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(at.r) && at.r > kd_hole(at.spin)->outer;
+    return falls ? kd_kerr_twist(kd_hole(at.spin), at.r) : 0;
 }
 
 /* The legs of the observer's frame. A valid scene has no observer where there is none such. */
@@ -160,7 +161,7 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     o.u = at.u;
     o.s = at.s;
     o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
-    o.horizon = 1 / kd_kerr_horizon(scene->spacetime.spin);
+    o.horizon = 1 / kd_scene_hole(scene)->outer;
     if (isinf(c->r)) {
         plane(&o, c, kd_camera_pixel(scene) / kd_scene_side(scene));
     } else {

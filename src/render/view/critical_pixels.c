@@ -1,6 +1,6 @@
 #include "render/view/critical_pixels.h"
 
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 #include "render/view/camera.h"
 
 #include <math.h>

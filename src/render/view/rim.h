@@ -12,7 +12,7 @@
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 #include "render/view/layout.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 /* Follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve 32 bits lose 1e-4
  * to 1e-2 radians of where a ray goes.
  *
- * The two angles of physics/null_bend.h, and the tangent, are smooth functions of the curve's point and of the
+ * The two angles of physics/null/null_bend.h, and the tangent, are smooth functions of the curve's point and of the
  * logarithm of the distance. In each grid they are found at some tens to some hundreds of rays, and interpolated to
  * the others by polynomials through Chebyshev's extrema, round the curve as well as across it: as many as it takes
  * to meet rays between them within KD_RIM_EXACT. Pure; any thread. */

@@ -3,13 +3,13 @@
  * valid and project a ring.
  *
  * Across, left to right: a turn about the curve's centre, camera.roll_deg in the middle, 0 where alpha > 0 is
- * (physics/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
- * 10^ring_decades_min at the middle; lower half: inside, its mirror image; d = rho/rho_c - 1 (physics/lensing.h).
+ * (physics/null/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
+ * 10^ring_decades_min at the middle; lower half: inside, its mirror image; d = rho/rho_c - 1 (physics/null/lensing.h).
  * Rays go through the middles of their rows and columns. */
 #ifndef KD_RENDER_VIEW_RING_H
 #define KD_RENDER_VIEW_RING_H
 
-#include "physics/critical.h"
+#include "physics/null/critical.h"
 #include "render/view/camera.h"
 
 struct kd_ring {

@@ -1,9 +1,9 @@
-/* Follows one ray of an observer to the sky in double precision, by closed form: physics/null_bend.h for a
+/* Follows one ray of an observer to the sky in double precision, by closed form: physics/null/null_bend.h for a
  * direction in which a camera looks. Pure; any thread. */
 #ifndef KD_RENDER_VIEW_SKY_RAY_H
 #define KD_RENDER_VIEW_SKY_RAY_H
 
-#include "physics/null_bend.h"
+#include "physics/null/null_bend.h"
 #include "render/view/camera.h"
 
 struct kd_sky_rays {

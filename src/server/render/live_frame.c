@@ -2,9 +2,10 @@
 
 #include "base/hash.h"
 #include "base/json.h"
-#include "physics/kerr.h"
+#include "physics/spacetime/kerr.h"
 #include "render/output/clock.h"
 #include "render/output/notes.h"
+#include "scene/hole.h"
 #include "server/http/reply.h"
 
 #include <math.h>
@@ -114,13 +115,13 @@ static void add_lights(struct kd_json *json, const struct kd_light_report *repor
 static void add_orbit(struct kd_json *json, double spin, double r)
 {
     kd_json_number(json, "r", r);
-    kd_json_number(json, "period", 2 * M_PI / kd_kerr_omega(spin, r));
+    kd_json_number(json, "period", 2 * M_PI / kd_kerr_omega(kd_hole(spin), r));
 }
 
 static void add_isco(struct kd_json *json, const struct kd_scene *scene)
 {
     kd_json_object(json, "isco");
-    add_orbit(json, scene->spacetime.spin, kd_kerr_isco(scene->spacetime.spin));
+    add_orbit(json, scene->spacetime.spin, kd_kerr_isco(kd_scene_hole(scene)));
     kd_json_end(json);
 }
 
@@ -143,7 +144,7 @@ static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
         const struct kd_spot *spot = &scene->spots.at[i];
         if (!(spot->brightness > 0))
             continue;
-        double turned = remainder(kd_kerr_omega(scene->spacetime.spin, spot->r) * scene->top.time, 2 * M_PI);
+        double turned = remainder(kd_kerr_omega(kd_scene_hole(scene), spot->r) * scene->top.time, 2 * M_PI);
         kd_json_object(json, NULL);
         kd_json_number(json, "spot", (double)i + 1);
         kd_json_number(json, "phi_deg", remainder(spot->phase_deg + turned * (180 / M_PI), 360));

@@ -1,0 +1,60 @@
+#include "physics/disk/colour.h"
+
+#include "physics/math/constants.h"
+
+#include <math.h>
+
+/* Planck's law, W m^-3 sr^-1, at a wavelength in m. */
+static double planck(double wavelength, double temperature)
+{
+    const double h = KD_H_J_S, c = KD_C_M_S, k = KD_K_J_K;
+    double x = h * c / (wavelength * k * temperature);
+    return x > 700 ? 0 : 2 * h * c * c / (pow(wavelength, 5) * expm1(x));
+}
+
+struct kd_colour_xyz kd_colour_blackbody(double temperature)
+{
+    struct kd_colour_xyz sum = { 0, 0, 0 };
+    for (int i = 0; i < KD_CIE1931_COUNT; i++) { /* the functions vanish at both ends: the sum is a trapezoid */
+        double b =
+            planck((KD_CIE1931_FIRST_NM + i * KD_CIE1931_STEP_NM) * 1e-9, temperature) * KD_CIE1931_STEP_NM * 1e-9;
+        sum.x += b * kd_cie1931[i][0];
+        sum.y += b * kd_cie1931[i][1];
+        sum.z += b * kd_cie1931[i][2];
+    }
+    return sum;
+}
+
+struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz c)
+{
+    return (struct kd_colour_rgb) {
+        3.2406255 * c.x - 1.5372080 * c.y - 0.4986286 * c.z,
+        -0.9689307 * c.x + 1.8757561 * c.y + 0.0415175 * c.z,
+        0.0557101 * c.x - 0.2040211 * c.y + 1.0569959 * c.z,
+    };
+}
+
+double kd_colour_srgb_encode(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
+struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
+{
+    struct kd_colour_xyz xyz = kd_colour_blackbody(temperature);
+    if (!(xyz.y > 0)) /* below about 60 K the visible light underflows: the limit is the deepest red of the gamut */
+        return (struct kd_colour_rgb) { 1 / 0.2126, 0, 0 };
+    struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { xyz.x / xyz.y, 1, xyz.z / xyz.y });
+    double low = fmin(c.r, fmin(c.g, c.b));
+    if (low < 0) { /* grey of luminance 1 is (1, 1, 1): c + s (1 - c) with the least s that lifts `low` to 0 */
+        double s = low / (low - 1);
+        c = (struct kd_colour_rgb) { c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };
+        c = (struct kd_colour_rgb) { fmax(c.r, 0), fmax(c.g, 0), fmax(c.b, 0) }; /* the lifted one by rounding */
+    }
+    return c;
+}
+
+double kd_colour_luminous_fraction(double temperature)
+{
+    return kd_colour_blackbody(temperature).y / (KD_STEFAN_BOLTZMANN_SI * pow(temperature, 4) / M_PI);
+}

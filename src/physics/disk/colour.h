@@ -1,0 +1,34 @@
+/* Gives the colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette.
+ * Double precision, pure, any thread. */
+#ifndef KD_PHYSICS_DISK_COLOUR_H
+#define KD_PHYSICS_DISK_COLOUR_H
+
+#define KD_CIE1931_COUNT 95
+#define KD_CIE1931_FIRST_NM 360.0
+#define KD_CIE1931_STEP_NM 5.0
+extern const double kd_cie1931[KD_CIE1931_COUNT][3];
+
+struct kd_colour_xyz { double x, y, z; };
+struct kd_colour_rgb { double r, g, b; };
+
+/* CIE XYZ of the spectral radiance B_lambda(T), integrated over wavelength in W m^-2 sr^-1 (without the factor 683
+ * lm/W). T in K, > 0. */
+struct kd_colour_xyz kd_colour_blackbody(double temperature);
+
+/* Linear sRGB, not clipped: components can be negative. The matrix is that of IEC 61966-2-1:1999 with the digits of
+ * its amendment 1 of 2003, the inverse of its four-digit one of RGB to XYZ, whose second row gives the luminance:
+ * 0.2126, 0.7152, 0.0722. (From the chromaticities of primaries and white follow numbers that differ from the fourth
+ * digit on: 3.2409699, or with another D65 3.2404542.) */
+struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
+
+/* The encoding of a component of linear sRGB in [0, 1] (IEC 61966-2-1). */
+double kd_colour_srgb_encode(double linear);
+
+/* Colour of a black body as linear sRGB of luminance 1. Outside the sRGB gamut (below about 1900 K) it is moved towards
+ * the grey of the same luminance until no component is negative. */
+struct kd_colour_rgb kd_colour_blackbody_unit(double temperature);
+
+/* Luminance Y over total radiance sigma T^4 / pi: the fraction of a black body's light that the eye weighs. */
+double kd_colour_luminous_fraction(double temperature);
+
+#endif

@@ -1,0 +1,314 @@
+#include "physics/disk/disk_image.h"
+
+#include "base/pause.h"
+#include "physics/null/null_polar.h"
+#include "physics/null/null_quartic.h"
+#include "physics/null/null_radial.h"
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { POINTS = 6 }; /* of an interpolation */
+#define NEAREST \
+    0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the \
+           image no longer changes */
+#define NODES 1e-7  /* of ln r, at the nodes */
+#define PLACE 1e-12 /* at a place that is asked for by itself */
+#define BENDS 10.   /* by how much of itself a slope changes for a change of ln r, at most */
+#define DRIFTS \
+    0.2 /* what a slope is off by where only that of flat space is known; elsewhere by so much of what the rings \
+           before did not tell of the place */
+#define FLATTEST 0.1  /* slopes that are met lie between this and its inverse */
+#define MOVED 0.3     /* by how much of R the angles before may move a guess */
+enum { HISTORY = 5 }; /* rings of nodes that a slope is made from, besides the last */
+
+struct ellipse { double x0, y0, a, b; };
+
+/* The centre lies above the origin by so much of what the far side is higher than the near one is deep. Near edge on
+ * the far side is a hump with low wings: each line from the centre meets a ring once if the centre lies below all of
+ * the hump's tangents. From the middle between both sides (0.5) it met some rings above 86.5 degrees three times. */
+#define LIFTED 0.1
+
+/* About where the ring is seen: the near side as in flat space, the far side as a thin lens lifts it, b (b - r cos
+ * i) = 4 r, with sin(i)^4 so that face on nothing is lifted. */
+static struct ellipse around(const struct kd_disk_image *image, double r)
+{
+    double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
+    double up = 1 + 0.5 * (flat + sqrt(flat * flat + 16 * r * s2 * s2)), down = 1 + flat;
+    return (struct ellipse) { image->spin * image->sin_i, LIFTED * (up - down), r + 1, 0.5 * (up + down) };
+}
+
+static double radius_of_node(const struct kd_disk_image *image, int k)
+{
+    double u = (double)k / KD_DISK_IMAGE_RINGS, u2 = u * u;
+    return image->origin + (image->isco - image->origin) / (u2 * u2);
+}
+
+static double node_of_radius(const struct kd_disk_image *image, double r)
+{
+    return KD_DISK_IMAGE_RINGS * sqrt(sqrt((image->isco - image->origin) / (r - image->origin)));
+}
+
+double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta)
+{
+    struct kd_null_motion m = kd_null_motion_of(kd_hole(image->spin), image->cos_i, image->sin_i, alpha, beta);
+    if (!(m.eta > 0))
+        return m.k > 27 ? INFINITY : 0; /* vortical: it never meets the plane */
+    struct kd_null_roots roots = kd_null_roots_of(&m);
+    return kd_null_radius_after(&m, &roots, kd_null_polar_first(&m));
+}
+
+static double mismatch(const struct kd_disk_image *image, const struct ellipse *e, double x, double y,
+                       double log_stretch, double r)
+{
+    double stretch = exp(log_stretch), found = kd_disk_image_radius(image, e->x0 + stretch * x, e->y0 + stretch * y);
+    return found > 0 ? log(found / r) : -INFINITY;
+}
+
+/* d ln r/d ln R where it is looked for, and by how much of itself that may be off: by `drift`, and `bend` times the
+ * error of ln r that the place has. */
+struct slope { double value, drift, bend; };
+
+/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is the one given, kept within what brackets
+ * the root. A last step is not looked at where what is left after it, by how the slope changes on the way, is below
+ * `exact`. `slope`: 1 in flat space; its value is left as the last one met. */
+static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r,
+                 double exact, double *log_stretch, struct slope *slope)
+{
+    double cosine = e->a * direction[0], sine = e->b * direction[1];
+    double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
+    for (int i = 0; i < 60; i++) {
+        double f = mismatch(image, e, cosine, sine, x, r);
+        if (fabs(f) < exact || (high - low < 1e-13)) {
+            *log_stretch = x;
+            return fabs(f) < 1e-6;
+        }
+        *(f < 0 ? &low : &high) = x;
+        bool met = isfinite(f) && isfinite(f_before);
+        if (met)
+            slope->value = (f - f_before) / (x - before);
+        double next = x - f / (met || !i ? slope->value : 1);
+        double left = met ? fabs(f * f_before) * BENDS
+                      : i ? INFINITY
+                          : fabs(f) * (slope->drift + slope->bend * fabs(f));
+        if (next > low && next < high && left < exact) {
+            *log_stretch = next;
+            return true;
+        }
+        before = x, f_before = f;
+        if (!(next > low && next < high) || !isfinite(next)) {
+            bool both = isfinite(low) && isfinite(high);
+            next = both ? 0.5 * (low + high) : isfinite(high) ? high - reach : low + reach;
+            reach *= 2;
+        }
+        x = next;
+    }
+    *log_stretch = before; /* rounding keeps it from coming nearer: next to an extremal hole */
+    return fabs(f_before) < 1e-6;
+}
+
+/* From up to five rings before at this angle, by the polynomial through them. */
+static double guess(const struct kd_disk_image *image, int k, int j)
+{
+    double a = image->stretch[k - 1][j];
+    if (k < 3)
+        return a;
+    double b = image->stretch[k - 2][j], c = image->stretch[k - 3][j];
+    if (k < 4)
+        return 3 * (a - b) + c;
+    double d = image->stretch[k - 4][j];
+    if (k < 5)
+        return 4 * (a + c) - 6 * b - d;
+    return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
+}
+
+/* How an ellipse grows with ln r: its half axes by so much of themselves, its centre by so many M. */
+static struct ellipse growth_of(const struct kd_disk_image *image, double r)
+{
+    const double step = 1e-4;
+    struct ellipse in = around(image, r * (1 - step)), out = around(image, r * (1 + step));
+    return (struct ellipse) { 0, (out.y0 - in.y0) / (2 * step), (out.a - in.a) / (step * (out.a + in.a)),
+                              (out.b - in.b) / (step * (out.b + in.b)) };
+}
+
+/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, where the ring and its neighbours are
+ * about known. A place moves with ln r by p_L and with chi by p_chi, along which R changes by the shares `swells`
+ * and `turns` of itself: the slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
+static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch,
+                       double swells, double turns)
+{
+    double c = direction[0], s = direction[1];
+    double across = (swells + growth->a) * c * (turns * s + c) -
+                    (growth->y0 / (e->b * stretch) + (swells + growth->b) * s) * (turns * c - s);
+    return 1 / across;
+}
+
+/* The ring of nodes k, from the rings of nodes before. */
+struct making {
+    int k;
+    double r, rate; /* dk/d ln r */
+    struct ellipse e, growth;
+    double guessed[KD_DISK_IMAGE_ANGLES];
+};
+
+/* Slopes at the last of some nodes by backward differences, the last first: sums of nabla^m/m, m = 1 ... so many. */
+static const double backward[HISTORY][HISTORY + 1] = {
+    { 1, -1 },
+    { 1.5, -2, 0.5 },
+    { 11. / 6, -3, 1.5, -1. / 3 },
+    { 25. / 12, -4, 3, -4. / 3, 0.25 },
+    { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
+};
+
+/* By how much guesses from the rings before were off: at the angle at hand, as far as the last three angles tell,
+ * and at these. */
+struct miss { double next, last[3]; };
+
+static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j,
+                             const double direction[2], double stretch, const struct miss *off)
+{
+    int n = image->angles, back = m->k < HISTORY ? m->k : HISTORY;
+    const double *weight = backward[back - 1], *g = m->guessed, per_radian = n / (2 * M_PI);
+    double swells = weight[0] * stretch;
+    for (int i = 1; i <= back; i++)
+        swells += weight[i] * image->stretch[m->k - i][j];
+    double turns = (8 * (g[(j + 1) % n] - g[(j + n - 1) % n]) - g[(j + 2) % n] + g[(j + n - 2) % n]) / 12 +
+                   backward[1][0] * off->next + backward[1][1] * off->last[0] + backward[1][2] * off->last[1];
+    double value =
+        slope_at(&m->e, &m->growth, direction, stretch, swells * m->rate / stretch, turns * per_radian / stretch);
+    if (!(value > FLATTEST && value < 1 / FLATTEST)) /* rings guessed so badly tell nothing */
+        return (struct slope) { 1, INFINITY, 0 };
+    double drift = fabs(m->rate * off->next) + per_radian * fabs(off->next - 2 * off->last[0] + off->last[1]);
+    return (struct slope) { value, DRIFTS * drift, BENDS + weight[0] * fabs(m->rate) };
+}
+
+static bool make_ring(struct kd_disk_image *image, int k)
+{
+    struct making m = { .k = k, .r = radius_of_node(image, k) };
+    m.e = around(image, m.r), m.growth = growth_of(image, m.r), m.rate = -0.25 * k * m.r / (m.r - image->origin);
+    for (int j = 0; j < image->angles; j++)
+        m.guessed[j] = guess(image, k, j);
+    struct miss off = { 0 };
+    for (int j = 0; j < image->angles; j++) {
+        kd_pause_every((uint64_t)j, 16);
+        off.next = fmin(fmax(3 * (off.last[0] - off.last[1]) + off.last[2], -MOVED), MOVED);
+        double stretch = fmax(m.guessed[j] + off.next, 0.1), log_stretch = log(stretch);
+        int at = j * (KD_DISK_IMAGE_ANGLES / image->angles);
+        const double direction[2] = { image->cosine[at], image->sine[at] };
+        struct slope slope = slope_of(image, &m, j, direction, stretch, &off);
+        if (!find(image, &m.e, direction, m.r, NODES, &log_stretch, &slope))
+            return false;
+        image->stretch[k][j] = exp(log_stretch);
+        off.last[2] = off.last[1], off.last[1] = off.last[0], off.last[0] = image->stretch[k][j] - m.guessed[j];
+    }
+    return true;
+}
+
+bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination)
+{
+    double c = fabs(cos(inclination));
+    memset(image, 0, sizeof *image);
+    image->spin = hole->a, image->cos_i = c, image->sin_i = sin(inclination);
+    image->isco = kd_kerr_isco(hole), image->horizon = hole->outer;
+    image->origin = fmin(image->horizon, image->isco - NEAREST);
+    image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
+    if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))
+        return false;
+    for (int j = 0; j < KD_DISK_IMAGE_ANGLES; j++) {
+        image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES),
+        image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);
+        image->stretch[0][j] = 1;
+    }
+    for (int k = 1; k <= KD_DISK_IMAGE_RINGS; k++)
+        if (!make_ring(image, k))
+            return false;
+    return true;
+}
+
+/* Lagrange's weights of the nodes 0 ... POINTS - 1 at x. */
+static void weigh(double x, double weight[POINTS])
+{
+    for (int i = 0; i < POINTS; i++) {
+        weight[i] = 1;
+        for (int j = 0; j < POINTS; j++)
+            if (j != i)
+                weight[i] *= (x - j) / (i - j);
+    }
+}
+
+/* The ring's R at its angles' nodes. */
+static void between_rings(const struct kd_disk_image *image, double r, int skip, double *row)
+{
+    double at = node_of_radius(image, r) / skip, weight[POINTS];
+    int last = KD_DISK_IMAGE_RINGS / skip, first = (int)fmin(fmax(floor(at) - POINTS / 2 + 1, 0), last - POINTS + 1);
+    weigh(at - first, weight);
+    for (int j = 0; j < image->angles; j++)
+        row[j] = 0;
+    for (int i = 0; i < POINTS; i++) {
+        const double *from = image->stretch[(first + i) * skip];
+        for (int j = 0; j < image->angles; j++)
+            row[j] += weight[i] * from[j];
+    }
+}
+
+double kd_disk_image_step(const struct kd_disk_image *image, double r, double share)
+{
+    return share * (r - image->horizon) / r;
+}
+
+bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta)
+{
+    double row[KD_DISK_IMAGE_ANGLES], weight[POINTS], stretch = 0, turns = chi / (2 * M_PI),
+                                                      at = (turns - floor(turns)) * image->angles;
+    int n = image->angles, first = (int)floor(at) - POINTS / 2 + 1;
+    const double direction[2] = { cos(chi), sin(chi) };
+    struct ellipse e = around(image, r);
+    between_rings(image, r, 1, row);
+    weigh(at - first, weight);
+    for (int i = 0; i < POINTS; i++)
+        stretch += weight[i] * row[(first + i + n) % n];
+    double log_stretch = log(fmax(stretch, 0.1));
+    struct slope slope = { 1, DRIFTS, 0 };
+    if (!find(image, &e, direction, r, PLACE, &log_stretch, &slope))
+        return false;
+    *alpha = e.x0 + exp(log_stretch) * e.a * direction[0];
+    *beta = e.y0 + exp(log_stretch) * e.b * direction[1];
+    return true;
+}
+
+void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta)
+{
+    double row[KD_DISK_IMAGE_ANGLES], round[KD_DISK_IMAGE_ANGLES + POINTS];
+    int nodes = image->angles / skip < n ? image->angles / skip : n, every = image->angles / nodes, finer = n / nodes,
+        apart = KD_DISK_IMAGE_ANGLES / n;
+    struct ellipse e = around(image, r);
+    between_rings(image, r, skip, row);
+    for (int j = 0; j < nodes + POINTS; j++)
+        round[j] = row[(j - POINTS / 2 + 1 + nodes) % nodes * every];
+    for (int part = 0; part < finer; part++) {
+        double weight[POINTS];
+        weigh(POINTS / 2 - 1 + (double)part / finer, weight);
+        for (int j = 0; j < nodes; j++) {
+            double stretch = 0;
+            int at = j * finer + part;
+            for (int i = 0; i < POINTS; i++)
+                stretch += weight[i] * round[j + i];
+            alpha[at] = e.x0 + stretch * e.a * image->cosine[at * apart];
+            beta[at] = e.y0 + stretch * e.b * image->sine[at * apart];
+        }
+    }
+}
+
+struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double r)
+{
+    return (struct kd_disk_ring) { r, kd_kerr_ut(kd_hole(image->spin), r), kd_kerr_omega(kd_hole(image->spin), r) };
+}
+
+struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas,
+                                         double alpha, double beta)
+{
+    double a = image->spin, c = image->cos_i, eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
+    double g = kd_disk_image_redshift(image, gas, alpha);
+    return (struct kd_disk_light) { g, fmin(1, g * sqrt(fmax(eta, 0)) / gas->r) };
+}

@@ -1,0 +1,359 @@
+#include "physics/disk/line_profile.h"
+
+#include "base/pause.h"
+#include "physics/disk/lamppost.h"
+#include "physics/spacetime/hole.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STEP 0.03   /* of ln r between rings, in the mean */
+#define EDGE_ON 0.1 /* cos i below which rough sums do not yet err with the square of their cells */
+#define BRIGHT 0.5  /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
+enum {
+    FEWEST = 64,
+    MOST = 512,
+    COARSEST = 16,
+    LOOKED = 128
+}; /* rings; how many times fewer of them, and of angles, the roughest sum looks at; parts of a line that it is looked
+      at by */
+
+double kd_line_limb(enum kd_line_limb limb, double mu)
+{
+    switch (limb) {
+    case KD_LIMB_LAOR: return 1 + 2.06 * mu;
+    case KD_LIMB_HAARDT: return log1p(1 / fmax(mu, 1e-300));
+    case KD_LIMB_ISOTROPIC: break;
+    }
+    return 1;
+}
+
+static double emissivity(const struct kd_line_params *p, const struct kd_lamppost *lamp, double r)
+{
+    switch (p->emissivity) {
+    case KD_LINE_POWER: return pow(r, -p->index);
+    case KD_LINE_BROKEN:
+        return pow(p->break_r, -p->index) * pow(r / p->break_r, r < p->break_r ? -p->index : -p->outer_index);
+    case KD_LINE_LAMPPOST: break;
+    }
+    return kd_lamppost_at(lamp, r);
+}
+
+/* A ring as it is seen: places, energies, and how bright; the first direction once more at the end. */
+struct ring {
+    double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1],
+        light[KD_DISK_IMAGE_ANGLES + 1];
+};
+
+/* What the cells between two rings send: the light of each, and its energies, which are those of a parallelogram
+ * over which g is linear: centre -+ (narrow +- wide)/2. */
+struct strip {
+    double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES],
+        wide[KD_DISK_IMAGE_ANGLES];
+};
+
+struct sum {
+    const double *edges;
+    int bins, last; /* the bin that was met last: neighbours are near */
+    double *in;     /* each bin */
+    double total;
+};
+
+static int bin_of(struct sum *s, double g)
+{
+    int at = s->last;
+    while (at > 0 && g < s->edges[at])
+        at--;
+    while (at < s->bins - 1 && g >= s->edges[at + 1])
+        at++;
+    return s->last = at;
+}
+
+/* The energies of a cell, g linear over a parallelogram: the share of it below an energy is square in that at both
+ * ends and straight between. */
+struct spread {
+    double low, narrow, all, slope, steep; /* all: narrow + wide; slope: 1/wide; steep: 1/(2 narrow wide) */
+};
+
+static double share_below(const struct spread *s, double g)
+{
+    double above = g - s->low, left = s->all - above;
+    if (above <= 0)
+        return 0;
+    if (left <= 0)
+        return 1;
+    if (above < s->narrow)
+        return above * above * s->steep;
+    return left < s->narrow ? 1 - left * left * s->steep : (above - 0.5 * s->narrow) * s->slope;
+}
+
+static void add_cell(struct sum *s, double light, double centre, double narrow, double wide)
+{
+    double half = 0.5 * (narrow + wide), low = centre - half, high = centre + half;
+    int i = bin_of(s, low);
+    s->total += light;
+    if (low >= s->edges[i] && high <= s->edges[i + 1]) {
+        s->in[i] += light;
+        return;
+    }
+    struct spread spread = { low, narrow, narrow + wide, 1 / wide, 0.5 / (narrow * wide) };
+    double before = share_below(&spread, s->edges[i]);
+    for (; i < s->bins && s->edges[i] < high; i++) {
+        double share = share_below(&spread, s->edges[i + 1]);
+        s->in[i] += light * (share - before);
+        before = share;
+    }
+}
+
+/* A chord between nodes h apart lies off the curve by -h^2 f''/12 in the mean. Nodes that are moved by a twelfth of
+ * their second difference leave the fourth power of h; next to the horns of a profile, where g is stationary along a
+ * ring, that is worth twice as many directions. No node is moved by more than half of itself where it must not
+ * change its sign. */
+static void straighten(double *f, int n, bool positive)
+{
+    double before = f[n - 1], first = f[0];
+    for (int j = 0; j < n; j++) {
+        double here = f[j], next = j + 1 < n ? f[j + 1] : first, moved = here - (1. / 12) * (before - 2 * here + next);
+        f[j] = positive && moved < 0.5 * here ? 0.5 * here : moved;
+        before = here;
+    }
+    f[n] = f[0];
+}
+
+static void fill_ring(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+                      double r, int skip, int n, struct ring *ring)
+{
+    double bright = emissivity(p, lamp, r);
+    kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);
+    struct kd_disk_ring gas = kd_disk_image_gas(image, r);
+    for (int j = 0; j < n; j++) {
+        double g = ring->g[j] = kd_disk_image_redshift(image, &gas, ring->alpha[j]);
+        ring->light[j] = bright * (p->energy ? g * g * g * g : g * g * g);
+    }
+    for (int j = 0; j < n && p->limb != KD_LIMB_ISOTROPIC; j++)
+        ring->light[j] *= kd_line_limb(p->limb, kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]).mu);
+    straighten(ring->alpha, n, false);
+    straighten(ring->beta, n, false);
+    straighten(ring->g, n, true);
+    straighten(ring->light, n, true);
+}
+
+/* The cells between ring x and ring y, ln r of which differs by `apart`. Across a cell light falls as a power of r,
+ * and area grows with the edges and with the width, which is about as r itself: their product by Simpson's rule,
+ * between the ends the geometric mean of light. The mean of g, weighed by that, is off its middle by a twelfth of
+ * the products of its steps and those of light. */
+static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
+{
+    for (int j = 0; j < n; j++) {
+        int k = j + 1;
+        double wa = 0.5 * (y->alpha[j] + y->alpha[k] - x->alpha[j] - x->alpha[k]),
+               wb = 0.5 * (y->beta[j] + y->beta[k] - x->beta[j] - x->beta[k]);
+        double here = fabs(wa * (x->beta[k] - x->beta[j]) - wb * (x->alpha[k] - x->alpha[j])),
+               there = fabs(wa * (y->beta[k] - y->beta[j]) - wb * (y->alpha[k] - y->alpha[j]));
+        double area = 0.5 * (here + there), grown = 0.5 * area * apart, in = 0.5 * (x->light[j] + x->light[k]),
+               out = 0.5 * (y->light[j] + y->light[k]);
+        double first = in * (here - grown), last = out * (there + grown),
+               light = (first + 4 * sqrt(in * out) * area + last) * (1. / 6);
+        double along = (x->light[k] + y->light[k] - x->light[j] - y->light[j]) / (in + out);
+        double g = 0.25 * (x->g[j] + x->g[k] + y->g[j] + y->g[k]),
+               g_across = 0.5 * (y->g[j] + y->g[k] - x->g[j] - x->g[k]),
+               g_along = 0.5 * (x->g[k] + y->g[k] - x->g[j] - y->g[j]);
+        strip->light[j] = light;
+        strip->centre[j] = g + (g_along * along + g_across * (last - first) / light) * (1. / 12);
+        double one = fabs(g_across), other = fabs(g_along);
+        strip->narrow[j] = one < other ? one : other, strip->wide[j] = one < other ? other : one;
+    }
+}
+
+static void add_strip(struct sum *s, const struct ring *x, const struct ring *y, double apart, int n,
+                      struct strip *strip)
+{
+    fill_strip(x, y, apart, n, strip);
+    for (int j = 0; j < n; j++)
+        add_cell(s, strip->light[j], strip->centre[j], strip->narrow[j], strip->wide[j]);
+}
+
+struct work {
+    struct ring rings[2];
+    struct strip strip;
+};
+
+/* How closely an integral looks: rings and angles `coarse` times fewer, and every `skip`th node of the table. */
+struct looks { int coarse, skip; };
+
+/* Adds the rings from p->inner to p->outer, between which the emissivity has no break. */
+static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+                      struct looks looks, struct work *work, struct sum *s)
+{
+    int around = image->angles > 64 || image->cos_i < 0.6 ? KD_DISK_IMAGE_ANGLES : KD_DISK_IMAGE_ANGLES / 2;
+    double rings_of_coarsest = ceil(log(p->outer / p->inner) / (STEP * COARSEST));
+    int n = around / looks.coarse,
+        m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
+    struct ring *rings = work->rings;
+    bool outwards = emissivity(p, lamp, p->outer) * p->outer * p->outer >
+                    emissivity(p, lamp, p->inner) * p->inner * p->inner; /* by ring of equal ln r */
+    double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
+    for (int i = 0; i <= m; i++) {
+        kd_pause_every((uint64_t)i, 4);
+        double part = (double)i / m,
+               r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
+        fill_ring(image, p, lamp, r, looks.skip, n, &rings[i & 1]);
+        if (i)
+            add_strip(s, &rings[!(i & 1)], &rings[i & 1], log(r / before), n, &work->strip);
+        before = r;
+    }
+}
+
+/* Where an emissivity breaks there is a ring: cells that had the break within them would err by where it lies. */
+static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+                      struct looks looks, struct work *work, struct sum *s)
+{
+    struct kd_line_params inside = *p, outside = *p;
+    if (p->emissivity != KD_LINE_BROKEN || p->break_r <= p->inner || p->break_r >= p->outer) {
+        add_rings(image, p, lamp, looks, work, s);
+        return;
+    }
+    inside.outer = outside.inner = p->break_r;
+    add_rings(image, &inside, lamp, looks, work, s);
+    add_rings(image, &outside, lamp, looks, work, s);
+}
+
+/* Edges of the sums: those asked for, and between and beyond them as many more as the error needs. Where two sums are
+ * told apart at a few edges alone they may agree there by chance. */
+struct edges {
+    double *at;
+    int n, bins;       /* n edges asked for; bins of the sums */
+    const double *own; /* those asked for */
+    int first;         /* own[0] is at[first] */
+};
+
+struct range { double low, high; };
+
+/* The energies of the line, roughly: those of a few rings in a few directions. */
+static struct range energies(const struct kd_disk_image *image, const struct kd_line_params *p)
+{
+    enum { RINGS = 8, AROUND = 32 };
+    double alpha[AROUND], beta[AROUND];
+    struct range range = { INFINITY, 0 };
+    for (int i = 0; i <= RINGS; i++) {
+        double r = i == RINGS ? p->outer : p->inner * pow(p->outer / p->inner, (double)i / RINGS);
+        struct kd_disk_ring gas = kd_disk_image_gas(image, r);
+        kd_disk_image_ring(image, r, 1, AROUND, alpha, beta);
+        for (int j = 0; j < AROUND; j++) {
+            double g = kd_disk_image_redshift(image, &gas, alpha[j]);
+            range.low = fmin(range.low, g), range.high = fmax(range.high, g);
+        }
+    }
+    return range;
+}
+
+/* Edges from `from` on and before `to`: the first one, and within the line one every LOOKED-th part of it. */
+static int divide(double from, double to, const struct range *line, double *at)
+{
+    double low = fmax(from, line->low), high = fmin(to, line->high);
+    int n = 0, parts = high > low ? (int)ceil(LOOKED * ((high - low) / (line->high - line->low))) : 0;
+    at[n++] = from;
+    for (int i = low > from ? 0 : 1; i < parts; i++)
+        at[n++] = low + (high - low) * i / parts;
+    return n;
+}
+
+/* at: room for bins + 2 LOOKED + 4 edges. */
+static struct edges edges_of(const struct range *line, const double *own, int bins, double *at)
+{
+    struct edges e = { .at = at, .n = bins + 1, .own = own };
+    int n = line->low < own[0] ? divide(line->low, own[0], line, at) : 0;
+    e.first = n;
+    for (int i = 0; i < bins; i++)
+        n += divide(own[i], own[i + 1], line, at + n);
+    if (line->high > own[bins])
+        n += divide(own[bins], line->high, line, at + n), at[n++] = line->high;
+    else
+        at[n++] = own[bins];
+    e.bins = n - 1;
+    return e;
+}
+
+/* How far two sums differ in the cumulative share from the first edge asked for, at the edge where they do most. */
+static double apart(const struct edges *edges, const struct sum *x, const struct sum *y)
+{
+    double off = 0, most = 0, first = 0;
+    for (int i = 0; i < edges->first; i++)
+        first += x->in[i] / x->total - y->in[i] / y->total;
+    most = fabs(first);
+    for (int i = 0; i < edges->bins; i++) {
+        off += x->in[i] / x->total - y->in[i] / y->total;
+        most = fmax(most, fabs(off - first));
+    }
+    return most;
+}
+
+/* The shares of the bins asked for, of those that the sum has. */
+static void gather(const struct edges *edges, const struct sum *s, double *share)
+{
+    for (int i = 0, at = edges->first; i < edges->n - 1; i++)
+        for (share[i] = 0; at < s->bins && edges->at[at] < edges->own[i + 1]; at++)
+            share[i] += s->in[at] / s->total;
+}
+
+enum { LEVELS = 5 }; /* looks: 16, 8, 4, 2 and 1 times fewer rings and angles */
+
+/* Sums ever closer until the error is as small as it may be: at least three, of which the last one is the answer, in
+ * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
+ * difference three quarters are counted. Near edge on, where they do not yet, all of it is, and of four sums at least.
+ * Two sums may come nearer by chance, wherever they are looked at: so no less is counted than a quarter of what the
+ * halving before shows. The table errs with the sixth power of its step, so that twice the step shows 63 times what is
+ * left: an eighth is counted, and near edge on a quarter. */
+static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
+                       const struct kd_lamppost *lamp, const struct edges *edges, struct work *work,
+                       struct sum sums[LEVELS + 1], int *n)
+{
+    const bool edge_on = image->cos_i < EDGE_ON;
+    integrate(image, p, lamp, (struct looks) { COARSEST, 1 }, work, &sums[0]);
+    integrate(image, p, lamp, (struct looks) { COARSEST / 2, 1 }, work, &sums[1]);
+    integrate(image, p, lamp, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
+    double table = (edge_on ? 0.25 : 0.125) * apart(edges, &sums[1], &sums[LEVELS]),
+           before = apart(edges, &sums[1], &sums[0]), error = INFINITY;
+    for (*n = 1; *n < LEVELS - 1 && (*n < (edge_on ? 3 : 2) || !(error <= p->tolerance));) {
+        ++*n;
+        integrate(image, p, lamp, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);
+        double here = apart(edges, &sums[*n], &sums[*n - 1]);
+        error = (edge_on ? 1 : 0.75) * fmax(here, 0.25 * before) + table;
+        before = here;
+    }
+    return error;
+}
+
+enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params,
+                               const double *edges, int bins, double *share, struct kd_line_profile *profile,
+                               struct kd_error *error)
+{
+    struct kd_lamppost lamp;
+    struct sum sums[LEVELS + 1];
+    if (params->emissivity == KD_LINE_LAMPPOST && !kd_lamppost_init(&lamp, kd_hole(image->spin), params->height,
+                                                                    params->photon_index, params->inner, params->outer))
+        return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk",
+                              params->height);
+    struct work *work = malloc(sizeof *work);
+    const size_t most = (size_t)bins + 2 * LOOKED + 4;
+    double *in = calloc(most * (LEVELS + 2), sizeof *in);
+    enum kd_status status = work && in ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d bins", bins);
+    if (!status) {
+        int n;
+        const struct range line = energies(image, params);
+        const struct edges all = edges_of(&line, edges, bins, in + most * (LEVELS + 1));
+        for (int i = 0; i <= LEVELS; i++)
+            sums[i] = (struct sum) { .edges = all.at, .bins = all.bins, .in = in + (size_t)i * most };
+        double left = approach(image, params, &lamp, &all, work, sums, &n);
+        *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3,
+                                              .error = left };
+        gather(&all, &sums[n], share);
+        if (!(sums[n].total > 0 && isfinite(profile->total)))
+            status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole",
+                                    image->spin);
+    }
+    free(work);
+    free(in);
+    return status;
+}

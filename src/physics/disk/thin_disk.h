@@ -1,0 +1,42 @@
+/* The thin accretion disk has this radial flux, temperature and redshift factor. Double precision, pure, any thread.
+ * G = c = M = 1; spin signed as in physics/spacetime/kerr.h; the gas turns towards +phi. */
+#ifndef KD_PHYSICS_DISK_THIN_DISK_H
+#define KD_PHYSICS_DISK_THIN_DISK_H
+
+#include "physics/spacetime/hole.h"
+
+#include <stdbool.h>
+
+/* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and
+ * proper time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO.
+ * Relative error below 1e-11 + 4e-14/(r - r_isco)^2 for |a| <= 0.9999: towards the ISCO, where F has a double zero, the
+ * closed form cancels. */
+double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r);
+
+/* Shakura & Sunyaev 1973 (Newtonian) with the inner edge at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */
+double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r);
+
+typedef double (*kd_disk_flux_fn)(const struct kd_hole *hole, double r);
+
+/* Radius of the largest flux: the root of its derivative, to 1e-15 up to |a| = 0.9999, and to 1e-12 beyond, and in
+ * closed form. */
+double kd_disk_peak_page_thorne(const struct kd_hole *hole);
+double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole);
+
+/* Redshift factor g = nu_infinity / nu_emitted = 1 / (u^t (1 - Omega lambda)) of gas on a circular orbit at r >= ISCO,
+ * for a photon of lambda = L/E. Cunningham 1975, ApJ 202, 788. */
+double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda);
+
+/* The same for gas that plunges from the ISCO with the energy and angular momentum of the orbit there (Cunningham
+ * 1975), r+ < r <= ISCO. outwards: the photon leaves the gas with p^r > 0, as it does where a ray traced back from
+ * the eye is still on its way in. eta = Q/E^2; E > 0. Zero at the horizon for photons that leave outwards. */
+double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards);
+
+/* In SI units for a mass in solar masses and an accretion rate in units of L_Edd / (efficiency(a) c^2), with
+ * L_Edd = 4 pi G M m_p c / sigma_T: the rate in kg/s; a flux F/Mdot (as above) in W/m^2; and its effective
+ * temperature in K, sigma T^4 = F. Constants: physics/math/constants.h. */
+double kd_disk_rate(const struct kd_hole *hole, double mass_msun, double mdot_edd);
+double kd_disk_flux_si(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);
+double kd_disk_temperature(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);
+
+#endif

@@ -1,0 +1,66 @@
+#include "physics/disk/torus.h"
+
+#include "physics/spacetime/hole.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* ln h but for a constant, equation 3.6 by the lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma
+ * and U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 is U^2 (1 + U^2) g_phiphi/lapse^2. The shader has the same
+ * constant (emit/plasma.glsl). */
+static double enthalpy(const struct kd_hole *hole, double l, double r, double u)
+{
+    const double a = hole->a, sigma = r * r + a * a * u * u, delta = kd_hole_delta(hole, r), s2 = (1 - u) * (1 + u),
+                 big = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2;
+    const double lapse2 = sigma * delta / big, u2 = 0.5 * (sqrt(1 + 4 * l * l * lapse2 * sigma / (big * s2)) - 1);
+    return 0.5 * (log1p(u2) - log(lapse2)) - u2 - 2 * a * r / big * l;
+}
+
+double kd_torus_log_enthalpy(const struct kd_torus *torus, const struct kd_hole *hole, double r, double u)
+{
+    return enthalpy(hole, torus->l, r, u) - torus->edge;
+}
+
+/* u^t u_phi of a circular orbit (Bardeen, Press & Teukolsky 1972). */
+static double orbit(double a, double r)
+{
+    const double x = sqrt(r);
+    return (r * x + a) * (r * r - 2 * a * x + a * a) / (r * x * (r * x - 3 * x + 2 * a));
+}
+
+/* Where ln h vanishes between a place in it and one outside. */
+static double outer_of(const struct kd_torus *torus, const struct kd_hole *hole, double within, double beyond)
+{
+    for (int i = 0; i < 60; i++) {
+        const double r = sqrt(within * beyond);
+        *(kd_torus_log_enthalpy(torus, hole, r, 0) > 0 ? &within : &beyond) = r;
+    }
+    return within;
+}
+
+static double height_at(const struct kd_torus *torus, const struct kd_hole *hole, double r)
+{
+    double within = 0, beyond = 1;
+    for (int i = 0; i < 40; i++) {
+        const double u = 0.5 * (within + beyond);
+        *(kd_torus_log_enthalpy(torus, hole, r, u) > 0 ? &within : &beyond) = u;
+    }
+    return beyond;
+}
+
+#define FAR 1e6
+enum { RADII = 200 };
+
+struct kd_torus kd_torus_of(const struct kd_hole *hole, double inner, double most)
+{
+    const double spin = hole->a;
+    struct kd_torus t = { .l = orbit(spin, most) };
+    t.edge = enthalpy(hole, t.l, inner, 0);
+    t.log_most = kd_torus_log_enthalpy(&t, hole, most, 0);
+    const bool closes = kd_torus_log_enthalpy(&t, hole, FAR, 0) < 0;
+    t.outer = closes ? outer_of(&t, hole, most, FAR) : INFINITY;
+    for (int i = 1; i < RADII; i++)
+        t.height =
+            fmax(t.height, height_at(&t, hole, inner * pow((closes ? t.outer : FAR) / inner, (double)i / RADII)));
+    return t;
+}

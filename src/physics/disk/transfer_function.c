@@ -1,0 +1,98 @@
+#include "physics/disk/transfer_function.h"
+
+#include "physics/math/root.h"
+
+#include <math.h>
+
+/* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy tells alpha, and along a line of one alpha the radius
+ * r(beta) that is seen falls from the near side to its least and grows again on the far side. A ring is seen at
+ * alpha twice if that least is below r, and its ends are where it is r. This holds next to edge on as well, where
+ * the image of the far side stands steeply over that of the near one. */
+
+#define SHORTER 0.61803398874989485 /* of a golden section: (sqrt(5) - 1)/2 */
+#define LEAST_WIDTH 1e-8            /* of the line, at the least radius, whose own error is the square of that */
+#define APART 1e-4 /* of the way between both places, for the slope of r: central differences leave its square */
+
+struct line {
+    const struct kd_disk_image *image;
+    double r, alpha;
+    int side; /* of the ends: 1: alpha > 0, red */
+};
+
+/* The radius at beta beside that of the ring; infinite light is far out. */
+static double off(const void *user, double beta)
+{
+    const struct line *s = user;
+    const double r = kd_disk_image_radius(s->image, s->alpha, beta);
+    return (isfinite(r) ? r : 1e300) - s->r;
+}
+
+/* As far as the line goes upwards and downwards: there r is larger than the ring's. */
+static double reach(const struct line *s) { return 2 * s->r + 20; }
+
+/* The beta of the least radius; any where it is below the ring's, if that is enough. */
+static double least(const struct line *s, bool below_is_enough)
+{
+    double low = -reach(s), high = reach(s), a = high - SHORTER * (high - low), b = low + SHORTER * (high - low),
+           at_a = off(s, a), at_b = off(s, b);
+    while (high - low > LEAST_WIDTH * s->r && !(below_is_enough && fmin(at_a, at_b) < 0)) {
+        if (at_a < at_b) {
+            high = b, b = a, at_b = at_a;
+            at_a = off(s, a = high - SHORTER * (high - low));
+        } else {
+            low = a, a = b, at_a = at_b;
+            at_b = off(s, b = low + SHORTER * (high - low));
+        }
+    }
+    return at_a < at_b ? a : b;
+}
+
+static double least_off(const void *user, double alpha)
+{
+    struct line s = *(const struct line *)user;
+    s.alpha = s.side * alpha;
+    return off(&s, least(&s, false));
+}
+
+bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_transfer_ring *out)
+{
+    const struct kd_disk_ring gas = kd_disk_image_gas(image, r);
+    struct kd_transfer_ring ring = { .r = r };
+    if (image->sin_i < 1e-4)
+        return false;
+    for (int k = 0; k < 2; k++) {
+        struct line s = { image, r, 0, k ? -1 : 1 };
+        s.alpha = s.side * kd_root(least_off, &s, 0, reach(&s));
+        if (isnan(s.alpha))
+            return false;
+        ring.alpha[k] = s.alpha;
+        ring.beta[k] = least(&s, false);
+    }
+    ring.g_min = kd_disk_image_light(image, &gas, ring.alpha[0], 0).g;
+    ring.g_max = kd_disk_image_light(image, &gas, ring.alpha[1], 0).g;
+    *out = ring;
+    return ring.g_max > ring.g_min;
+}
+
+bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star,
+                    struct kd_transfer out[2])
+{
+    const struct kd_disk_ring gas = kd_disk_image_gas(image, ring->r);
+    const double span = ring->g_max - ring->g_min, g = ring->g_min + g_star * span;
+    /* 1/g is linear in alpha. */
+    const double part = (1 / g - 1 / ring->g_min) / (1 / ring->g_max - 1 / ring->g_min);
+    const struct line s = { image, ring->r, ring->alpha[0] + part * (ring->alpha[1] - ring->alpha[0]), 0 };
+    const double middle = least(&s, true),
+                 slope = g * g * gas.ut * fabs(gas.omega) * image->sin_i; /* |dg/d alpha| at one r */
+    const double beta[2] = { kd_root(off, &s, -reach(&s), middle), kd_root(off, &s, middle, reach(&s)) },
+                 apart = APART * (beta[1] - beta[0]);
+    for (int k = 0; k < 2; k++) {
+        const double steep =
+            fabs(off(&s, beta[k] + apart) - off(&s, beta[k] - apart)) / (2 * apart); /* |dr/d beta| at one alpha */
+        out[k] = (struct kd_transfer) { g * sqrt(g_star * (1 - g_star)) * span / (M_PI * ring->r * slope * steep),
+                                        kd_disk_image_light(image, &gas, s.alpha, beta[k]).mu, s.alpha, beta[k] };
+        if (!isfinite(out[k].f) || !(fabs(off(&s, beta[k])) < 1e-6 * ring->r))
+            return false;
+    }
+    return true;
+}

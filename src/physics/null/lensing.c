@@ -1,0 +1,142 @@
+#include "physics/null/lensing.h"
+
+#include "physics/math/root.h"
+#include "physics/null/null_polar.h"
+#include "physics/null/null_radial.h"
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+
+/* Nearer than this a ray's roots come from its displacement; farther, from its constants, whose `pair` is
+ * then good to some 1e-14. */
+#define NEAR 0.03
+
+/* At this distance the ray is as good as the critical one: a crossing differs from that on the curve by less than
+ * rounding. */
+#define ON_CURVE 1e-40
+
+/* The centre is as far inside as d goes. Exactly there beta = 0, where the first crossing may be a start in
+ * the plane. */
+#define CENTRE (1 - 1e-6)
+
+/* One ray's motion up to the crossing. */
+struct ray {
+    struct kd_null_radial radial;
+    double crossing; /* Mino time; NaN: the ray does not cross */
+};
+
+static struct ray ray_at(const struct kd_critical *c, const struct kd_critical_point *p, int n, double d)
+{
+    double u = c->observer.cos_theta, a = c->observer.spin;
+    double dalpha = d * (p->alpha - c->centre), dbeta = d * p->beta;
+    struct kd_null_motion m = kd_null_motion_of(kd_hole(a), u, c->sine, p->alpha + dalpha, p->beta + dbeta);
+    struct kd_null_roots roots;
+    if (fabs(d) < NEAR) {
+        struct kd_null_motion critical = kd_null_motion_of(kd_hole(a), u, c->sine, p->alpha, p->beta);
+        struct kd_null_displacement by =
+            kd_null_displacement_of(&critical, p->orbit.r, kd_shell_bend(&p->orbit), dalpha, dbeta);
+        roots = kd_null_roots_beside(&m, &by);
+    } else {
+        roots = kd_null_roots_of(&m);
+    }
+    struct ray ray = { .crossing = NAN };
+    struct kd_null_polar polar = kd_null_polar_of(&m);
+    if (!polar.crosses || roots.kind == KD_NULL_NO_REAL || roots.mean == 0)
+        return ray;
+    ray.crossing = kd_null_polar_crossing(&polar, n).tau;
+    ray.radial = kd_null_radial_of(&m, &roots, false);
+    return ray;
+}
+
+static double time_to(const struct ray *ray, double source)
+{
+    if (source == ray->radial.r_plus && !ray->radial.turns)
+        return ray->radial.tau_horizon;
+    struct kd_null_radius at = kd_null_radius_of(&ray->radial, source);
+    return kd_null_radial_integrals(&ray->radial, &at, false).tau;
+}
+
+/* The function whose root is sought, in s = ln|d|. */
+struct search {
+    const struct kd_critical *curve;
+    const struct kd_critical_point *point;
+    int n;
+    double source;
+    double side; /* +1 outside, -1 inside     */
+    bool out;    /* crossed on the way out    */
+};
+
+static struct ray ray_of(const struct search *q, double s)
+{
+    return ray_at(q->curve, q->point, q->n, q->side * exp(s));
+}
+
+/* How much later the crossing is than the arrival at the source's radius; on the way in to a turning point,
+ * how much sooner. From < 0 at the curve to > 0. */
+static double late(const void *user, double s)
+{
+    const struct search *q = user;
+    struct ray ray = ray_of(q, s);
+    double there = time_to(&ray, q->source);
+    if (q->side > 0 && !q->out)
+        return there - ray.crossing;
+    return ray.crossing - (q->out ? 2 * ray.radial.turn.tau - there : there);
+}
+
+/* Zero where the ray turns at the source's radius: as d grows it turns farther out. */
+static double beyond(const void *user, double s)
+{
+    const struct search *q = user;
+    struct ray ray = ray_of(q, s);
+    return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
+}
+
+/* Goes in steps of the exponent from where an edge of this order is expected to where f changes sign, at most to
+ * `end`. */
+static double solve(kd_root_fn f, const struct search *q, double expected, double end)
+{
+    double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
+    for (int i = 0; !(f(q, low) < 0); i++, low -= 4)
+        if (i > 150) /* e^-600: there is no sign change */
+            return NAN;
+    while (high < end && !(f(q, high) > 0))
+        high = fmin(high + 2, end);
+    return kd_root(f, q, low, high);
+}
+
+double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_point *p, int n, double source)
+{
+    if (!(n >= 1 && source >= kd_hole(c->observer.spin)->outer))
+        return NAN;
+    struct search q = { .curve = c, .point = p, .n = n, .source = source };
+    struct ray on = ray_at(c, p, n, -ON_CURVE);
+    double expected = -n * kd_shell_exponents(&p->orbit).gamma, far = 80;
+    if (isnan(on.crossing))
+        return NAN;
+    bool inside = source <= p->orbit.r || on.crossing < time_to(&on, source);
+    q.side = inside ? -1 : 1;
+    if (inside)
+        return -exp(solve(late, &q, expected, log(CENTRE)));
+    if (isfinite(source)) {
+        /* Up to this distance a ray meets the source twice: on its way in, sooner the farther out it goes, and on
+         * its way out. */
+        far = solve(beyond, &q, 0, far);
+        struct ray turn = ray_of(&q, far);
+        q.out = !(turn.crossing < turn.radial.turn.tau);
+        far -= 1e-13 * (1 + fabs(far)); /* where the ray still gets there */
+    } else {
+        q.out = true;
+    }
+    return exp(solve(late, &q, expected, far));
+}
+
+double kd_lensing_source(const struct kd_critical *c, const struct kd_critical_point *p, int n, double d)
+{
+    struct ray ray = ray_at(c, p, n, d);
+    if (isnan(ray.crossing))
+        return NAN;
+    double end = ray.radial.turns ? 2 * ray.radial.turn.tau : ray.radial.tau_horizon;
+    if (ray.crossing >= end)
+        return ray.radial.turns ? INFINITY : 0;
+    return kd_null_radius_at(&ray.radial, ray.crossing).r;
+}

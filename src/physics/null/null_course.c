@@ -1,0 +1,325 @@
+#include "physics/null/null_course.h"
+
+#include "physics/null/null_quartic.h"
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ANGLE 0.03 /* between neighbours, and */
+#define SLOPE 0.02 /* of w, whose rate is 1 where the ray is straight */
+#define SUBSTEPS 8 /* of a fourth-order step each: some 1e-12 of a turn */
+#define POLE 0.02  /* of the way to the horizon that a step may take: chi and t have a pole there */
+
+enum { W, DW, NX, NY, NZ, VX, VY, VZ, CHI, T, STATE };
+struct state { double y[STATE]; };
+
+struct course {
+    struct kd_null_motion m;
+    double horizon;        /* 1/r+ */
+    double sense;          /* of lambda, where that is 0 */
+    double psi;            /* azimuth so far, without frame dragging, not reduced to a turn */
+    double last_x, last_y; /* n in the plane when it was last looked at */
+    double way;            /* 1: time is counted as on the way in, -1: as on the way out */
+    double ingoing;        /* sign of the energy in ingoing coordinates; 0: in those of Boyer and Lindquist */
+    double edge;           /* what was taken out of the time, at the start */
+    double first;          /* 1/r from where on there are places */
+    struct state now;
+    double mino;
+    int order;
+    struct kd_null_place *out;
+    size_t most;
+    struct kd_null_course *to;
+};
+
+/* G of the header, by the form that does not cancel. */
+static double gone(const struct course *c, double w, double dw, double d)
+{
+    const struct kd_null_motion *m = &c->m;
+    const double all = 1 + m->a * (m->a - m->lambda) * w * w, along = all + c->ingoing * dw,
+                 against = all - c->ingoing * dw;
+    return fabs(against) >= fabs(along) ? m->k * w * w / against : along / d;
+}
+
+static struct state rates(const struct course *c, const struct state *s)
+{
+    const struct kd_null_motion *m = &c->m;
+    const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->a, a2 = a * a, d = 1 - 2 * w + a2 * w * w;
+    const double pull = m->eta + m->lambda * m->lambda + 2 * a2 * u * u;
+    const double g = c->ingoing != 0 && w != 0 ? gone(c, w, dw, d) : 0;
+    return (struct state) { {
+        [W] = dw,
+        [DW] = w * (m->quadratic + w * (3 * m->k + 2 * m->constant * w)),
+        [NX] = s->y[VX],
+        [NY] = s->y[VY],
+        [NZ] = s->y[VZ],
+        [VX] = -pull * s->y[NX],
+        [VY] = -pull * s->y[NY],
+        [VZ] = (a2 - pull) * u,
+        [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - a * m->lambda * w) / d,
+        [T] = c->ingoing != 0 ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? 2 * g / w : 0)
+                              : w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + 4 +
+                                    ((8 - 2 * a * m->lambda) * w - 4 * a2 * w * w) / d + a2 * u * u,
+    } };
+}
+
+static struct state ahead(const struct state *s, const struct state *rate, double h)
+{
+    struct state o;
+    for (int i = 0; i < STATE; i++)
+        o.y[i] = s->y[i] + h * rate->y[i];
+    return o;
+}
+
+/* Runge and Kutta's step. */
+static struct state step(const struct course *c, const struct state *s, double h)
+{
+    const struct state k1 = rates(c, s), s2 = ahead(s, &k1, 0.5 * h), k2 = rates(c, &s2), s3 = ahead(s, &k2, 0.5 * h),
+                       k3 = rates(c, &s3), s4 = ahead(s, &k3, h), k4 = rates(c, &s4);
+    struct state o;
+    for (int i = 0; i < STATE; i++)
+        o.y[i] = s->y[i] + h / 6 * (k1.y[i] + 2 * (k2.y[i] + k3.y[i]) + k4.y[i]);
+    return o;
+}
+
+/* What is taken out of the time; nothing at infinity, where r_o + 2 ln r_o is not counted. */
+static double edge(const struct course *c, const struct state *s)
+{
+    const double w = s->y[W], dw = s->y[DW];
+    if (!(w > 0))
+        return 0;
+    if (c->ingoing != 0)
+        return -dw / w;
+    return -dw / w - 2 * c->way * log(0.5 * (1 + c->way * dw) / w);
+}
+
+/* How far the first integrals are off, relative to the terms of which they are sums. */
+static double drift(const struct course *c, const struct state *s)
+{
+    const struct kd_null_motion *m = &c->m;
+    const double *y = s->y, w = y[W], w2 = w * w, l2 = m->lambda * m->lambda, u2 = y[NZ] * y[NZ];
+    const double terms[] = { 1, m->quadratic * w2, 2 * m->k * w2 * w, m->constant * w2 * w2 };
+    double radial = -y[DW] * y[DW], size = y[DW] * y[DW];
+    for (int i = 0; i < 4; i++)
+        radial += terms[i], size += fabs(terms[i]);
+    const double speed2 = y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ],
+                 polar = m->eta + l2 + m->a * m->a * u2 - speed2;
+    const double moment = y[NX] * y[VY] - y[NY] * y[VX] - m->lambda, about = sqrt(fabs(m->eta) + l2 + m->a * m->a);
+    double worst = fmax(fabs(radial) / size, fabs(y[NX] * y[NX] + y[NY] * y[NY] + u2 - 1));
+    if (about > 0)
+        worst = fmax(worst, fmax(fabs(polar) / (about * about), fabs(moment) / about));
+    return worst;
+}
+
+/* Count the azimuth on to a state. A ray through the axis turns by pi there: one with alpha = 0 towards -phi, one
+ * from an observer on the axis as those next to it, whose lambda has the sign of -alpha (null_polar.h). */
+static void turn(struct course *c, const struct state *s)
+{
+    const double x = s->y[NX], y = s->y[NY], dot = c->last_x * x + c->last_y * y, cross = c->last_x * y - c->last_y * x;
+    double by = c->m.lambda == 0 ? (dot < 0 ? c->sense * M_PI : 0) : atan2(cross, dot);
+    if (fabs(by) > 0.5 * M_PI && by * c->m.lambda < 0)
+        by += copysign(2 * M_PI, c->m.lambda);
+    c->psi += by;
+    c->last_x = x;
+    c->last_y = y;
+}
+
+/* Past a turning point time is counted the other way. */
+static void take_way(struct course *c, struct state *s)
+{
+    const double way = s->y[DW] < 0 ? -1 : 1, before = edge(c, s);
+    if (c->ingoing != 0 || way == c->way || !(s->y[W] > 0))
+        return;
+    c->way = way;
+    s->y[T] += before - edge(c, s);
+}
+
+static bool put(struct course *c, const struct state *s, int crossing)
+{
+    c->to->drift = fmax(c->to->drift, drift(c, s));
+    c->to->least_r = fmin(c->to->least_r, 1 / s->y[W]);
+    if (c->to->n == c->most)
+        return false;
+    c->out[c->to->n++] = (struct kd_null_place) {
+        .mino = c->mino,
+        .r = 1 / s->y[W],
+        .u = fmax(-1, fmin(1, s->y[NZ])),
+        .phi = 0 - (c->psi + s->y[CHI]),
+        .delay = s->y[T] + edge(c, s) - c->edge,
+        .order = c->order,
+        .crossing = crossing,
+    };
+    return true;
+}
+
+/* The part of a step from `from` at which y[which] is `value`, which it passes on the way: by bisection, and
+ * secants. */
+static double part_of(const struct course *c, const struct state *from, double h, int which, double value)
+{
+    double low = 0, high = h;
+    struct state s = step(c, from, h);
+    double f_low = from->y[which] - value, f_high = s.y[which] - value;
+    for (int i = 0; i < 60 && f_high != 0 && high - low > 1e-17 * h; i++) {
+        double middle = i % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * f_low / (f_low - f_high);
+        middle = fmin(fmax(middle, low), high);
+        s = step(c, from, middle);
+        const double f = s.y[which] - value;
+        if ((f < 0) == (f_low < 0) && f != 0)
+            low = middle, f_low = f;
+        else
+            high = middle, f_high = f;
+    }
+    return high;
+}
+
+static bool set_out(struct course *c, const struct kd_null_ray *ray)
+{
+    const double u = ray->cos_theta, s = ray->sin_theta > 0 ? ray->sin_theta : sqrt((1 - u) * (1 + u)),
+                 w = isinf(ray->radius) ? 0 : 1 / ray->radius;
+    const struct kd_null_motion *m = &c->m;
+    const double all = 1 + w * w * (m->quadratic + w * (2 * m->k + m->constant * w));
+    if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta)) /* and NaN is no ray */
+        return false;
+    c->now = (struct state) { {
+        [W] = w,
+        [DW] = (ray->outward ? -1 : 1) * sqrt(fmax(all, 0)),
+        [NX] = s,
+        [NZ] = u,
+        [VX] = -ray->beta * u,
+        [VY] = 0 - ray->alpha,
+        [VZ] = ray->beta * s,
+    } };
+    c->sense = s > 0 || !(ray->alpha > 0) ? 1 : -1;
+    c->last_x = s > 0 ? s : c->now.y[VX];
+    c->last_y = s > 0 ? 0 : c->now.y[VY];
+    c->psi = s > 0 ? 0 : atan2(c->now.y[VY], c->now.y[VX]);
+    c->way = ray->outward ? -1 : 1;
+    c->edge = edge(c, &c->now);
+    return true;
+}
+
+/* The next step is no longer than this, to the next place. Deep in the hole w changes by itself at the rate sqrt(6 k
+ * w). */
+static double length_of(const struct course *c)
+{
+    const struct kd_null_motion *m = &c->m;
+    const double deep = c->ingoing != 0 ? 6 * m->k * fmax(c->now.y[W], 0) : 0;
+    const double turning = sqrt(fabs(m->eta) + m->lambda * m->lambda + m->a * m->a + deep) + 1e-300;
+    return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
+}
+
+/* Says that a ray in ingoing coordinates comes from no outside: it is bound for the horizon of the past from within. */
+static bool is_dark(const struct course *c)
+{
+    return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
+}
+
+/* Says that chi and t have a pole where the ray would come to the horizon next. */
+static bool has_pole(const struct course *c)
+{
+    return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c));
+}
+
+/* A step of at most h; at a crossing it ends there, which is a place. False: no room is left. */
+static bool go(struct course *c, double h)
+{
+    const double *y = c->now.y, left = fabs(c->horizon - y[W]), speed = fabs(y[DW]);
+    if (has_pole(c) && speed * h > POLE * left)
+        h = POLE * left / speed;
+    struct state next = step(c, &c->now, h);
+    const bool crosses = y[NZ] != 0 && (next.y[NZ] == 0 || (next.y[NZ] < 0) != (y[NZ] < 0));
+    if (crosses) {
+        h = part_of(c, &c->now, h, NZ, 0);
+        next = step(c, &c->now, h);
+    }
+    c->mino += h;
+    take_way(c, &next);
+    c->now = next;
+    turn(c, &next);
+    if (!crosses)
+        return true;
+    /* From here the other side counts, whatever rounding has left of u. */
+    const double side = next.y[VZ];
+    c->now.y[NZ] = copysign(1e-300, side);
+    const bool room = next.y[W] < c->first || put(c, &next, c->order);
+    c->order++;
+    return room;
+}
+
+/* Next to the horizon: on the way into it, or from within on the way to that of the past. */
+static bool is_captured(const struct course *c, double near)
+{
+    const double w = c->now.y[W], dw = c->now.y[DW];
+    if (c->ingoing == 0 || (dw > 0 && w < c->horizon))
+        return w >= 1 / (1 / c->horizon + near);
+    return dw < 0 && is_dark(c) && w <= 1 / fmax(1 / c->horizon - near, 1e-300);
+}
+
+static void run(struct course *c, double near)
+{
+    const double begun = c->now.y[W];
+    struct kd_null_course *to = c->to;
+    bool room = begun > 0 ? put(c, &c->now, -1) : true;
+    for (size_t i = 1; room; i++) {
+        const struct state before = c->now;
+        const double way = c->way, h = length_of(c), begun_at = c->mino;
+        room = go(c, h);
+        to->steps = i;
+        const double w = c->now.y[W], dw = c->now.y[DW];
+        if (!isfinite(w)) { /* of numbers without measure: nothing would end it */
+            to->end = KD_COURSE_NONE;
+            return;
+        }
+        if (w < c->first && dw < 0) { /* far enough: the place is where it was passed */
+            to->end = KD_COURSE_ESCAPED;
+            if (before.y[W] > c->first && room) {
+                c->way = way;
+                const double part = part_of(c, &before, h, W, c->first);
+                c->now = step(c, &before, part);
+                c->mino = begun_at + part;
+                turn(c, &c->now);
+                put(c, &c->now, -1);
+            }
+            return;
+        }
+        if (is_captured(c, near)) {
+            to->end = KD_COURSE_CAPTURED;
+            put(c, &c->now, -1);
+            return;
+        }
+        if (w >= c->first && room && (i % SUBSTEPS == 0 || before.y[W] < c->first))
+            room = put(c, &c->now, -1);
+    }
+    to->end = KD_COURSE_LONG;
+}
+
+static struct kd_null_course follow(const struct kd_null_ray *ray, double ingoing, double far, double near,
+                                    struct kd_null_place *out, size_t most)
+{
+    struct kd_null_course course = { .least_r = INFINITY };
+    const double begun = isinf(ray->radius) ? 0 : 1 / ray->radius;
+    struct course c = {
+        .m = kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta),
+        .horizon = 1 / kd_hole(ray->spin)->outer,
+        .ingoing = ingoing,
+        .first = fmin(1 / far, begun > 0 ? begun : INFINITY),
+        .out = out,
+        .most = most,
+        .to = &course,
+    };
+    if (set_out(&c, ray))
+        run(&c, near);
+    return course;
+}
+
+struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
+                                        struct kd_null_place *out, size_t most)
+{
+    return follow(ray, 0, far, near, out, most);
+}
+
+struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near,
+                                             struct kd_null_place *out, size_t most)
+{
+    return follow(ray, reversed ? -1 : 1, far, near, out, most);
+}

@@ -1,0 +1,65 @@
+/* This is the course of a null geodesic of Kerr as a list of places, for drawing it: by steps in Mino time, in
+ * double. It shares no formula of the motion with the closed form of null_geodesic.h, whose crossings it must meet.
+ * Units G = c = M = 1, E = 1. Pure functions, any thread.
+ *
+ * With w = 1/r and a unit vector n towards the place on the sphere (theta, psi), psi the azimuth without frame
+ * dragging,
+ *
+ *   w'' = A w + 3K w^2 + 2C w^3                    w'^2 = 1 + A w^2 + 2K w^3 + C w^4
+ *   n'' = a^2 n_z e_z - (eta + lambda^2 + 2 a^2 n_z^2) n      n'^2 = eta + lambda^2 + a^2 n_z^2,  (n x n')_z =
+ *     lambda
+ *   chi' = a w (2 - a lambda w)/D,   D = 1 - 2w + a^2 w^2
+ *
+ * (Carter 1968; A, K, C of null_quartic.h): regular on the axis and at infinity. The time t' = 1/w^2 + 2/w + 4 + ((8
+ * - 2a lambda) w - 4a^2 w^2)/D + a^2 n_z^2 (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8) is integrated
+ * without its first two terms, by
+ *   1/w^2 = (-w'/w)' + K w + C w^2,   1/w = -s (ln((1 + s w')/w))' + w^2 (K + C w)/(1 + s w'),   s = 1 on the way
+ *                                     in, -1 on the way out.
+ *
+ * A ray that is followed back out of the horizon has no azimuth and time of Boyer and Lindquist there, but those of
+ * ingoing coordinates, phi + Int a/Delta dr and t + Int 2r/Delta dr. By W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D
+ * k w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
+ *
+ *   chi' = a (G - 1),   t' = 1/w^2 + a^2 n_z^2 + 2 G/w,   G = (W + s w')/D = k w^2/(W - s w'):
+ *
+ * regular at the horizon for light that comes from outside, s W > 0 there. */
+#ifndef KD_PHYSICS_NULL_NULL_COURSE_H
+#define KD_PHYSICS_NULL_NULL_COURSE_H
+
+#include "physics/null/null_geodesic.h"
+
+#include <stddef.h>
+
+/* mino: Mino time since the observer; phi and delay as in null_geodesic.h; order: how many crossings lie between it
+ * and the observer; crossing: of the plane, and which one, or -1. */
+struct kd_null_place {
+    double mino, r, u, phi, delay;
+    int order, crossing;
+};
+
+struct kd_null_course {
+    size_t n, steps; /* places; steps of the integrator, most of them between two places */
+    enum {
+        KD_COURSE_NONE,
+        KD_COURSE_CAPTURED,
+        KD_COURSE_ESCAPED,
+        KD_COURSE_LONG
+    } end;          /* NONE: no such ray; LONG: more places than there is room for */
+    double least_r; /* of all places, the turning point included */
+    double drift;   /* how far the first integrals are off at worst, relative to their terms */
+};
+
+/* Places of the ray as it is traced back, from the observer, or from where it comes within r = far, on to where it
+ * is beyond far and the observer, or within `near` of the horizon, M. Neighbours are 0.03 rad or less apart in
+ * direction, and every crossing is a place. out: room for `most`. */
+struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
+                                        struct kd_null_place *out, size_t most);
+
+/* The same in ingoing azimuth and time, of an observer anywhere outside the inner horizon, and of the labels of a
+ * ray whose energy at infinity is below 0 (`reversed`), whose azimuth and time run the other way as if it were
+ * above. A ray that ends at the horizon from within, coming from no outside, is CAPTURED. far may be INFINITY: then
+ * the last place of one that escapes is there, and has its direction. */
+struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near,
+                                             struct kd_null_place *out, size_t most);
+
+#endif

@@ -1,0 +1,25 @@
+/* Says at which radius a ray meets the equatorial plane of Kerr for the n-th time, wherever outside the inner
+ * horizon it is seen, and whatever energy at infinity it has: also within the horizon, and light of negative energy
+ * in the ergosphere. Double precision; pure functions, any thread. Units G = c = M = 1. No azimuth and no time are
+ * asked for, so nothing of it knows the horizon.
+ *
+ * In Mino time, with w = 1/r and u = cos(theta), for constants E, L, Q, which need no common scale (Carter 1968,
+ * Phys. Rev. 174, 1559),
+ *
+ *   w'' = A w + 3K w^2 + 2C w^3     u'' = A u - 2 a^2 E^2 u^3     A = a^2 E^2 - Q - L^2,  K = Q + (L - aE)^2,  C =
+ *                                   -a^2 Q,
+ *
+ * by Taylor series of order 19, in steps of R/e^2 with R the radius of convergence (A. Jorba & M. Zou 2005, Exp.
+ * Math. 14, 99). */
+#ifndef KD_PHYSICS_NULL_NULL_PLANE_H
+#define KD_PHYSICS_NULL_NULL_PLANE_H
+
+#include "physics/spacetime/tetrad.h"
+
+/* photon: as it arrives. Crossing n = 0, 1, ... counts back from the observer, within the horizon too; a start in
+ * the plane does not count. -INFINITY: the ray traced back comes to the horizon in the past before it; INFINITY: it
+ * is far away before it, or has no end. Light that would have come through no horizon of ours comes from there, too.
+ * Some 10 us. Relative error 1e-13, times what the ray's bending makes of a rounding of its start. */
+double kd_null_plane_radius(const struct kd_vantage *at, const struct kd_covector *photon, int n);
+
+#endif

@@ -1,0 +1,56 @@
+/* This is the polar motion of a null geodesic of Kerr in Mino time, in closed form. Units G = c = M = 1, E = 1. Pure
+ * functions, any thread.
+ *
+ * With u = cos(theta), v = u^2 (Gralla & Lupsasca 2020, arXiv:1910.12881, section III; Kapec & Lupsasca 2019),
+ *
+ *   (du/dtau)^2 = eta + A u^2 - a^2 u^4 = (z - v)(N + a^2 v),   z N = eta
+ *
+ * and u = sqrt(z) cos(x), dx/dtau = sqrt(s (1 - kappa sin^2 x)), s = N + a^2 z, kappa = a^2 z / s. For eta > 0 the
+ * ray crosses the equator at x = pi/2, 3 pi/2, ...; for eta < 0 (vortical) N < 0, kappa > 1, and x swings about 0.
+ *
+ * The azimuth Int lambda dtau / sin^2(theta) has poles at the axis, which rays with small lambda all but touch. With
+ * cc = |lambda|/(N + a^2) and nu = (a cc)^2, differentiation shows that
+ *
+ *   |lambda| / (1 - v) = -d/dtau atan2(sqrt(z - v), cc u sqrt(N + a^2 v)) (for du/dtau < 0: +)
+ *                        + a^2 cc (1 - v/z) / (1 - nu v/z)
+ *
+ * The first term holds the poles and is elementary; the rest is regular however close the axis, and one R_J. */
+#ifndef KD_PHYSICS_NULL_NULL_POLAR_H
+#define KD_PHYSICS_NULL_NULL_POLAR_H
+
+#include "physics/null/null_quartic.h"
+
+#include <stdbool.h>
+
+/* Integrals along the ray: Mino time, azimuth (of a photon with lambda > 0, without frame dragging), Int u^2 dtau. */
+struct kd_null_polar_sum { double tau, phi, u2; };
+
+struct kd_null_polar {
+    double a, u, side,
+        sense; /* |cos theta| of the observer; sign of cos theta; sign of lambda, of -alpha on the axis */
+    double z, n, s, kappa;
+    double cc, nu;
+    bool fixed;                       /* theta does not change: principal null rays, rays in the equatorial plane */
+    bool vortical;                    /* eta < 0 */
+    bool crosses;                     /* the equatorial plane: eta > 0 and not `fixed` */
+    struct kd_null_polar_sum quarter; /* from a turning point to the plane; if vortical, to the other turning point */
+    struct kd_null_polar_sum start;   /* from the turning point at z, next or last, to the observer; < 0 if next    */
+    double first, first_phi;          /* Mino time and azimuth from the observer to the first crossing             */
+};
+
+struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m);
+
+/* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z, each without cancellation. */
+void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, double *weight);
+
+/* Mino time alone, from the observer to the first crossing; INFINITY where there is none. */
+double kd_null_polar_first(const struct kd_null_motion *m);
+
+/* From the observer to crossing n = 0, 1, ...; only where `crosses`. */
+struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n);
+
+/* Where the ray is at Mino time tau: cos(theta), and its azimuth since the observer. */
+struct kd_null_polar_place { double u, phi; };
+struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const struct kd_null_motion *m, double tau);
+
+#endif

@@ -1,0 +1,68 @@
+/* Finds the roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure
+ * functions, any thread.
+ *
+ *   R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) = r^4 + A r^2 + 2 K r + C
+ *
+ * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are
+ * found otherwise than there: r1 and r2 by Newton's method from a side where it is monotone, the other two by
+ * division, so that their meeting, the critical curve, shows in one number (pair) that has the accuracy of the
+ * coefficients. */
+#ifndef KD_PHYSICS_NULL_NULL_QUARTIC_H
+#define KD_PHYSICS_NULL_NULL_QUARTIC_H
+
+#include "physics/spacetime/hole.h"
+
+/* The constants of motion of one ray, in the labels of DESIGN.md: with i the inclination, c = cos i, s = sin i,
+ *
+ *   lambda = -alpha s         eta = (alpha^2 - a^2) c^2 + beta^2
+ *   K = eta + (lambda - a)^2 = (alpha + a s)^2 + beta^2
+ *   A = a^2 - eta - lambda^2 = a^2 (1 + c^2) - alpha^2 - beta^2            C = -a^2 eta
+ *
+ * in the forms on the right, which cancel least. */
+struct kd_null_motion {
+    double a, c, s, alpha, beta;
+    double lambda, eta, quadratic, k, constant; /* A is `quadratic`, C is `constant` */
+};
+
+/* cos_theta in [-1, 1]; sin_theta, or 0 where cos_theta is all that is known. */
+struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_theta, double sin_theta, double alpha,
+                                        double beta);
+
+double kd_null_radial_potential(const struct kd_null_motion *m, double r);
+
+enum kd_null_case {
+    KD_NULL_FOUR_REAL, /* r1 < r2 <= r3 < r4: cases 1 and 2 of Gralla & Lupsasca */
+    KD_NULL_TWO_REAL,  /* r1 < r2 real, r3 and r4 conjugate: case 3              */
+    KD_NULL_NO_REAL,   /* two conjugate pairs, eta < 0 only: case 4              */
+};
+
+/* r1, r2 = r1 itself; r3, r4 = mean -+ sqrt(pair). In case 4 r1, r2 = -mean -+ sqrt(pair_left). */
+struct kd_null_roots {
+    enum kd_null_case kind;
+    double r1, r2, mean, pair, pair_left;
+    double r3, r4;      /* four real roots only                                                    */
+    double r21, p1, p2; /* r2 - r1, (r3 - r1)(r4 - r1), (r3 - r2)(r4 - r2): not in case 4            */
+    double margin;      /* |pair| / mean^2: the relative distance from the critical curve, roughly */
+};
+
+/* Error: as if the coefficients had been changed by a few 1e-16; an exactly double root r3 = r4 is
+ * parted by 1e-11 into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
+struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m);
+
+/* A ray at (dalpha, dbeta) from one for which R has the double root r: how far A, K and C differ from that one's, and
+ * bend = R''(r)/2 there. */
+struct kd_null_displacement {
+    double r, bend;
+    double quadratic, k, constant;
+};
+
+struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
+                                                    double dalpha, double dbeta);
+
+/* The same roots for a ray beside the critical curve, where the coefficients themselves no longer tell `pair`: it is
+ * found from the displacement, with a relative error of a few 1e-16 however small that is. m is the displaced ray's
+ * motion. Meant for displacements of some percent at most; where the iteration does not settle (near a = 1, where
+ * bend is small), the answer is that of kd_null_roots_of. */
+struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);
+
+#endif

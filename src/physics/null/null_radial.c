@@ -1,0 +1,339 @@
+#include "physics/null/null_radial.h"
+
+#include "physics/math/carlson.h"
+#include "physics/math/elliptic.h"
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+
+/* Int (r - r1)/(r - r5) dr/sqrt(R) for a pole r5: (2/3) (d12 d13 d14/d15) R_J(..., u2) + 2 R_C(s^2, q2),
+ * DLMF 19.29.8. */
+struct pole { double u2, s, q2; };
+
+/* The arguments that DLMF 19.29 has for the path from r to the reference. */
+struct span {
+    struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
+    struct pole plus, minus;   /* at the horizons                                                        */
+    double far;                /* U25^2 with the pole at infinity                                        */
+    double log;                /* the elementary part of Int (r - r2) dr/sqrt(R)                         */
+    double ratio;              /* X1 Y1/(X2 Y2 U12)                                                      */
+    double edge;               /* sqrt(R)/(r - r2) between the ends                                      */
+};
+
+enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius)
+{
+    if (roots->kind != KD_NULL_FOUR_REAL || radius >= roots->r4)
+        return KD_NULL_OUTER;
+    if (radius <= roots->r3)
+        return KD_NULL_INNER;
+    /* A start at a turning point may be off it by rounding. */
+    if (radius >= roots->r4 * (1 - 1e-15))
+        return KD_NULL_OUTER;
+    return radius <= roots->r3 * (1 + 1e-15) ? KD_NULL_INNER : KD_NULL_FORBIDDEN;
+}
+
+struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r)
+{
+    const struct kd_null_roots *o = &q->roots;
+    struct kd_null_radius at = { .r = r, .d1 = r - o->r1, .d2 = r - o->r2 };
+    if (o->kind == KD_NULL_FOUR_REAL) {
+        at.d3 = q->inner ? fmax(o->r3 - r, 0) : fmin(o->r3 - r, 0);
+        at.d4 = q->inner ? fmax(o->r4 - r, 0) : fmin(o->r4 - r, 0);
+        at.both = sqrt(fabs(at.d3)) + sqrt(fabs(at.d4));
+        at.pair = sqrt(at.d3 * at.d4);
+        return at;
+    }
+    double x = r - o->mean, y2 = -o->pair;
+    at.pair = sqrt(x * x + y2);
+    at.both = sqrt(2 * (x > 0 ? at.pair + x : y2 / (at.pair - x)));
+    return at;
+}
+
+static struct pole pole_outer(const struct kd_null_roots *o, const struct kd_null_radius *at, double r5)
+{
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), e = r5 - o->r1, d5 = at->r - r5;
+    struct pole p;
+    p.u2 = 2 * at->d1 * (at->r + o->r1) + 2 * y1 * y2 * at->pair + o->p1 * o->r21 / e;
+    p.s = d5 + y2 * at->pair / y1;
+    p.q2 = d5 * p.u2 / at->d1;
+    return p;
+}
+
+static struct span span_outer(const struct kd_null_radial *q, const struct kd_null_radius *at)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
+    struct span s;
+    s.arg.first = y1 * y2 + p;
+    s.arg.sum = (y1 + y2) * at->both;
+    s.arg.root = p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p);
+    s.plus = pole_outer(o, at, q->r_plus);
+    s.minus = pole_outer(o, at, q->r_minus);
+    s.far = 2 * y2 * (y2 * (at->r + o->r2) + y1 * p);
+    s.log = log(4 * at->d2 / s.far);
+    s.ratio = y1 / (y2 * s.arg.first);
+    s.edge = o->r2 - y1 * p / y2;
+    return s;
+}
+
+static struct pole pole_inner(const struct kd_null_roots *o, const struct kd_null_radius *at, double r5)
+{
+    double e = r5 - o->r1, x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, x5 = o->r3 - r5, steep = at->d4 / at->d3;
+    struct pole p;
+    p.u2 = x1 * (x2 * steep - (o->r4 - o->r1) * (r5 - o->r2) / e);
+    p.s = sqrt(at->d2 / at->d1 * steep) * x5;
+    p.q2 = x5 * (at->r - r5) * p.u2 / (x1 * at->d1);
+    return p;
+}
+
+static struct span span_inner(const struct kd_null_radial *q, const struct kd_null_radius *at)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, r42 = o->r4 - o->r2, r43 = 2 * sqrt(o->pair);
+    double steep = at->d4 / at->d3;
+    struct span s;
+    s.arg.first = sqrt(x1 * x2 * steep);
+    s.arg.sum = (sqrt(x1 * at->d2) + sqrt(x2 * at->d1)) * sqrt(r43 / at->d3);
+    s.arg.root = sqrt(x1 * x2 * at->d1 * at->d2) * r43 / at->d3;
+    s.plus = pole_inner(o, at, q->r_plus);
+    s.minus = pole_inner(o, at, q->r_minus);
+    s.far = x2 * (x1 * steep - r42);
+    s.log = 2 * kd_carlson_rc(at->d1 / at->d2 * steep, s.far / (x2 * at->d2));
+    s.ratio = sqrt(x1 * at->d1 / (x2 * at->d2)) / s.arg.first;
+    s.edge = -sqrt(at->d1 / at->d2) * at->pair;
+    return s;
+}
+
+/* Int dr/((r - r5) sqrt(R)) from Int (r - r1)/(r - r5) dr/sqrt(R). */
+static double at_pole(const struct kd_null_roots *o, const struct span *s, const struct pole *p, double r5, double tau)
+{
+    double e = r5 - o->r1;
+    double j = kd_carlson_rj_arg(s->arg, p->u2), c = kd_carlson_rc(p->s * p->s, p->q2);
+    return ((2.0 / 3) * o->r21 * o->p1 / e * j + 2 * c - tau) / e;
+}
+
+/* Int (r^2 + 2r + 4) dr/sqrt(R). The square from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r - r2)))
+ * dr/sqrt(R). */
+static double powers(const struct kd_null_roots *o, const struct span *s, double tau)
+{
+    double first = (2.0 / 3) * o->r21 * o->p2 * kd_carlson_rj_arg(s->arg, s->far) + s->log + o->r2 * tau;
+    double second = (2.0 / 3) * o->p1 * kd_carlson_rd_arg(s->arg) + 2 * s->ratio - tau;
+    return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + 4 * tau;
+}
+
+struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r)
+{
+    double a = m->a, al = a * m->lambda, delta = kd_hole_delta(kd_hole(a), r);
+    return (struct kd_null_radial_sum) { 1, a * (2 * r - al) / delta,
+                                         r * r + 2 * r + 4 + ((8 - 2 * al) * r - 4 * a * a) / delta };
+}
+
+struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
+                                                   bool time)
+{
+    const struct kd_null_roots *o = &q->roots;
+    struct kd_null_radial_sum sum = { 0 };
+    if (isinf(at->r) || (q->inner && at->d3 == 0))
+        return sum;
+    struct span s = q->inner ? span_inner(q, at) : span_outer(q, at);
+    sum.tau = 2 * kd_carlson_rf_arg(s.arg);
+    double a = q->motion.a, al = a * q->motion.lambda, gap = q->r_plus - q->r_minus;
+    double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
+    sum.phi = a * ((2 * q->r_plus - al) * plus - (2 * q->r_minus - al) * minus) / gap;
+    if (time) {
+        double slope = 8 - 2 * al, rest = -4 * a * a;
+        sum.t =
+            powers(o, &s, sum.tau) + ((slope * q->r_plus + rest) * plus - (slope * q->r_minus + rest) * minus) / gap;
+    }
+    return sum;
+}
+
+/* Four real roots: sn^2 = r31 (r - r4)/(r41 (r - r3)), or inside r42 (r3 - r)/(r32 (r4 - r)). */
+static void jacobi_four(struct kd_null_radial *q)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double r31 = o->r3 - o->r1, r32 = o->r3 - o->r2, r41 = o->r4 - o->r1, r42 = o->r4 - o->r2;
+    double r43 = 2 * sqrt(o->pair);
+    q->rate = 0.5 * sqrt(r31 * r42);
+    q->k = r32 * r41 / (r31 * r42);
+    q->k1 = r43 * o->r21 / (r31 * r42);
+    q->s0 = sqrt(r31 / r41);
+    q->c0 = sqrt(r43 / r41);
+    q->d0 = sqrt(r43 / r42);
+}
+
+/* Two real roots: cn = (A (r - r1) - B (r - r2))/(A (r - r1) + B (r - r2)) with A = |r3 - r2|, B = |r3 - r1|:
+ * at infinity (A - B)/(A + B). */
+static void jacobi_two(struct kd_null_radial *q)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double big_a = sqrt(o->p2), big_b = sqrt(o->p1), ab = big_a * big_b;
+    double inner = (o->mean - o->r1) * (o->mean - o->r2) - o->pair; /* the real part of (r3 - r1)(r4 - r2) */
+    double gap = -o->pair * o->r21 * o->r21;                        /* (AB)^2 - inner^2 */
+    q->rate = sqrt(ab);
+    q->k1 = inner > 0 ? gap / (2 * ab * (ab + inner)) : 0.5 * (1 - inner / ab);
+    q->k = inner > 0 ? 0.5 * (1 + inner / ab) : gap / (2 * ab * (ab - inner));
+    /* A^2 - B^2 = (r1 - r2)(2 mean - r1 - r2) = -2 r21 (-r1 - r2) */
+    double sum = big_a + big_b;
+    q->c0 = -4 * o->r21 * o->mean / (sum * sum);
+    q->s0 = 2 * sqrt(ab) / sum;
+    q->d0 = sqrt(q->k1 + q->k * q->c0 * q->c0);
+}
+
+/* Jacobi's functions, and whether the ray turns. */
+static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots,
+                                           bool inner)
+{
+    struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
+    q.r_plus = kd_hole(m->a)->outer;
+    q.r_minus = kd_hole(m->a)->inner;
+    if (roots->kind == KD_NULL_FOUR_REAL)
+        jacobi_four(&q);
+    else
+        jacobi_two(&q);
+    q.turns = roots->kind == KD_NULL_FOUR_REAL && (inner || roots->r4 > q.r_plus);
+    return q;
+}
+
+static struct kd_null_radius at_turn(const struct kd_null_roots *roots)
+{
+    double r41 = roots->r4 - roots->r1, r42 = roots->r4 - roots->r2, r43 = 2 * sqrt(roots->pair);
+    return (struct kd_null_radius) { roots->r4, r41, r42, 0, sqrt(r43), -r43, 0 };
+}
+
+struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner)
+{
+    struct kd_null_radial q = without_times(m, roots, inner);
+    if (q.turns && !inner) {
+        struct kd_null_radius at = at_turn(roots);
+        q.turn = kd_null_radial_integrals(&q, &at, true);
+        return q;
+    }
+    struct kd_null_radius at = kd_null_radius_of(&q, q.r_plus);
+    q.tau_horizon = 2 * kd_carlson_rf_arg(inner ? span_inner(&q, &at).arg : span_outer(&q, &at).arg);
+    return q;
+}
+
+/* The time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone; where it is more than `tau`, which most
+ * often is known without an integral, at least something between them. R_F is never less than at three arguments of
+ * the same mean: a function that is convex in all of them together, and symmetric (DLMF 19.16.1). */
+static double time_from_infinity(const struct kd_null_radius *at, double tau)
+{
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
+    struct kd_carlson_arg arg = { y1 * y2 + p, (y1 + y2) * at->both,
+                                  p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p) };
+    double least = 2 / sqrt((arg.first * arg.first + arg.sum * arg.sum - 2 * arg.root) / 3);
+    return tau < least ? least : 2 * kd_carlson_rf_arg(arg);
+}
+
+static struct kd_null_radius four_outer(const struct kd_null_radial *q, double tau)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double r31 = o->r3 - o->r1, r41 = o->r4 - o->r1, r42 = o->r4 - o->r2, r43 = 2 * sqrt(o->pair);
+    struct kd_jacobi j = kd_jacobi(q->rate * tau, q->k, q->k1);
+    /* u = u0 - v by the addition theorems; den = r31 - r41 sn^2 u = r41 (sn^2 u0 - sn^2 u) = r41 sn v (the
+     * sum that makes sn(u0 + u)). */
+    double cross = q->d0 * q->d0 + q->k * q->s0 * q->s0 * j.cn * j.cn; /* 1 - k s0^2 sn^2 */
+    double s = (q->s0 * j.cn * j.dn - q->c0 * q->d0 * j.sn) / cross;
+    double c = (q->c0 * j.cn + q->s0 * q->d0 * j.sn * j.dn) / cross;
+    double d = (q->d0 * j.dn + q->k * q->s0 * q->c0 * j.sn * j.cn) / cross;
+    double den = r41 * j.sn * (q->s0 * c * d + s * q->c0 * q->d0);
+    struct kd_null_radius at = { 0 };
+    at.d4 = -r43 * r41 * s * s / den;
+    at.d3 = -r43 * r31 / den;
+    at.d2 = r31 * r42 * d * d / den;
+    at.d1 = r31 * r41 * c * c / den;
+    at.r = o->r4 - at.d4;
+    at.pair = sqrt(at.d3 * at.d4);
+    at.both = sqrt(-at.d3) + sqrt(-at.d4);
+    return at;
+}
+
+static struct kd_null_radius four_inner(const struct kd_null_radial *q, double tau)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double r31 = o->r3 - o->r1, r32 = o->r3 - o->r2, r42 = o->r4 - o->r2, r43 = 2 * sqrt(o->pair);
+    struct kd_jacobi j = kd_jacobi(q->rate * tau, q->k, q->k1);
+    double den = r43 + r32 * j.cn * j.cn; /* r42 - r32 sn^2 */
+    struct kd_null_radius at = { 0 };
+    at.d3 = r43 * r32 * j.sn * j.sn / den;
+    at.d4 = r43 * r42 / den;
+    at.d2 = r32 * r42 * j.cn * j.cn / den;
+    at.d1 = r31 * r42 * j.dn * j.dn / den;
+    at.r = o->r3 - at.d3;
+    at.pair = sqrt(at.d3 * at.d4);
+    at.both = sqrt(at.d3) + sqrt(at.d4);
+    return at;
+}
+
+static struct kd_null_radius two_real(const struct kd_null_radial *q, double tau)
+{
+    const struct kd_null_roots *o = &q->roots;
+    double big_a = sqrt(o->p2), big_b = sqrt(o->p1);
+    /* x = x0 - 2h; m = x0 - h: cn x - cn x0 = 2 sn m dn m sn h dn h/(1 - k sn^2 m sn^2 h). */
+    struct kd_jacobi h = kd_jacobi(0.5 * q->rate * tau, q->k, q->k1);
+    double cross = q->d0 * q->d0 + q->k * q->s0 * q->s0 * h.cn * h.cn; /* 1 - k s0^2 sn^2 h */
+    double s = (q->s0 * h.cn * h.dn - q->c0 * q->d0 * h.sn) / cross;
+    double c = (q->c0 * h.cn + q->s0 * q->d0 * h.sn * h.dn) / cross;
+    double d = (q->d0 * h.dn + q->k * q->s0 * q->c0 * h.sn * h.cn) / cross;
+    double twist = s * d * h.sn * h.dn, second = d * d + q->k * s * s * h.cn * h.cn;
+    double cn = (c * h.cn + twist) / second, den = (big_a + big_b) * 2 * twist / second;
+    return kd_null_radius_of(q, o->r2 + big_a * o->r21 * (1 - cn) / den);
+}
+
+struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau)
+{
+    if (q->roots.kind == KD_NULL_TWO_REAL)
+        return two_real(q, tau);
+    if (q->inner)
+        return four_inner(q, tau);
+    return four_outer(q, q->turns && tau > q->turn.tau ? 2 * q->turn.tau - tau : tau);
+}
+
+double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau)
+{
+    struct kd_null_radial q = without_times(m, roots, false);
+    if (q.turns) {
+        struct kd_null_radius at = at_turn(roots);
+        q.turn.tau = time_from_infinity(&at, tau);
+        if (!(tau < 2 * q.turn.tau))
+            return INFINITY;
+    } else {
+        struct kd_null_radius at = kd_null_radius_of(&q, q.r_plus);
+        if (!(tau < time_from_infinity(&at, tau)))
+            return 0;
+    }
+    double r = kd_null_radius_at(&q, tau).r;
+    return r > q.r_plus ? r : 0;
+}
+
+/* DLMF 19.29 with a complex root singled out: the one of the left pair above the real axis. R_C's first
+ * argument has a positive real part because r - r1 does. */
+static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg arg, double r, double r5, double tau)
+{
+    double left = sqrt(-o->pair_left);
+    double complex r1 = -o->mean + I * left, y1 = csqrt(r - r1), y2 = conj(y1), e = r5 - r1;
+    double complex d13_d14 = (o->mean - r1) * (o->mean - r1) - o->pair;
+    double p = sqrt((r - o->mean) * (r - o->mean) - o->pair);
+    double complex u2 = arg.first * arg.first - d13_d14 * (r5 - conj(r1)) / e;
+    double complex s = r - r5 + y2 * p / y1, q2 = (r - r5) * u2 / (r - r1);
+    double complex j = kd_carlson_rj_complex(arg, u2), c = kd_carlson_rc_complex(s, q2);
+    double complex all = (2.0 / 3) * (-2 * I * left) * d13_d14 / e * j + 2 * c;
+    return creal((all - tau) / e);
+}
+
+struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m, const struct kd_null_roots *o,
+                                                 double r)
+{
+    double x = r - o->mean, xl = r + o->mean, right = -o->pair, left = -o->pair_left;
+    double p = sqrt(x * x + right), pl = sqrt(xl * xl + left);
+    double both = 2 * (x > 0 ? p + x : right / (p - x)), both_left = 2 * (pl + xl);
+    struct kd_carlson_arg arg = { p + pl, sqrt(both * both_left), 0 };
+    /* U13 U14 = p (r - r1 + r - r2) + pl (r - r3 + r - r4) */
+    arg.root = 2 * (p * xl + pl * x);
+    double plus = kd_hole(m->a)->outer, minus = kd_hole(m->a)->inner, al = m->a * m->lambda;
+    struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
+    double i_plus = complex_pole(o, arg, r, plus, total.tau), i_minus = complex_pole(o, arg, r, minus, total.tau);
+    total.phi = m->a * ((2 * plus - al) * i_plus - (2 * minus - al) * i_minus) / (plus - minus);
+    return total;
+}

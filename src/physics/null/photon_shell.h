@@ -1,0 +1,57 @@
+/* The spherical photon orbits of Kerr are light that stays at one Boyer-Lindquist radius; this also says what a ray
+ * that all but stays there gains in each half orbit. Double precision; pure functions, any thread. Units G = c = M =
+ * 1, E = 1; |a| < 1.
+ *
+ * Sources: Teo 2003, Gen. Rel. Grav. 35, 1909, and Bardeen 1973 (in Black Holes, eq. 49): lambda and eta of r.
+ * Johnson et al. 2020, arXiv:1907.04329 (the exponent gamma); Gralla & Lupsasca 2020, arXiv:1910.12873, section V
+ * (gamma, delta, tau).
+ *
+ * The usual lambda = a + (r/a)(r - 2 Delta/(r - 1)) has no digits at small a, where all orbits have r = 3, nor near
+ * a = 1, where many have r = 1. Here, with y = r - 1, N = 1 - a^2 and P the orbit over the poles (lambda = 0), for a
+ * >= 0
+ *
+ *   w = (r - r_P)/a      x = (r - 3)/a = x_P + w      y_P^3 - (3 - a^2) y_P - 2N = 0      x_P = -4a/(r_P^2 + a^2)
+ *   lambda = -w (y + y_P + 2N/(y y_P))
+ *   eta = (r^3/y^2)(4 - r x^2) = (r^3/a^2)(3 - y - 4N/y^2)
+ *
+ * without cancellation (the second form of eta for y < 1). A hole with a < 0 is that with |a| seen in a mirror. */
+#ifndef KD_PHYSICS_NULL_PHOTON_SHELL_H
+#define KD_PHYSICS_NULL_PHOTON_SHELL_H
+
+#include "physics/spacetime/hole.h"
+
+struct kd_shell {
+    double a;                    /* as given                                                */
+    double spin, n;              /* |a|, 1 - a^2                                            */
+    double y_polar, x_polar;     /* y_P, x_P                                                */
+    double prograde, retrograde; /* places of the equatorial orbits: see kd_shell_orbit_at */
+};
+
+/* y = r - 1; w as above. r alone tells nothing at a = 0. */
+struct kd_shell_orbit { double a, r, y, w, lambda, eta; };
+
+struct kd_shell kd_shell_of(const struct kd_hole *hole);
+
+/* The orbits of one hole in order, from prograde to retrograde: `place` is w where y >= y_P/2, and below continues with
+ * the logarithm of y, so that those at r = 1 are told apart. Beyond the ends eta < 0: no orbit. */
+struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *shell, double place);
+
+/* a != 0. A radius between those of the equatorial orbits; NaN outside. */
+struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, double r);
+
+/* (1/2) d^2R/dr^2 at the orbit, 4 r (y^3 + N)/y^2: a ray leaves as exp(tau sqrt(bend)) in Mino time tau. */
+double kd_shell_bend(const struct kd_shell_orbit *orbit);
+
+/* From one crossing of the equatorial plane to the next:
+ *   mino   Mino time;
+ *   gamma  how far a ray at a small distance d from the orbit departs: to d e^gamma. Pi at a = 0. Each order of
+ *          images lies closer to the critical curve than the last by e^-gamma in the limit;
+ *   delta  azimuth. At a = 0: pi, with the sign of lambda. It jumps by 2 pi where the orbit passes over the axis:
+ *          at lambda = 0 it is that of lambda -> 0+ (a >= 0; mirrored for a < 0);
+ *   tau    time t.
+ * Complete elliptic integrals in Carlson's form; relative error below 1e-14 but within 1e-6 of |a| = 1, where y = r
+ * - 1 is known to 1e-16 / (1 - |a|)^(1/2) at least. */
+struct kd_shell_exponents { double mino, gamma, delta, tau; };
+struct kd_shell_exponents kd_shell_exponents(const struct kd_shell_orbit *orbit);
+
+#endif

@@ -1,0 +1,162 @@
+#include "physics/orbit/timelike.h"
+
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+
+/* Schmidt's E, L and Q of an orbit with the turning points r1, r2 and z = cos^2(theta_min) = 1 - x^2 (2002,
+ * gr-qc/0202090, B.16 to B.21), regrouped. With L = x l, R(r) = 0 reads, in l instead of L,
+ *
+ *   f E^2 - 2 g a x E l - h l^2 - d = 0        Q = z (a^2 b + l^2)
+ *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) + z Delta)    g = 2r    h = r (r - 2) + a^2 z
+ *
+ * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e
+ * does; here they are divided by r2 - r1, from divided differences, and e = 0 is a case like any other. His sign of
+ * the root becomes that of ax. */
+struct column { double f, g, h, d; };
+
+static struct column values(double a2, double z, double r)
+{
+    double delta = r * (r - 2) + a2;
+    return (struct column) { r * r * r * r + a2 * (r * (r + 2) + z * delta), 2 * r, r * (r - 2) + a2 * z,
+                             (r * r + a2 * z) * delta };
+}
+
+/* (F(r2) - F(r1)) / (r2 - r1) */
+static struct column differences(double a2, double z, double r1, double r2)
+{
+    double one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
+    return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2,
+                             three - 2 * two + a2 * one + a2 * z * (one - 2) };
+}
+
+/* The positive root of the quadratic at r, for E and b = 1 - E^2 known: q = f - d = 2r (r^2 + a^2) and b stand for d
+ * and E^2. */
+static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
+{
+    double half = v->g * ax * energy, rest = 2 * r * (r * r + a2) - v->f * binding;
+    double discriminant = sqrt(half * half + v->h * rest);
+    return half > 0 ? rest / (half + discriminant) : (discriminant - half) / v->h;
+}
+
+/* W(w) = 0 solved for b, with Q = z (a^2 b + l^2) and K = Q + (L - aE)^2. */
+static double binding_at(const struct kd_orbit *o, double x, double l, double w)
+{
+    double a2 = o->a * o->a, z = (1 - x) * (1 + x), l2 = x * l * x * l, q0 = z * l * l, rest = x * l - o->a * o->energy;
+    double fixed = w * (2 + w * (-(l2 + q0) + w * (2 * (q0 + rest * rest) - w * a2 * q0)));
+    return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + a2 * w * w)));
+}
+
+/* E as his formula has it loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b the two equations
+ * leave, l^2 eliminated, rho b = chi - 2 a x sigma E l with chi from q instead of d: E and l are needed in a small
+ * term only. What that loses next to a parabola the outer turning point knows, where W = 0 is all but b = 2w. */
+static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
+{
+    double a2 = o->a * o->a, z = (1 - x) * (1 + x), ax = o->a * x;
+    struct column v = values(a2, z, r2), s = differences(a2, z, r1, r2);
+    double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
+    double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
+    /* Next to a parabola the last two terms are alike to rounding; E l is needed to no more than that below. */
+    double inner = ax * ax * sigma * epsilon * epsilon + rho * epsilon * kappa - eta * kappa * kappa;
+    double root = sqrt(fmax(sigma * inner, 0));
+    double e2 = (kappa * rho + 2 * ax * ax * epsilon * sigma - 2 * ax * root) / (rho * rho + 4 * ax * ax * eta * sigma);
+    double q = 2 * r2 * (r2 * r2 + a2), chi = q * s.h - v.h * 2 * (r1 * r1 + r1 * r2 + r2 * r2 + a2);
+    o->energy = sqrt(e2);
+    *l = root_at(&v, ax, r2, a2, o->energy, 1 - e2);
+    o->binding = (chi - 2 * ax * sigma * o->energy * *l) / rho;
+    for (int i = 0; i < 2; i++) {
+        o->energy = sqrt(1 - o->binding);
+        *l = root_at(&v, ax, r2, a2, o->energy, o->binding);
+        if (i == 0)
+            o->binding = binding_at(o, x, *l, 1 / r1);
+    }
+}
+
+void kd_orbit_factor(const struct kd_orbit *o, double g[3])
+{
+    double sum = o->w_low + o->w_high, product = o->w_low * o->w_high;
+    g[2] = -o->w[4];
+    g[1] = sum * g[2] - o->w[3];
+    g[0] = o->binding / product;
+}
+
+/* The orbit of a shape, without a check whether it exists. */
+static struct kd_orbit of_shape(double a, double p, double e, double x)
+{
+    double l, z = (1 - x) * (1 + x);
+    struct kd_orbit o = {
+        .a = a, .w_low = (1 - e) / p, .w_high = (1 + e) / p, .turns_out = true, .turns_in = true, .circular = e == 0
+    };
+    energy_and_momentum(&o, x, p / (1 - e), p / (1 + e), &l);
+    o.momentum = x * l;
+    o.carter = z * (a * a * o.binding + l * l);
+    kd_orbit_set_constants(&o);
+    return o;
+}
+
+/* Whether W > 0 between the turning points and falls beyond them: r3 < r2. */
+static bool stable(const struct kd_orbit *o)
+{
+    double g[3], w = o->w_high;
+    if (!(o->energy > 0 && o->binding > 0 && o->carter >= 0 && w < 1 / kd_hole(o->a)->outer))
+        return false;
+    kd_orbit_factor(o, g);
+    return g[0] + w * (g[1] + w * g[2]) >= 0;
+}
+
+double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x)
+{
+    const double a = hole->a;
+    if (e == 0 && fabs(x) == 1)
+        return kd_kerr_isco(kd_hole(x > 0 ? a : -a));
+    /* The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb = 11.66. */
+    double low = hole->outer, high = 12;
+    while (high - low > 2e-16 * high) {
+        double p = 0.5 * (low + high);
+        if (p <= low || p >= high)
+            break;
+        struct kd_orbit o = of_shape(a, p, e, x);
+        if (stable(&o))
+            high = p;
+        else
+            low = p;
+    }
+    return high;
+}
+
+static bool exists(const struct kd_orbit *o) { return o->energy > 0 && isfinite(o->energy) && isfinite(o->momentum); }
+
+double kd_orbit_least_circle(const struct kd_hole *hole, double x)
+{
+    double low = hole->outer, high = kd_orbit_separatrix(hole, 0, x);
+    while (high - low > 2e-16 * high) {
+        const double r = 0.5 * (low + high);
+        if (r <= low || r >= high)
+            break;
+        const struct kd_orbit o = of_shape(hole->a, r, 0, x);
+        *(exists(&o) ? &high : &low) = r;
+    }
+    return high;
+}
+
+enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *o,
+                                   struct kd_error *error)
+{
+    const double a = hole->a;
+    enum kd_status status = kd_orbit_check_spin(a, error);
+    if (status)
+        return status;
+    if (!(e >= 0 && e < 1))
+        return kd_error_field(error, "/e", "e is %.16g; it must be 0 up to, not including, 1: a bound orbit", e);
+    if (!(p > hole->outer) || !isfinite(p))
+        return kd_error_field(error, "/p", "p is %.16g; it must be above the horizon at %.9g", p, hole->outer);
+    *o = of_shape(a, p, e, x);
+    double least = p < 12.5 ? kd_orbit_separatrix(hole, e, x) : 0;
+    if (p < least && (e > 0 || !exists(o)))
+        return kd_error_field(error, "/p",
+                              "p is %.16g; with this spin, e and inclination_deg an orbit has its turning points "
+                              "there only above %.9g, the separatrix",
+                              p, least);
+    o->fate = p < least ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND;
+    return KD_OK;
+}

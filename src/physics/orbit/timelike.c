@@ -1,0 +1,292 @@
+#include "physics/orbit/timelike.h"
+
+#include "physics/math/angle.h"
+#include "physics/math/polynomial.h"
+#include "physics/spacetime/kerr.h"
+
+#include <float.h>
+#include <math.h>
+
+#define NEAR_CIRCLE 1e-3 /* of w: the ends of wider motions are roots of W to 1e-12 */
+
+const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
+{
+    static const char *const names[] = { "bound", "plunge", "escape" };
+    return names[fate];
+}
+
+double kd_orbit_radial(const struct kd_orbit *o, double w) { return kd_polynomial_at(o->w, 4, w); }
+
+double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
+{
+    return o->w[1] + w * (2 * o->w[2] + w * (3 * o->w[3] + w * 4 * o->w[4]));
+}
+
+double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
+{
+    return 2 * o->energy * (1 + o->a * o->a * w * w) - 4 * o->a * (o->momentum - o->a * o->energy) * w * w * w;
+}
+
+/* z is the root of the quadratic in u^2 that is reached; 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or
+ * from z n = Q, whichever subtracts nothing. */
+static void set_polar(struct kd_orbit *o)
+{
+    double flat = o->a * o->a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
+    double disc = sqrt(fmax((o->total - flat) * (o->total - flat) + 4 * flat * l2, 0));
+    if (sum > 0 || flat >= 0) {
+        o->n = 0.5 * (sum + disc);
+        o->z = o->n > 0 ? o->carter / o->n : 0;
+    } else {
+        o->z = (disc - sum) / (-2 * flat);
+        o->n = o->carter / o->z;
+    }
+    double less = l2 + flat - o->carter; /* n - Q = (less + disc)/2 */
+    if (less >= 0 && o->n > 0)
+        o->axis_gap = 0.5 * (less + disc) / o->n;
+    else
+        o->axis_gap = l2 > 0 ? l2 / (o->n - flat) : 0;
+}
+
+void kd_orbit_set_constants(struct kd_orbit *o)
+{
+    double a2 = o->a * o->a, rest = o->momentum - o->a * o->energy;
+    o->k = o->carter + rest * rest;
+    o->total = o->momentum * o->momentum + o->carter;
+    o->w[0] = -o->binding;
+    o->w[1] = 2;
+    o->w[2] = -(a2 * o->binding + o->total);
+    o->w[3] = 2 * o->k;
+    o->w[4] = -a2 * o->carter;
+    set_polar(o);
+}
+
+/* The range between roots around w, or the outermost one there is if w is NAN. */
+static bool find_range(struct kd_orbit *o, double w)
+{
+    double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / kd_hole(o->a)->outer;
+    int n = kd_polynomial_roots(o->w, 4, 0, horizon, roots);
+    double low = 0, high = horizon;
+    for (int i = 0; i <= n; i++) {
+        double next = i < n ? roots[i] : horizon;
+        bool touches = i < n && i > 0 && next == low; /* a double root: circular, or the end of a whirl */
+        double middle = 0.5 * (low + next);
+        bool allowed = touches || kd_orbit_radial(o, middle) > 0;
+        bool here = isnan(w) || (w >= low * (1 - 1e-14) && w <= next * (1 + 1e-14));
+        if (allowed && here) {
+            high = next;
+            o->w_low = low, o->w_high = high;
+            o->turns_out = low > 0; /* with E = 1 infinity is a root */
+            o->turns_in = i < n;
+            o->circular = touches;
+            return true;
+        }
+        low = next;
+    }
+    return false;
+}
+
+static void set_fate(struct kd_orbit *o)
+{
+    if (o->circular) { /* unstable where W has a minimum */
+        double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
+        double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
+        o->fate =
+            bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it is zero but for rounding */
+        return;
+    }
+    o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
+}
+
+enum kd_status kd_orbit_check_spin(double a, struct kd_error *error)
+{
+    if (fabs(a) < 1)
+        return KD_OK;
+    return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", a);
+}
+
+/* E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
+static bool to_the_future(const struct kd_orbit *o)
+{
+    double w = o->turns_out ? o->w_low : 0.5 * (o->w_low + o->w_high);
+    return o->energy * (1 + o->a * o->a * w * w) - o->a * o->momentum * w * w > 0;
+}
+
+enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
+                                       double r, struct kd_orbit *o, struct kd_error *error)
+{
+    const double a = hole->a;
+    enum kd_status status = kd_orbit_check_spin(a, error);
+    if (status)
+        return status;
+    if (!(carter >= 0))
+        return kd_error_field(
+            error, "/carter",
+            "carter is %.16g; it must be 0 or more; a motion that never crosses the equator (Q < 0) is "
+            "given by position and velocity",
+            carter);
+    if (!isnan(r) && !(r > hole->outer))
+        return kd_error_field(error, "/r", "r is %.16g; it must be above the horizon at %.9g", r, hole->outer);
+    *o = (struct kd_orbit) {
+        .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
+    };
+    kd_orbit_set_constants(o);
+    if (!find_range(o, 1 / r) && !isnan(r))
+        return kd_error_field(error, "/r", "r is %.16g, where a particle of these constants cannot be", r);
+    if (!(o->w_high > 0) || !to_the_future(o))
+        return kd_error_field(error, "/energy", "energy is %.16g: no particle outside the horizon has these constants",
+                              energy);
+    set_fate(o);
+    return KD_OK;
+}
+
+struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool outward)
+{
+    struct kd_orbit_state s = { .u = 0, .u_rate = sqrt(o->carter) };
+    if (isnan(r))
+        s.w = o->circular || o->turns_in ? o->w_high : o->w_low;
+    else
+        s.w = fmin(fmax(1 / r, o->w_low), o->w_high);
+    /* W rises as a root of the distance: within rounding of a turning point its value says nothing. */
+    if (o->turns_out && s.w <= o->w_low * (1 + 1e-14))
+        s.w = o->w_low;
+    else if (o->turns_in && s.w >= o->w_high * (1 - 1e-14))
+        s.w = o->w_high;
+    else
+        s.w_rate = copysign(sqrt(fmax(kd_orbit_radial(o, s.w), 0)), outward ? -1 : 1);
+    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* unstable: released one step of its number inside */
+        double g[3];
+        kd_orbit_factor(o, g);
+        s.w = nextafter(o->w_high, 1);
+        s.w_rate = (s.w - o->w_high) * sqrt(fmax(-g[0] - s.w * (g[1] + s.w * g[2]), 0));
+    }
+    return s;
+}
+
+double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
+{
+    /* W falls for large w, or is a cubic that rises: there is one minimum at most. */
+    double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
+    int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_hole(o->a)->outer, turns);
+    for (int i = 0; i < n && !o->circular; i++) {
+        double w = turns[i], w3 = w * w * w, rest = fabs(o->momentum) + fabs(o->a * o->energy);
+        bool ahead = s->w <= w ? s->w_rate > 0 || o->turns_out : s->w_rate < 0 || o->turns_in;
+        if (!ahead || o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]) <= 0)
+            continue;
+        double size = fabs(o->w[0]) + 2 * w + fabs(o->w[2]) * w * w + 2 * w3 * (fabs(o->carter) + rest * rest) +
+                      fabs(o->w[4]) * w3 * w;
+        if (r)
+            *r = 1 / w;
+        return size / fabs(kd_orbit_radial(o, w));
+    }
+    return 0;
+}
+
+static enum kd_status check_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
+                                  struct kd_error *error)
+{
+    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_observer_row *row = &kd_observers[frame];
+    char others[KD_OBSERVER_TEXT];
+    enum kd_status status = kd_orbit_check_spin(a, error);
+    double speed = hypot(hypot(v[0], v[1]), v[2]);
+    if (status)
+        return status;
+    if (!(r > kd_hole(a)->outer) || !isfinite(r))
+        return kd_error_field(error, "/position/r", "r is %.16g; it must be above the horizon at %.9g", r,
+                              kd_hole(a)->outer);
+    if (!(theta_deg >= 0 && theta_deg <= 180))
+        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g; it must be 0 to 180", theta_deg);
+    if (!kd_observer_exists(frame, &at))
+        return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
+                              row->why, r, row->edge, row->outside(kd_hole(a), at.u), kd_observer_others(&at, others));
+    if (!(speed < 1))
+        return kd_error_field(error, "/velocity", "the speed is %.16g; it must be below 1, that of light", speed);
+    return KD_OK;
+}
+
+/* The ends of a motion near a stable circle. There the roots of W run into one another and drown in its rounding,
+ * and W at the start may come out below zero; but it is known to be w_rate^2, and W about the start, as a polynomial
+ * of the distance d, loses nothing. */
+static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state *start)
+{
+    const double w = start->w, cubic = o->w[3] + 4 * w * o->w[4];
+    const double c[5] = { start->w_rate * start->w_rate, kd_orbit_radial_slope(o, w),
+                          o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]), cubic, o->w[4] };
+    const double middle = -c[1] / (2 * c[2]), reach = sqrt(middle * middle - c[0] / c[2]);
+    if (!(c[2] < 0) || !(reach < NEAR_CIRCLE * w) || !(fabs(cubic) * reach < -0.1 * c[2]))
+        return false;
+    double ends[2] = { middle - reach, middle + reach };
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 4 && reach > 0; k++) {
+            const double d = ends[i];
+            ends[i] -= kd_polynomial_at(c, 4, d) / (c[1] + d * (2 * c[2] + d * (3 * c[3] + d * 4 * c[4])));
+        }
+    o->w_low = w + fmin(ends[0], 0);
+    o->w_high = w + fmax(ends[1], 0);
+    o->turns_out = o->turns_in = true;
+    o->circular = o->w_low == o->w_high;
+    return true;
+}
+
+/* The range of a start that is at a turning point as far as rounding lets see, and by rounding beyond it. W is known
+ * there to `unknown`, 64 roundings of its largest terms: the range is looked for where W rises above that. Where it
+ * does not before its next extremum, both ends are one: a circle. */
+static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
+{
+    const double w = start->w, slope = kd_orbit_radial_slope(o, w),
+                 bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
+    const double size =
+        fabs(o->w[0]) + w * (fabs(o->w[1]) + w * (fabs(o->w[2]) + w * (fabs(o->w[3]) + w * fabs(o->w[4]))));
+    const double unknown = 64 * DBL_EPSILON * size;
+    if (fabs(kd_orbit_radial(o, w)) > unknown || start->w_rate * start->w_rate > unknown)
+        return false;
+    if (slope * slope < 16 * unknown * fabs(bend)) {
+        o->w_low = o->w_high = w;
+        o->turns_out = o->turns_in = o->circular = true;
+        return true;
+    }
+    if (!find_range(o, w + 4 * unknown / slope))
+        return false;
+    o->w_low = fmin(o->w_low, w);
+    o->w_high = fmax(o->w_high, w);
+    return true;
+}
+
+enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double theta_deg, enum kd_observer frame,
+                                   const double v[3], struct kd_orbit *o, struct kd_orbit_state *start,
+                                   struct kd_error *error)
+{
+    const double a = hole->a;
+    enum kd_status status = check_state(a, r, theta_deg, frame, v, error);
+    if (status)
+        return status;
+    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_observer_motion motion = kd_observer_motion_of(frame);
+    const struct kd_tetrad tetrad = kd_observer_tetrad(&motion, &at);
+    double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    const struct kd_covector p =
+        kd_tetrad_covector(&tetrad, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
+    *o = (struct kd_orbit) { .a = a, .energy = p.energy, .binding = (1 - p.energy) * (1 + p.energy) };
+    o->momentum = p.momentum * at.s;
+    o->carter = p.polar * p.polar + at.u * at.u * (a * a * o->binding + p.momentum * p.momentum);
+    kd_orbit_set_constants(o);
+    *start = (struct kd_orbit_state) {
+        .w = 1 / r,
+        .w_rate = -p.radial / (r * r),
+        .u = at.u,
+        .u_rate = -p.polar * at.s,
+    };
+    if (!find_range_of_circle(o, start) && !find_range(o, start->w) && !find_range_at_turn(o, start))
+        return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision",
+                              r);
+    if (start->w_rate == 0) { /* exactly at the turning point that is there */
+        bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
+        *(outer ? &o->w_low : &o->w_high) = start->w;
+        if (o->circular)
+            o->w_low = o->w_high = start->w;
+    }
+    set_fate(o);
+    if (o->fate == KD_ORBIT_PLUNGE && !o->turns_out && start->w_rate < 0)
+        o->fate = KD_ORBIT_ESCAPE;
+    return KD_OK;
+}

@@ -1,0 +1,53 @@
+/* The hole is a value, made once and passed on: whoever computes in its spacetime takes a pointer to it, const, which
+ * lives as long as the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a| < 1; outside it the
+ * numbers that do not exist are NaN.
+ *
+ * The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the
+ * hole. The horizons are r± = 1 ± root with root = sqrt(1 - a^2 - q^2). */
+#ifndef KD_PHYSICS_SPACETIME_HOLE_H
+#define KD_PHYSICS_SPACETIME_HOLE_H
+
+#include <math.h>
+
+struct kd_hole {
+    double a;     /* spin */
+    double q;     /* charge; 0, as long as no scene has one */
+    double root;  /* half of what lies between the horizons; to an ulp or two also where |a| -> 1 */
+    double outer; /* r+; a few ulp up to |a| = 1 - 1e-15 */
+    double inner; /* r- */
+};
+
+/* An uncharged hole. root by (1 - a)(1 + a): 1 - a*a loses all digits as |a| -> 1. inner by r+ r- = a^2, without
+ * cancellation at small a. */
+static inline struct kd_hole kd_hole_of(double a)
+{
+    double root = sqrt((1 - a) * (1 + a)), outer = 1 + root;
+    return (struct kd_hole) { a, 0, root, outer, a * a / outer };
+}
+
+/* The same as an argument, for who has a number: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the block. */
+#define kd_hole(a) ((const struct kd_hole[]) { kd_hole_of(a) })
+
+/* The hole as it is for what turns towards +phi (sense 1), or for what turns towards -phi, with phi reversed (-1). */
+static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, double sense)
+{
+    struct kd_hole turned = *hole;
+    turned.a = sense * hole->a;
+    return turned;
+}
+#define kd_hole_turned(hole, sense) ((const struct kd_hole[]) { kd_hole_turned_of(hole, sense) })
+
+/* Delta = r^2 - 2r + a^2 + q^2, by its factors: as exact beside the horizon as r - r+ is. */
+static inline double kd_hole_delta(const struct kd_hole *hole, double r)
+{
+    return (r - hole->outer) * (r - hole->inner);
+}
+
+/* The metric in Boyer-Lindquist coordinates (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs 2.1 to 2.5; with
+ * charge Misner, Thorne & Wheeler 1973, eq. 33.2): Sigma = r^2 + a^2 cos^2(theta), Delta, A = (r^2 + a^2)^2 - a^2
+ * Delta sin^2(theta), the angular velocity of frame dragging -g_tphi/g_phiphi, and the square of the lapse,
+ * Sigma Delta/A. */
+struct kd_metric { double sigma, delta, area, omega, lapse2; };
+struct kd_metric kd_metric_at(const struct kd_hole *hole, double r, double cos_theta);
+
+#endif

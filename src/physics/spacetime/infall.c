@@ -1,0 +1,141 @@
+#include "physics/spacetime/infall.h"
+
+#include "physics/math/quadrature.h"
+#include "physics/math/root.h"
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+
+bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vantage *at)
+{
+    return at->spin == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
+}
+
+/* (Sigma r')^2 = c[4] r^4 + ... + c[0], in r; divided by fall_from - r where that is finite, since it vanishes
+ * there. */
+struct fall {
+    double c[5], spin, u, low, span, above; /* above: from the upper end to fall_from */
+    double energy, momentum, swing, carter; /* E; L; L/sin^2; K = Q + (L - a E)^2 */
+    bool from_rest;
+};
+
+static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)
+{
+    double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
+    double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
+    struct fall f = {
+        .c = { -a * a * q, 2 * (q + rest * rest), a * a * bound - l * l - q, 2, bound },
+        .spin = a,
+        .u = at->u,
+        .low = r,
+        .span = at->r - r,
+        .above = m->fall_from - at->r,
+        .from_rest = isfinite(m->fall_from),
+        .energy = e,
+        .momentum = l,
+        .swing = l == 0 ? 0 : ls / at->s,
+        .carter = q + rest * rest,
+    };
+    if (f.from_rest) /* from the lowest power on, of which the first vanish exactly without spin */
+        for (int i = 0; i < 4; i++)
+            f.c[i] = (f.c[i] + (i ? f.c[i - 1] : 0)) / m->fall_from;
+    return f;
+}
+
+/* -Sigma r', y being the distance from the upper end over the span. */
+static double speed(const struct fall *f, double r, double y)
+{
+    double speed2 = 0;
+    for (int i = f->from_rest ? 3 : 4; i >= 0; i--)
+        speed2 = speed2 * r + f->c[i];
+    if (f->from_rest)
+        speed2 *= f->above + f->span * y;
+    return sqrt(speed2);
+}
+
+static double pace(double x, double y, const void *user)
+{
+    const struct fall *f = user;
+    double r = f->low + f->span * x;
+    return f->span * (r * r + f->spin * f->spin * f->u * f->u) / speed(f, r, y);
+}
+
+double kd_infall_proper_time(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)
+{
+    const struct fall f = fall_of(m, at, r);
+    return f.span > 0 ? kd_quadrature(pace, &f) : 0;
+}
+
+/* (P + Sigma r')/Delta with P = E (r^2 + a^2) - a L. By P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular at the
+ * horizon. */
+static double ingoing(const struct fall *f, double r, double speed)
+{
+    double a = f->spin, p = f->energy * (r * r + a * a) - a * f->momentum;
+    return p > 0 ? (r * r + f->carter) / (p + speed) : (p - speed) / (r * r - 2 * r + a * a);
+}
+
+/* Sigma dphi/dtau of ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for that of Boyer
+ * and Lindquist). */
+static double turning(double x, double y, const void *user)
+{
+    const struct fall *f = user;
+    double r = f->low + f->span * x, v = speed(f, r, y);
+    return f->span * (f->swing - f->spin * f->energy + f->spin * ingoing(f, r, v)) / v;
+}
+
+/* Sigma dt/dtau of those coordinates, t + integral of 2r/Delta dr. */
+static double ageing(double x, double y, const void *user)
+{
+    const struct fall *f = user;
+    double a = f->spin, r = f->low + f->span * x, v = speed(f, r, y), s2 = (1 - f->u) * (1 + f->u);
+    return f->span * (a * (f->momentum - a * f->energy * s2) + (r * r + a * a) * ingoing(f, r, v) + v) / v;
+}
+
+/* The integral of 2r/Delta, but for a constant; outside the horizon. */
+static double delay(const struct kd_hole *hole, double r)
+{
+    double outer = hole->outer, inner = hole->inner;
+    return 2 / (outer - inner) * (outer * log(r - outer) - inner * log(r - inner));
+}
+
+struct kd_infall_way kd_infall_way(const struct kd_observer_motion *m, const struct kd_vantage *at, double r)
+{
+    const struct fall f = fall_of(m, at, r);
+    struct kd_infall_way way = { .r = r };
+    if (!(f.span > 0))
+        return way;
+    way.azimuth = kd_quadrature(turning, &f);
+    way.time = kd_quadrature(ageing, &f);
+    const struct kd_hole hole = kd_hole_of(at->spin);
+    way.far_time = r > hole.outer ? way.time + delay(&hole, at->r) - delay(&hole, r) : INFINITY;
+    return way;
+}
+
+double kd_infall_last(const struct kd_hole *hole)
+{
+    double outer = hole->outer, inner = hole->inner;
+    return fmax(0.01, inner + fmin(0.01, 0.1 * (outer - inner)));
+}
+
+struct clock {
+    const struct kd_observer_motion *motion;
+    const struct kd_vantage *at;
+    double proper_time;
+};
+
+static double too_far(const void *user, double r)
+{
+    const struct clock *c = user;
+    return kd_infall_proper_time(c->motion, c->at, r) - c->proper_time;
+}
+
+struct kd_infall_way kd_infall_after(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                                     double proper_time)
+{
+    const struct clock clock = { m, at, proper_time };
+    double last = fmin(kd_infall_last(kd_hole(at->spin)), at->r);
+    bool ends = !(too_far(&clock, last) > 0);
+    struct kd_infall_way way = kd_infall_way(m, at, ends ? last : kd_root(too_far, &clock, last, at->r));
+    way.ended = ends;
+    return way;
+}

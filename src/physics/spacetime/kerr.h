@@ -1,0 +1,41 @@
+/* The Kerr hole has these scalars that depend on spin, and these circular equatorial orbits. Double precision, pure
+ * functions, any thread. Units G = c = M = 1; what the spin's sign means, and the domain: hole.h.
+ *
+ * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983. */
+#ifndef KD_PHYSICS_SPACETIME_KERR_H
+#define KD_PHYSICS_SPACETIME_KERR_H
+
+#include "physics/spacetime/hole.h"
+
+/* Static limit at cos(theta): 1 + sqrt(1 - a^2 cos^2 theta). */
+double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta);
+
+/* Innermost stable circular orbit [BPT eq. 2.21], relative error below 1e-14. */
+double kd_kerr_isco(const struct kd_hole *hole);
+
+/* Circular photon orbit [BPT eq. 2.18] and marginally bound orbit [BPT eq. 2.19]. */
+double kd_kerr_photon_orbit(const struct kd_hole *hole);
+double kd_kerr_marginally_bound(const struct kd_hole *hole);
+
+/* Circular equatorial orbit at r > photon orbit: angular velocity d(phi)/dt [BPT 2.16], specific energy and angular
+ * momentum [BPT 2.12, 2.13], and u^t. */
+double kd_kerr_omega(const struct kd_hole *hole, double r);
+double kd_kerr_energy(const struct kd_hole *hole, double r);
+double kd_kerr_momentum(const struct kd_hole *hole, double r);
+double kd_kerr_ut(const struct kd_hole *hole, double r);
+
+/* Efficiency of a thin disk, 1 - E(ISCO). */
+double kd_kerr_efficiency(const struct kd_hole *hole);
+
+/* Boyer-Lindquist azimuth less that of ingoing Kerr-Schild coordinates, which is the same at infinity: the integral
+ * of a/Delta from r to infinity. r > r+; it diverges at the horizon. */
+double kd_kerr_twist(const struct kd_hole *hole, double r);
+
+/* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
+double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta);
+
+/* Anything at r turns with d(phi)/dt within this of the frame dragging, where light does: sqrt(Delta) Sigma/(B
+ * sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the axis. */
+double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta);
+
+#endif

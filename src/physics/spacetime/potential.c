@@ -1,0 +1,63 @@
+#include "physics/spacetime/potential.h"
+
+#include "physics/spacetime/kerr.h"
+
+#include <math.h>
+
+double kd_potential(const struct kd_hole *hole, double l, double mu2, double r)
+{
+    const double a = hole->a;
+    double delta = kd_hole_delta(hole, r);
+    double big = r * (r * (r * r + a * a) + 2 * a * a);
+    return (2 * a * l * r + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
+}
+
+double kd_potential_critical_impact(const struct kd_hole *hole) { return 6 * cos(acos(-hole->a) / 3) - hole->a; }
+
+static const struct kd_potential_extrema none = { NAN, NAN, NAN, NAN };
+
+/* V(a, L) = V(-a, -L): orbits that turn towards -phi are those of the mirrored hole. */
+struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, double l)
+{
+    struct kd_potential_extrema e = none;
+    if (l == 0)
+        return e;
+    double s = copysign(1, l);
+    e.r_max = kd_kerr_photon_orbit(kd_hole_turned(hole, s));
+    e.v_max = s * l / kd_potential_critical_impact(kd_hole_turned(hole, s));
+    return e;
+}
+
+/* L of the circular orbit falls from infinity at the photon orbit to the ISCO and rises from there: bisection between a
+ * radius where it is above l and one where it is below, to the last bit. */
+static double circle_of_momentum(const struct kd_hole *hole, double l, double above, double below)
+{
+    for (;;) {
+        double r = 0.5 * (above + below);
+        if (r == above || r == below)
+            return r;
+        if (kd_kerr_momentum(hole, r) > l)
+            above = r;
+        else
+            below = r;
+    }
+}
+
+struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, double l)
+{
+    struct kd_potential_extrema e = none;
+    const double s = copysign(1, l);
+    const struct kd_hole turned = kd_hole_turned_of(hole, s);
+    hole = &turned;
+    l *= s;
+    double isco = kd_kerr_isco(hole), least = kd_kerr_momentum(hole, isco);
+    if (!(l >= least))
+        return e;
+    /* Far out L = sqrt(r): beyond (L + 3)^2 + 16 it is above l, for a = -1 too. */
+    e.r_max = circle_of_momentum(hole, l, kd_kerr_photon_orbit(hole), isco);
+    e.r_min = circle_of_momentum(hole, l, (l + 3) * (l + 3) + 16, isco);
+    /* V is taken here and not E of the circular orbit, which is steep towards the photon orbit where V is flat. */
+    e.v_max = kd_potential(hole, l, 1, e.r_max);
+    e.v_min = kd_potential(hole, l, 1, e.r_min);
+    return e;
+}

@@ -1,0 +1,11 @@
+/* The hole of a scene, as a value. */
+#ifndef KD_SCENE_HOLE_H
+#define KD_SCENE_HOLE_H
+
+#include "physics/spacetime/hole.h"
+#include "scene/scene.h"
+
+/* As an argument: it lives until the end of the block. */
+#define kd_scene_hole(scene) kd_hole((scene)->spacetime.spin)
+
+#endif
