@@ -50,7 +50,7 @@ static void metric(void **state)
             for (size_t k = 0; k < COUNT(cosines); k++) {
                 const struct kd_hole hole = kd_hole_of(spins[i]);
                 const double r = hole.outer * (1 + gaps[j]), u = cosines[k];
-                const struct kd_metric m = kd_metric_at(&hole, r, u);
+                const struct kd_metric_scalars m = kd_metric_at(&hole, r, u);
                 const long double a = hole.a, x = r - 1.0L, root2 = (1 - a) * (1 + a), root = sqrtl(root2),
                                   delta = (x - root) * (x + root), sigma = (long double)r * r + a * a * u * u,
                                   w = (long double)r * r + a * a,

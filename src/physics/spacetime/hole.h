@@ -47,7 +47,7 @@ static inline double kd_hole_delta(const struct kd_hole *hole, double r)
  * charge Misner, Thorne & Wheeler 1973, eq. 33.2): Sigma = r^2 + a^2 cos^2(theta), Delta, A = (r^2 + a^2)^2 - a^2
  * Delta sin^2(theta), the angular velocity of frame dragging -g_tphi/g_phiphi, and the square of the lapse,
  * Sigma Delta/A. */
-struct kd_metric { double sigma, delta, area, omega, lapse2; };
-struct kd_metric kd_metric_at(const struct kd_hole *hole, double r, double cos_theta);
+struct kd_metric_scalars { double sigma, delta, area, omega, lapse2; };
+struct kd_metric_scalars kd_metric_at(const struct kd_hole *hole, double r, double cos_theta);
 
 #endif
