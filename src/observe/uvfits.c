@@ -173,6 +173,11 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
     enum kd_status status;
     KD_TRY(read_whole(f, hdu, "NAXIS1", 1, 1 << 16, &row));
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
+    if (row * rows > f->size - hdu->begin) /* NAXIS and BITPIX, which say how long the table is, may be anything */
+        return kd_error_set(f->error, KD_EINVAL,
+                            "the table AIPS AN has %zu rows of %zu bytes; the uvfits must have as many, and ends %zu "
+                            "bytes behind its header",
+                            rows, row, f->size - hdu->begin);
     KD_TRY(find_column(f, hdu, "ANNAME", row, &name));
     KD_TRY(find_column(f, hdu, "NOSTA", row, &number));
     KD_TRY(find_column(f, hdu, "SEFD", row, &sefd));
@@ -206,7 +211,8 @@ static enum kd_status find_stations(const struct file *f, size_t at, struct hdu 
         double size = 1, x;
         KD_TRY(read_header(f, at, hdu));
         read_text(hdu, "EXTNAME", kind, sizeof kind);
-        for (int axis = 1; axis <= (int)number_or(hdu, "NAXIS", 0) && axis <= 999; axis++) {
+        const double axes = number_or(hdu, "NAXIS", 0);
+        for (int axis = 1; axis <= axes && axis <= 999; axis++) {
             char key[KEY];
             numbered(key, "NAXIS", axis);
             size *= read_number(hdu, key, &x) && x >= 0 ? x : NAN;

@@ -256,6 +256,30 @@ static void test_uvfits_that_is_refused(void **state)
     free(data);
 }
 
+/* The length of a table follows from NAXIS and BITPIX too, which may deny that it has the rows that NAXIS2 tells. */
+static void test_a_table_that_is_shorter_than_its_rows(void **state)
+{
+    (void)state;
+    static const char *const cards[] = { "NAXIS   =                    1", "BITPIX  =                    0" },
+                             *const keys[] = { "NAXIS   =", "BITPIX  =" };
+    size_t size;
+    uint8_t *data = read_file("m87-2017-04-05-lo.uvfits", &size);
+    for (size_t i = 0; i < sizeof cards / sizeof *cards; i++) {
+        const size_t name = (size_t)(card(data, size, "EXTNAME = 'AIPS AN") - data);
+        size_t table = name / BLOCK * BLOCK;
+        while (strncmp((const char *)data + table, "XTENSION", 8))
+            table -= BLOCK;
+        const size_t end = (size_t)(card(data + name, size - name, "END     ") - data) / BLOCK * BLOCK + 2 * BLOCK;
+        uint8_t *copy = malloc(end);
+        memcpy(copy, data, end);
+        memcpy(card(copy + table, end - table, "NAXIS2  ="), "NAXIS2  =                   64", 30);
+        memcpy(card(copy + table, end - table, keys[i]), cards[i], 30);
+        refused(copy, end, "the table AIPS AN has 64 rows of");
+        free(copy);
+    }
+    free(data);
+}
+
 /* Cut anywhere it is an error, or what the end was not needed for; nothing lies outside (under the sanitizers). */
 static void test_files_that_are_cut(void **state)
 {
@@ -309,7 +333,7 @@ int main(void)
         cmocka_unit_test(test_chi2_is_that_of_ehtim),  cmocka_unit_test(test_both_files_say_the_same),
         cmocka_unit_test(test_the_flux_that_fits),     cmocka_unit_test(test_csv_that_is_refused),
         cmocka_unit_test(test_uvfits_that_is_refused), cmocka_unit_test(test_files_that_are_cut),
-        cmocka_unit_test(test_files_that_are_damaged),
+        cmocka_unit_test(test_files_that_are_damaged), cmocka_unit_test(test_a_table_that_is_shorter_than_its_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
