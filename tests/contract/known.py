@@ -30,7 +30,7 @@ RULES = [
     for operation, sentences in TOGETHER
 ]
 BEFORE = re.compile("(?:" + "|".join(words(one) for one in AMONG) + ")", re.DOTALL)
-RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)", ')  # as it is quoted: a long one is cut
+RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)"; ')  # as it is quoted: a long one is cut
 
 
 def together(label, sentence):

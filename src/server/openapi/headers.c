@@ -212,15 +212,18 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
 {
     const char *names = names_of(route, method, status);
     const bool made = status == 201 || status == 202, part = status == 206;
-    /* Of results of jobs, streams and tables have none, nor has a frame that is being drawn. */
-    const bool kept =
-        status == 304 || part || (status == 200 && route->status[1] == 304 && strncmp(route->path, "/v1/jobs/", 9));
+    const bool whole = status == 200 && route->status[1] == 304,
+               kept = status == 304 || part || (whole && strncmp(route->path, "/v1/jobs/", 9));
     kd_json_object(json, "headers");
     refer_all(json, EVERY);
     if (made)
         refer_all(json, "Location");
     if (kept)
         refer_all(json, "ETag");
+    else if (whole)
+        kd_schema_text(json, "ETag",
+                       "{\"description\":\"for If-None-Match; streams, tables and frames that are being drawn have "
+                       "none\",\"schema\":" TEXT "}");
     if (part)
         refer_all(json, "Content-Range Content-Disposition");
     if (part || (status == 200 && sends_parts(route, method)))
