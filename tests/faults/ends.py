@@ -38,7 +38,9 @@ class Descriptors(state.Case):
         job = self.make({"scenes": [{**SCENE, "time": 50}] * 20}, server=server)
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
         limits = resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE)
-        resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (server.open_files() - 1, limits[1]))
+        # The least of some moments: at others a frame of the job is being written, whose descriptor is soon free.
+        least = min(server.open_files() for _ in range(50) if not time.sleep(0.01))
+        resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (least - 1, limits[1]))
         outcomes = []
         try:
             time.sleep(0.5)
@@ -65,8 +67,8 @@ class Descriptors(state.Case):
                     except OSError:
                         answer = None
                 if answer:
-                    self.assertEqual(answer.status, 503)
-                outcomes.append("503: a new connection" if answer else "closed: a new connection")
+                    self.assertIn(answer.status, (200, 503), "200: the job has just closed a file")
+                outcomes.append(f"{answer.status}: a new connection" if answer else "closed: a new connection")
             self.assertGreaterEqual(outcomes.count("503: a new connection"), 15, "new ones are told")
         finally:
             resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, limits)
