@@ -75,7 +75,6 @@ const refusals = [
     'frame {}: it would take about {}, more than the {} a frame may take',
     'fotogramma {}: ci vorrebbero circa {}, più dei {} ammessi per un fotogramma',
   ],
-  ['{} is {}; it must be {…} or {}', '{} è {}; deve essere {…} o {}'],
   [
     '{} is {}; it must be at least {}, the ISCO of {} {}, or {}',
     '{} è {}; deve essere almeno {}, l’ISCO per {} {}, o {}',
@@ -230,6 +229,7 @@ const refusals = [
     'Non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.',
   ],
   ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
+  ['{} is {}; it must be {…} or {}', '{} è {}; deve essere {…} o {}'],
 ].map(shape);
 
 function shape([english, italian]) {

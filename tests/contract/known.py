@@ -68,6 +68,8 @@ def refused(label, problem):
         problem.get("type") == "urn:kerrd:problem:too-large"
     ):  # more than this server, on this device, does for one request
         return "more than this server does"
+    if problem.get("type") == "urn:kerrd:problem:invalid-asset":  # a CSV is a text, and a schema says no more of it
+        return "the bytes of an asset"
     if problem.get("type") == "urn:kerrd:problem:idempotency-key-reused":
         return "a key that came before with another request"
     if of_an_axis(label, problem):
@@ -114,6 +116,8 @@ def why(failure, case, response):
     label, status, kind = case.operation.label, response.status_code, type(failure).__name__
     if kind == "RejectedPositiveData":
         return refused(label, response.json())
+    if kind == "ServerError" and status in (501, 503, 507):  # no ffmpeg; a server, or its disk, that is full
+        return "what this server lacks"
     # docs/scene.md has this form for what lies over a preset, and for a patch; the schema is that of a whole scene, as
     # answers have it, too.
     if (

@@ -122,7 +122,7 @@ class Lensing(Browser):
 
     def test_what_is_seen_is_said(self):
         page = self.open("lang=it&preset=hot-spot&pause=1")
-        self.assertEqual(page.title(), "Lente: spin 0,5, inclinazione 155° – kerrd")
+        self.assertEqual(page.title(), "Guarda: spin 0,5, inclinazione 155° – kerrd")
         self.assertEqual(
             page.get_attribute("#picture", "alt"),
             "Un buco nero, spin 0,5, inclinazione 155°, visto dall’infinito, largo 50 M. Un disco sottile dall’ISCO a 16 M. "

@@ -197,7 +197,7 @@ class Playground(Browser):
         page.fill("#play-v-y", "0.1")
         page.press("#play-v-y", "Tab")
         page.click("#play-throw")
-        page.wait_for_selector("#play-fault >> text=/ammesso è più di/")
+        page.wait_for_selector("#play-fault >> text=/deve essere più di/")
 
     def test_switches_speed_and_charts(self):
         page = self.open_play("lang=en&play.preset=system&play.rate=400")
@@ -332,7 +332,7 @@ class Playground(Browser):
         self.open_groups(page)
         page.wait_for_selector("#play-approximations li")
         self.assertEqual(page.locator("#playground [lang=en]").all_inner_texts(), [])
-        self.assertEqual(page.title(), "Laboratorio: Binaria – kerrd")
+        self.assertEqual(page.title(), "Lancia: Binaria – kerrd")
         known = self.daemon.request("GET", "/v1/playground").json()
         texts = [row["help"] for row in known["settings"] + known["body"] if row.get("help")] + [
             preset["title"] for preset in known["presets"]

@@ -151,13 +151,20 @@ static bool wrong_type(const struct kd_request *request, char text[200])
                   { "SIMPLE  =", KD_ASSET_UVFITS_TYPE, "a FITS file" },
                   { "#SRC:", KD_ASSET_CSV_TYPE, "the EHT's CSV" } };
     const struct kd_buffer *body = &request->body;
-    const char *said = NULL, *is = NULL;
+    const char *said = NULL, *is = NULL, *begin = NULL;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         const bool same = kd_media_type_is(request->header.content_type, kinds[i].type);
         said = same ? kinds[i].type : said;
+        begin = same ? kinds[i].begin : begin;
         if (!same && body->size >= strlen(kinds[i].begin) &&
             !memcmp(body->data, kinds[i].begin, strlen(kinds[i].begin)))
             is = kinds[i].name;
+    }
+    const bool observed = said && (!strcmp(said, KD_ASSET_UVFITS_TYPE) || !strcmp(said, KD_ASSET_CSV_TYPE)),
+               begins = begin && body->size >= strlen(begin) && !memcmp(body->data, begin, strlen(begin));
+    if (!is && observed && !begins) {
+        snprintf(text, 200, "the asset is said to be %s by its Content-Type; it must begin with \"%s\"", said, begin);
+        return true;
     }
     if (said && is)
         snprintf(text, 200, "the asset is said to be %s by its Content-Type, and its bytes are those of %s", said, is);
