@@ -62,7 +62,7 @@ static const struct argp_option options[] = {
     { 0 },
 };
 
-/* Makes the text of --help, with the list of commands aligned for names of common length. */
+/* Makes the text of --help with the list of commands; names longer than the column are not aligned. */
 static const char *help_text(void)
 {
     static char text[4000];

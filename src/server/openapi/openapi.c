@@ -112,8 +112,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     kd_json_end(json);
 }
 
-#define WHOLE \
-    "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* of kd_target_number */
+#define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* of kd_target_number */
 #define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
 #define PACE_MS \
     "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
