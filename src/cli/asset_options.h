@@ -10,7 +10,7 @@ struct kd_named_asset {
     struct kd_asset_found found; /* of the file as read; its hash is "" before that */
     bool used;                   /* a field of the scene uses it */
 };
-struct kd_asset_options { /* initialize to 0 */
+struct kd_asset_options { /* initialise to 0 */
     struct kd_named_asset *list;
     size_t n;
     bool later; /* documents besides the scene may use assets; kd_asset_options_check is then called after them */

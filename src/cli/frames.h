@@ -15,7 +15,7 @@ struct kd_frames {
 };
 #define KD_FRAMES_NONE { .store = -1, .folder = -1, .lock = -1 }
 
-/* Opens temporary storage. Initialize with KD_FRAMES_NONE and set n, noun and format before. KD_EIO, KD_ENOMEM; finish
+/* Opens temporary storage. Initialise with KD_FRAMES_NONE and set n, noun and format before. KD_EIO, KD_ENOMEM; finish
  * it in any case. */
 enum kd_status kd_frames_open(struct kd_frames *frames, struct kd_error *error);
 /* The same in a folder, which is created if needed. It is locked for this process, or for all processes that share it

@@ -25,7 +25,7 @@ struct kd_scene_options {
 
 #define KD_SCENE_ARGS_DOC "[SCENE.json|-]"
 
-/* An argp child; its input is a struct kd_scene_options initialized to 0. Takes the positional argument. */
+/* An argp child; its input is a struct kd_scene_options initialised to 0. Takes the positional argument. */
 extern const struct argp kd_scene_options_argp;
 /* These options and the two of cli.h, the scene's first. */
 extern const struct argp_child kd_scene_device_children[];

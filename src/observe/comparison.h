@@ -51,7 +51,7 @@ enum kd_status kd_comparison_make(const struct kd_observation *observation, cons
                                   struct kd_comparison *out, struct kd_error *error);
 void kd_comparison_finish(struct kd_comparison *comparison);
 
-/* Factor by which the model minimizes the chi^2 of amplitudes: the sum of d m / sigma^2 divided by that of m^2 /
+/* Factor by which the model minimises the chi^2 of amplitudes: the sum of d m / sigma^2 divided by that of m^2 /
  * sigma^2. NaN if there are no amplitudes or the model has no light. */
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
 /* Fills the rows' models and computes chi^2 over the number of data; NaN for a product without data. */

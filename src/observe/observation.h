@@ -42,7 +42,7 @@ struct kd_observation {
 
 enum kd_observation_kind { KD_OBSERVATION_NONE, KD_OBSERVATION_CSV, KD_OBSERVATION_UVFITS };
 
-/* Recognizes a file by its first bytes. */
+/* Recognises a file by its first bytes. */
 enum kd_observation_kind kd_observation_kind_of(const void *data, size_t size);
 /* Reads a file. Finish *out only after success. */
 enum kd_status kd_observation_read(const void *data, size_t size, struct kd_observation *out, struct kd_error *error);

@@ -126,7 +126,7 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
                                                .pNext = debug_utils ? &messenger : NULL,
                                                .enabledValidationFeatureCount = 1,
                                                .pEnabledValidationFeatures = &enable };
-    /* Newer layers (such as Debian 13's 1.4) exclude shader accesses from synchronization validation by default. All
+    /* Newer layers (such as Debian 13's 1.4) exclude shader accesses from synchronisation validation by default. All
      * our hazards involve a shader. */
     const VkBool32 yes = VK_TRUE;
     const VkLayerSettingEXT heuristic = { VALIDATION_LAYER, "syncval_shader_accesses_heuristic",

@@ -42,7 +42,7 @@ struct kd_vk_info {
 struct kd_vk_params {
     const char *device;    /* "auto", an index, or part of a name (case-insensitive) */
     const char *cache_dir; /* pipeline cache directory, NULL: $XDG_CACHE_HOME/kerrd, "": none */
-    bool validate;         /* enables the Khronos layer with synchronization validation; also KERRD_VALIDATE=1 */
+    bool validate;         /* enables the Khronos layer with synchronisation validation; also KERRD_VALIDATE=1 */
     /* dispatches have no workgroups and copies to the host are zeros: nothing is computed, but a driver that compiles
      * kernels at their first dispatch does so */
     bool compiles_only;
@@ -107,7 +107,7 @@ enum kd_vk_kind {
 #define KD_VK_MAX_STORAGE 8 /* storage bindings among these; a usable device has as many */
 
 /* Pipelines: one buffer for each binding 0..n_buffers-1 in set 0, storage unless `kinds` says otherwise; push
- * constants; specialization constants of 4 bytes. */
+ * constants; specialisation constants of 4 bytes. */
 struct kd_vk_spec {
     uint32_t id;
     uint32_t value;

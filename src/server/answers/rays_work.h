@@ -11,7 +11,7 @@
 
 struct kd_rays_job {
     struct kd_task task;            /* first member */
-    struct kd_rays_request request; /* initialized; a JSON body is merged into it */
+    struct kd_rays_request request; /* initialised; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
     /* results, in addition to the task's */
     bool malformed; /* KD_EINVAL because the body is not JSON */

@@ -40,7 +40,7 @@ const struct kd_visitor *kd_access_find(const struct kd_access *access, const ch
 
 /* The token in the page's address, ?access=TOKEN. NULL if there is none, or if the server has no token file. */
 const char *kd_access_query(const struct kd_request *request);
-/* Authorizes a request whose target has been parsed. request->route is its route, or NULL if no route has its path.
+/* Authorises a request whose target has been parsed. request->route is its route, or NULL if no route has its path.
  * Sets request->visitor and ->spent. Returns false with *problem filled (401, 403, 429). HTTP threads. */
 bool kd_access_check(struct kd_request *request, struct kd_problem *problem);
 

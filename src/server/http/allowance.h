@@ -10,7 +10,7 @@
     256u /* buckets that are not full; when all places are taken, the fullest bucket is dropped */
 
 struct kd_allowance {
-    /* seconds of device time that a client may use in a minute; 0: no limit. Initialize all other members to 0 */
+    /* seconds of device time that a client may use in a minute; 0: no limit. Initialise all other members to 0 */
     unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];

@@ -26,5 +26,5 @@ void kd_prompt_thread(void)
     struct attributes a = {
         .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS
     };
-    syscall(SYS_sched_setattr, 0, &a, 0); /* an optimization: failure is ignored */
+    syscall(SYS_sched_setattr, 0, &a, 0); /* an optimisation: failure is ignored */
 }

@@ -59,7 +59,7 @@ struct kd_share_client {
     unsigned claims;
     struct kd_share_flow flows[KD_N_CLASSES];
 };
-struct kd_shares { /* initialize to 0 */
+struct kd_shares { /* initialise to 0 */
     double now;
     struct kd_share_client clients[KD_SHARE_CLIENTS];
 };

@@ -11,7 +11,7 @@
 #define KD_MEASURED_ONE(name) +1
 enum { KD_MEASURED_PASSES = KD_PASS_COUNT KD_MEASURED_ALSO(KD_MEASURED_ONE) };
 
-struct kd_render_measures { /* initialize to 0 */
+struct kd_render_measures { /* initialise to 0 */
     struct kd_histogram passes[KD_MEASURED_PASSES], waits[KD_N_CLASSES];
 };
 

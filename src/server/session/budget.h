@@ -30,7 +30,7 @@
 
 enum { KD_BUDGET_FRAMES = 8 };
 
-/* One session's part of the budget, embedded in the session. Set client; initialize the rest to 0. */
+/* One session's part of the budget, embedded in the session. Set client; initialise the rest to 0. */
 struct kd_budget_entry {
     char client[KD_CLIENT]; /* the same as in the claims of its frames */
     /* private to the budget */
@@ -42,7 +42,7 @@ struct kd_budget_entry {
     double demand, of_client;
     struct kd_budget_entry *next;
 };
-struct kd_budget { /* initialize to 0 */
+struct kd_budget { /* initialise to 0 */
     struct kd_budget_entry *first;
 };
 
