@@ -65,7 +65,8 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
     return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
 }
 
-/* Prints a line for each row: speed and median errors over the bulk set, and the worst errors of all sets. */
+/* Prints a line for each row: speed and median errors over the bulk set, and the tolerance that the row is good enough
+ * for. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
     enum kd_status status;

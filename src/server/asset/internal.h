@@ -41,8 +41,8 @@ struct kd_asset *kd_asset_make(struct kd_asset_store *store, const struct kd_ass
 
 /* Called with the lock. */
 void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset);
-void kd_asset_take_out(struct kd_asset_store *store,
-                       struct kd_asset *asset); /* removes it from the list and drops the store's reference */
+/* Removes it from the list and drops the store's reference. */
+void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset);
 void kd_asset_let_go(struct kd_asset *asset);
 struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash); /* in any state */
 

@@ -29,8 +29,8 @@ struct kd_visitor {
 };
 
 /* Reads a token file: NAME ROLE TOKEN on each line; # begins a comment. Returns KD_EINVAL if the file cannot be read,
- * if others than its owner may read or write it, or if a line is malformed. The message names the line and never the
- * token. */
+ * if its group may write it, if others may read or write it, or if a line is malformed. The message names the line and
+ * never the token. */
 enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error);
 void kd_access_free(struct kd_access *access); /* accepts NULL */
 

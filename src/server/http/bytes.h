@@ -13,7 +13,6 @@
 
 struct kd_bytes;
 
-/* Returns NULL when out of memory. */
 struct kd_bytes_params {
     /* Number of clients counted separately, at most the number of connections. All further clients are counted as
      * one. */
@@ -24,8 +23,8 @@ struct kd_bytes_params {
     size_t reserve, small;
     bool lone; /* a client that holds nothing may exceed share, and may exceed max if no client holds anything */
 };
-struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params);
-void kd_bytes_destroy(struct kd_bytes *bytes); /* accepts NULL */
+struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params); /* NULL: out of memory */
+void kd_bytes_destroy(struct kd_bytes *bytes);                          /* accepts NULL */
 
 /* Reserves n more bytes of a body or answer whose full length is `size`. Returns KD_EBUSY and reserves nothing if that
  * exceeds a limit; *quota is true if the limit is this client's share. n = 0 tests whether a limit is exceeded

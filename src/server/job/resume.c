@@ -113,9 +113,8 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     if (!*why)
         reopen(job);
     job->spec.exposure = known->exposure;
-    if (!isnan(known->exposure) ||
-        /* frames without a measured exposure were made by an older version, each with its own exposure */
-        job->finished)
+    /* frames without a measured exposure were made by an older version, each with its own exposure */
+    if (!isnan(known->exposure) || job->finished)
         job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
     kd_job_append(all, job);

@@ -80,15 +80,13 @@ void kd_session_drop(struct kd_session *session); /* cancels any frame */
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes viewers that have news */
 
-/* Encodings of a frame. kinds.c */
-void kd_session_choose_kind(const struct kd_session *session, bool last,
-                            struct kd_render_job *job); /* sets the first encoding, by the waiting viewers */
+/* Encodings of a frame; kinds.c. Sets the first encoding, by the waiting viewers. */
+void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
 /* The file of the frame in the viewer's encoding; NULL: not encoded yet. */
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);
-void kd_session_forget_pixels(struct kd_session *session,
-                              /* frees the pixels of a frame that nobody has requested in another encoding lately */
-                              double now);
-void kd_session_add_kinds(
-    struct kd_session *session); /* starts encodings of the latest frame that waiting viewers lack */
+/* Frees the pixels of a frame that nobody has requested in another encoding lately. */
+void kd_session_forget_pixels(struct kd_session *session, double now);
+/* Starts encodings of the latest frame that waiting viewers lack. */
+void kd_session_add_kinds(struct kd_session *session);
 
 #endif

@@ -46,7 +46,7 @@ struct kd_session_pace { double least, patience_ms; };
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
                                 const char *client, bool crowded, const struct kd_session_pace *pace, bool *quota,
                                 struct kd_session **out, struct kd_error *error);
-/* Shows this crowd from now on, at its own time after the scene's. Takes over the reference. Does not change the
+/* Shows this crowd from now on; the crowd's time is added to the scene's. Takes over the reference. Does not change the
  * revision. */
 void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
 /* Sets the limits of the quality reduction. */
