@@ -109,9 +109,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    struct kd_connection *stale =
-        /* the library has closed this socket without a callback: otherwise its number would not be free */
-        find(all, socket);
+    /* the library has closed this socket without a callback: otherwise its number would not be free */
+    struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
         free(stale);

@@ -78,8 +78,8 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
     }
     unlink_guest(front, guest);
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* ignored if it is not watched yet */
+    /* on failure the library has closed the socket */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
-        /* on failure the library has closed the socket */
         kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
 }

@@ -317,8 +317,8 @@ static void done(struct kd_render_job *render)
     bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
+    /* a failure to write, whatever the cause: the frame can be rendered again later */
     if (stored && status)
-        /* a failure to write, whatever the cause: the frame can be rendered again later */
         render->error.status = KD_EFULL;
     pthread_mutex_lock(&all->lock);
     if (frame->rendered) {
@@ -355,10 +355,8 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    const double not_spent = cost->frames < frames
-                                 ? cost->trace_ms
-                                 /* until all frames are checked, any lens map may turn out to be shared */
-                                 : cost->shared_ms;
+    /* until all frames are checked, any lens map may turn out to be shared */
+    const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)
         return kd_error_set(error, KD_ETOOBIG,
