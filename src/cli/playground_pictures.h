@@ -9,7 +9,6 @@
 
 #include <stdint.h>
 
-/* Pictures requested. */
 struct kd_pictures_asked {
     const struct kd_format *format; /* NULL if path is NULL */
     /* one picture at the end; or with `every` a pattern with one %d, such as film/%05d.png; NULL: no pictures */

@@ -50,7 +50,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* State of the rendering. */
 struct work {
     struct kd_renderer *renderer;
     struct kd_plan plan;

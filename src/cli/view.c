@@ -53,7 +53,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Chooses the graphics protocol. */
 static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out,
                              struct kd_error *error)
 {

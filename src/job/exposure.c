@@ -48,7 +48,6 @@ unsigned kd_job_exposure_frames(const struct kd_job_spec *spec, unsigned out[KD_
     return found;
 }
 
-/* Reduces a scene to few pixels. */
 static void make_small(struct kd_scene *scene)
 {
     const int32_t width = scene->image.width, height = scene->image.height;
