@@ -1,3 +1,4 @@
+/* Prepares an observation for comparison and computes chi^2 of a model (comparison.h). */
 #include "observe/reduce.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Recognises, reads and sorts observations (observation.h). */
 #include "observe/internal.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Records dispatches, copies and fills, with their barriers and timestamps (vk.h). */
 #include "vk/barrier.h"
 #include "vk/buffer.h"
 #include "vk/device.h"

@@ -1,3 +1,4 @@
+/* Handlers of /v1/assets: upload, counts, download, delete. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/asset/store.h"

@@ -1,3 +1,4 @@
+/* Handler of the page and of its files below /web/, including sign-in by a token in the address. */
 #include "server/http/reply.h"
 #include "server/http/representation.h"
 #include "server/http/route.h"
