@@ -1,4 +1,4 @@
-/* main finds the subcommand and hands over. */
+/* main: finds the subcommand and runs it. */
 #include "base/slip.h"
 #include "cli/cli.h"
 
@@ -50,7 +50,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         }
         choice->command = find(text, state);
         choice->index = state->next - 1;
-        state->next = state->argc; /* the rest is the command's */
+        state->next = state->argc; /* the rest belongs to the command */
         return 0;
     case ARGP_KEY_NO_ARGS: argp_error(state, "a command is missing"); return 0;
     }
@@ -58,11 +58,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_option options[] = {
-    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* as --help, which argp itself gives -? */
+    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* the same as --help; argp itself adds -? */
     { 0 },
 };
 
-/* The text of --help, which lists the commands; a few long names stand out. */
+/* Makes the text of --help with the list of commands; names longer than the column are not aligned. */
 static const char *help_text(void)
 {
     static char text[4000];
@@ -76,9 +76,9 @@ static const char *help_text(void)
     return text;
 }
 
-/* Whoever starts us may have closed a standard stream. Its number must not become that of a client's socket, or of a
- * file that is kept, into which messages would go: it is that of one on which reading and writing fail, as on a
- * closed one. */
+/* Opens /dev/null for each standard stream that the parent has closed. Otherwise a client's socket or a file could get
+ * that number, and messages would be written into it. Reading or writing fails on the replacement, as on a closed
+ * stream. */
 static void hold_standard_streams(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
@@ -97,12 +97,14 @@ int main(int argc, char **argv)
 
     hold_standard_streams();
     argp_err_exit_status = KD_EXIT_USAGE;
-    signal(SIGPIPE, SIG_IGN); /* a reader that left is no end for a server; other commands: kd_cli_stdout_failed */
-    signal(SIGXFSZ, SIG_IGN); /* a file that grows past `ulimit -f` is an error of write, and half a file is removed */
+    /* a reader's disconnection must not end the server; other commands: kd_cli_stdout_failed */
+    signal(SIGPIPE, SIG_IGN);
+    /* a file larger than `ulimit -f` becomes a write error, after which the partial file is removed */
+    signal(SIGXFSZ, SIG_IGN);
     atexit(kd_cli_close_stdout);
     if (argc < 1)
         return KD_EXIT_USAGE;
-    argv[0] = zero; /* as messages name the program, wherever it lies */
+    argv[0] = zero; /* messages then show the bare name of the program */
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
     snprintf(name, sizeof name, "kerrd %s", choice.command->name);
     argv[choice.index] = name;

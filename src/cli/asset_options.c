@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ASSET_MAX ((size_t)256 << 20) /* bytes of one: one's own files, larger than a server takes */
+#define ASSET_MAX ((size_t)256 << 20) /* largest file: local files may be larger than a server accepts */
 
 enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char *text, struct kd_error *error)
 {
@@ -36,7 +36,7 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     return KD_OK;
 }
 
-/* What else people take for a grid or a picture, by how it begins. */
+/* First bytes of other files that users may take for a grid or a picture. */
 static const struct {
     const char *begin;
     size_t size;
@@ -55,7 +55,7 @@ static const struct {
     { "GIF8", 4, "a GIF" },
 };
 
-/* What the bytes are: a grid of matter, or a picture. */
+/* Detects the kind of the file, grid of matter or picture, and reads its description. */
 static enum kd_status look(const void *data, size_t size, struct kd_asset_found *out, struct kd_error *error)
 {
     struct kd_png_about about;
@@ -86,7 +86,7 @@ static enum kd_status read_asset(struct kd_named_asset *asset, struct kd_error *
     return status;
 }
 
-/* By its name, or by the hash of its bytes. */
+/* Finds an asset by its name, or by the hash of its bytes. */
 static bool find(void *user, const char *name, struct kd_asset_found *out)
 {
     struct kd_asset_options *options = user;

@@ -1,4 +1,4 @@
-/* kerrd bench measures what this device can do. */
+/* kerrd bench: measures speed and accuracy of this device. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -65,7 +65,8 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
     return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
 }
 
-/* Prints a line for each row: speed and median errors over the bulk set, and what that and the other sets hold. */
+/* Prints a line for each row: speed and median errors over the bulk set, and the tolerance that the row is good enough
+ * for. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -104,7 +105,7 @@ static enum kd_status write_as(const struct kd_accuracy_table *table, const char
     return status;
 }
 
-/* A quick table does not replace a thorough one of the same version. */
+/* Stores the table, unless a quick one would replace a thorough one of the same version. */
 static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_accuracy_table *table,
                            struct kd_buffer *said, struct kd_error *error)
 {
@@ -166,13 +167,13 @@ done:
     return status;
 }
 
-/* The command as it was typed, but for quoting. */
+/* The command line, without quoting. */
 static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };
     for (int i = 0; i < argc; i++)
         if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i])) {
-            kd_buffer_finish(&text); /* half a command would be another one */
+            kd_buffer_finish(&text); /* a truncated command would mislead */
             break;
         }
     return (char *)text.data;

@@ -1,15 +1,14 @@
-/* The subcommands of kerrd are listed once, here: main hands over to one, --help lists them, and manual pages and
- * completions are made of them (cli/reference). Constant data, any thread. */
+/* List of kerrd's subcommands, for main, --help, manual pages and completions (cli/reference). Constant data, any
+ * thread. */
 #ifndef KD_CLI_COMMANDS_H
 #define KD_CLI_COMMANDS_H
 
 #include <argp.h>
 #include <stddef.h>
 
-/* X(its name, what its functions are called by, what it does in one line), in the order in which they are listed. A
- * line makes known two functions, which the subcommand's own file defines: int kd_cli_ID(int argc, char **argv), as
- * cli.h says, and what options it takes, const struct argp *kd_cli_ID_argp(void), which may be called again and
- * gives the same then. */
+/* X(name, identifier in functions, one-line description), in the order of --help. Each line declares two functions,
+ * which the subcommand's file defines: int kd_cli_ID(int argc, char **argv), described in cli.h; and const struct argp
+ * *kd_cli_ID_argp(void), its options, the same at each call. */
 #define KD_COMMANDS(X) \
     X("render", render, "a scene to a PNG file") \
     X("view", view, "a scene, or a picture that is there, in the terminal") \
@@ -48,12 +47,12 @@ struct kd_command {
 extern const struct kd_command kd_commands[];
 extern const size_t kd_n_commands;
 
-/* What --help and the manual say of the whole program. */
+/* Texts about the whole program in --help and the manual. */
 #define KD_CLI_ABOUT "Pictures of black holes: a Kerr renderer on a Vulkan device."
 #define KD_CLI_EXIT_CODES "0 done, 1 failed, 2 bad input or usage, 3 a device that was lost or hangs"
 
-/* The options of one quantity of `kerrd physics`, which takes its name first. They are made anew by each call, and
- * live until the next. */
+/* Options of one quantity of `kerrd physics`, whose first argument is the quantity's name. Valid until the next
+ * call. */
 struct kd_quantity;
 const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity);
 

@@ -1,5 +1,5 @@
-/* kerrd doctor says what this machine can do and what it lacks, with a tiny picture as the proof; or checks a table
- * of known numbers. */
+/* kerrd doctor: shows what this machine supports and what is missing, and renders a tiny picture as proof; or runs the
+ * self-test. */
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/selftest.h"
@@ -66,7 +66,7 @@ static void print_device(const struct kd_vk_info *info)
     printf("  %s%s\n", info->missing[0] ? "not usable: lacks " : "usable", info->missing);
 }
 
-/* Prints every device; true if one of them is usable. */
+/* Prints every device. Returns true if one is usable. */
 static bool print_devices(struct kd_error *error)
 {
     struct kd_vk_info *list = NULL;
@@ -86,7 +86,7 @@ static bool print_devices(struct kd_error *error)
     return usable;
 }
 
-/* For scripts, and for what completes --device in a shell. */
+/* For scripts, and for completions of --device. */
 static int list_devices(void)
 {
     struct kd_vk_info *list = NULL;
@@ -110,7 +110,7 @@ static enum kd_status print_choice(const char *device, struct kd_error *error)
     return status;
 }
 
-/* The rule of kd_vk_params.cache_dir. */
+/* Prints the folder that kd_vk_params.cache_dir defaults to. */
 static void print_cache(void)
 {
     const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -130,7 +130,7 @@ static void print_cache(void)
         free(path);
 }
 
-/* The only way to know is to ask for it. */
+/* Prints whether validation layers are available, which only an attempt shows. */
 static void print_validation(const char *device)
 {
     struct kd_vk *vk = NULL;
@@ -154,7 +154,7 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
     KD_TRY(kd_scene_set(&scene, "image.width", WIDTH, error));
     KD_TRY(kd_scene_set(&scene, "image.height", HEIGHT, error));
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    for (int i = 0; i < 2; i++) { /* the first compiles the kernels */
+    for (int i = 0; i < 2; i++) { /* the first run compiles the kernels */
         double started = kd_progress_clock();
         kd_frame_finish(&frame);
         KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
@@ -209,7 +209,7 @@ static int examine(const char *device)
     printf("verdict: %s\n", status ? "not usable" : "usable");
     if (!status)
         return kd_cli_print("", 0);
-    fflush(stdout); /* before the complaint on stderr */
+    fflush(stdout); /* before the message on stderr */
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }

@@ -7,9 +7,9 @@
 #include <string.h>
 #include <strings.h>
 
-enum { LETTERS_MAX = 9 }; /* of an ending; mktemp's names have ten random letters behind a dot */
+enum { LETTERS_MAX = 9 }; /* longest extension; mktemp's names have ten random letters behind a dot */
 
-/* Other endings of our formats. */
+/* Other extensions of our formats. */
 static const struct {
     const char *ending, *format;
 } synonyms[] = {
@@ -19,7 +19,7 @@ static const struct {
 
 static const char *const unfinished[] = {
     "tmp", "part", "new", "old", "bak", NULL
-}; /* the file gets another name, or had one */
+}; /* the file will be renamed or has been */
 
 static const char *find(const char *const words[], const char *word)
 {
@@ -28,7 +28,7 @@ static const char *find(const char *const words[], const char *word)
     return *words;
 }
 
-/* Copies the ending without its dot; "" for a name that has none. An ending begins with a letter. */
+/* Copies the extension without its dot, or "". An extension begins with a letter. */
 static void ending_of(const char *path, char out[LETTERS_MAX + 1])
 {
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
@@ -50,7 +50,7 @@ _Noreturn static void refuse(const struct argp_state *state, const char *option,
                                                 : " or ",
                                  strcmp(known[i], "text") ? known[i] : "txt");
     argp_error(state, "%s is \"%s\": the name must end in %s", option, path, list);
-    exit(argp_err_exit_status); /* argp_error has done so */
+    exit(argp_err_exit_status); /* not reached: argp_error exits */
 }
 
 const char *kd_cli_ending(const struct argp_state *state, const char *option, const char *path,

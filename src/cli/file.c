@@ -42,10 +42,10 @@ enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out
     return status;
 }
 
-/* Where the bytes go in the end: the file behind symbolic links, since rename would replace the link. */
+/* The file behind symbolic links, because rename would replace a link. */
 struct target {
     char *path;    /* malloc'd */
-    bool in_place; /* exists and is no regular file: must not be renamed over */
+    bool in_place; /* exists and is not a regular file, so it must not be replaced */
 };
 
 static enum kd_status find_target(const char *path, struct target *out, struct kd_error *error)
@@ -65,7 +65,7 @@ static enum kd_status find_target(const char *path, struct target *out, struct k
     return KD_OK;
 }
 
-/* An empty file beside the target with the permissions of a new one. *temporary is malloc'd. */
+/* Creates an empty file beside the target with the permissions of a new file. *temporary is malloc'd. */
 static int open_beside(const char *path, char **temporary)
 {
     *temporary = NULL;

@@ -1,4 +1,4 @@
-/* These read and write whole files; "-" is standard input or output. Main thread only. */
+/* Reads and writes complete files; "-" is standard input or output. Main thread only. */
 #ifndef KD_CLI_FILE_H
 #define KD_CLI_FILE_H
 
@@ -7,19 +7,18 @@
 
 #include <stddef.h>
 
-/* KD_EINVAL when there is no such file to read or it has more than `most` bytes. Finish *out in any case. */
+/* Reads a file. Returns KD_EINVAL if it does not exist or has more than `most` bytes. Finish *out in any case. */
 enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out, struct kd_error *error);
 
-/* Checks, before a long render rather than after it, that kd_file_write will be able to write. A terminal is
- * refused. */
+/* Checks before a long render that kd_file_write can write to the path. Refuses a terminal. */
 enum kd_status kd_file_check(const char *path, struct kd_error *error);
 
-/* Writes under a temporary name and renames, so that nobody ever sees half a file. A device or a pipe is written to
+/* Writes to a temporary name and renames it, so that no partial file is ever visible. Devices and pipes are written
  * directly. */
 enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error);
 
-/* Does the same for bytes that are made while they are written: `read` gives up to `size` more, 0 at the end,
- * KD_FILE_STOP where it has failed: no file is left then, and its reason is the caller's to report. */
+/* The same for bytes that are generated while they are written. `read` returns up to `size` more, 0 at the end, or
+ * KD_FILE_STOP on failure; then no file is left, and the caller reports the reason. */
 #define KD_FILE_STOP ((size_t)-1)
 enum kd_status kd_file_stream(const char *path, size_t (*read)(void *user, void *to, size_t size), void *user,
                               struct kd_error *error);

@@ -1,4 +1,4 @@
-/* kerrd film renders all frames of a job's request, and makes a film of them. */
+/* kerrd film: renders all frames of a job's request and makes a film of them. */
 #include "base/program.h"
 #include "cli/cli.h"
 #include "cli/ending.h"
@@ -21,10 +21,10 @@
 enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
-    struct kd_scene_options scene; /* its document: that of the film */
+    struct kd_scene_options scene; /* its document is the film's request */
     const char *device, *output, *state;
-    const struct kd_gather_format *kind; /* of the output; NULL: none is wanted */
-    unsigned rate, samples, first, last; /* frames that are wanted */
+    const struct kd_gather_format *kind; /* format of the output; NULL: none */
+    unsigned rate, samples, first, last; /* first and last frame to render */
     bool only;
     double shutter;
     uint64_t memory;
@@ -63,7 +63,7 @@ static const struct kd_gather_format *kind_of(const char *path, const struct arg
     return kinds[i];
 }
 
-/* "3:17", both frames included. */
+/* Parses "3:17", both frames included. */
 static void read_only(struct arguments *arguments, const char *text, const struct argp_state *state)
 {
     int end = 0;
@@ -119,15 +119,15 @@ struct work {
     struct arguments *arguments;
     const struct kd_gather_format *kind;
     struct kd_assets assets;
-    struct kd_buffer text; /* the request */
+    struct kd_buffer text; /* of the request */
     struct kd_job_spec spec;
     struct kd_renderer *renderer;
     struct kd_frames frames;
     struct kd_film_state state;
-    struct kd_playground *bodies; /* as they are at the frame that is next, of a film of a playground */
+    struct kd_playground *bodies; /* the playground in its state at the next frame, for films of playgrounds */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned kept, done, measured, traced; /* kept: frames that were there */
+    unsigned kept, done, measured, traced; /* kept: frames found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
@@ -135,8 +135,8 @@ static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error
     return kd_scene_options_set(user, scene, error);
 }
 
-/* Reads the request. --preset and --from take the place of the scene that others are merged over; --set and --size
- * come last. */
+/* Parses the request. --preset and --from replace the scene that the request's scenes are merged over; --set and --size
+ * are applied last. */
 static enum kd_status read_request(struct work *w, struct kd_error *error)
 {
     struct kd_scene_options *options = &w->arguments->scene, beneath = *options;
@@ -176,8 +176,8 @@ done:
     return status;
 }
 
-/* All that frames depend on, in a request and beside it: bytes of the one, texts of the options, and what files are
- * named. */
+/* Computes a hash of everything that frames depend on: the request, the options and the contents of the files that they
+ * name. */
 static enum kd_status identify(struct work *w, struct kd_error *error)
 {
     const struct kd_scene_options *options = &w->arguments->scene;
@@ -208,7 +208,7 @@ done:
     return status;
 }
 
-/* All frames are looked at before the first is rendered. */
+/* Plans all frames before the first is rendered. */
 static enum kd_status check(const struct work *w, struct kd_error *error)
 {
     struct kd_capacity capacity;
@@ -283,8 +283,7 @@ done:
     return status;
 }
 
-/* The one exposure of frames that have one, unless the folder knows it; and into the folder of which film its frames
- * are. */
+/* Measures the common exposure, if there is one and the folder does not have it, and writes film.json. */
 static enum kd_status expose(struct work *w, struct kd_error *error)
 {
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
@@ -301,8 +300,7 @@ done:
     return status;
 }
 
-/* Moves the bodies of a playground on to the frame, from the one before, and says what it shows; as a job of the
- * server does. */
+/* Moves the playground from the previous frame to this one, as the server's jobs do, and returns its bodies. */
 static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_crowd **out, struct kd_error *error)
 {
     struct kd_playground_run run;

@@ -1,5 +1,5 @@
-/* What a folder of a film's frames says of them, film.json: of which request they are, and by what they were
- * rendered. Main thread only. */
+/* film.json in a folder of a film's frames: identifies the request, the version and the device that rendered them. Main
+ * thread only. */
 #ifndef KD_CLI_FILM_STATE_H
 #define KD_CLI_FILM_STATE_H
 
@@ -8,14 +8,14 @@
 #include <stdbool.h>
 
 struct kd_film_state {
-    char request[65]; /* SHA-256 of all that frames depend on */
+    char request[65]; /* SHA-256 of everything that the frames depend on */
     unsigned frames;
     const char *device; /* as kd_renderer_device_name */
-    double exposure;    /* of all frames, measured; NAN: none was */
+    double exposure;    /* measured exposure of all frames in stops; NAN: none */
 };
 
-/* Reads what the folder says, if it says something, and takes its exposure over. KD_EINVAL: its frames are of
- * another film, or were rendered by another version or device. */
+/* Reads film.json, if it exists, and takes over its exposure. Returns KD_EINVAL if its frames are of another film,
+ * version or device. */
 enum kd_status kd_film_state_read(int folder, const char *path, struct kd_film_state *state, bool *there,
                                   struct kd_error *error);
 enum kd_status kd_film_state_write(int folder, const struct kd_film_state *state, struct kd_error *error);

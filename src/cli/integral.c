@@ -1,4 +1,5 @@
-/* kerrd line and its like compute integrals over a thin disk, or over pictures of a scene. */
+/* kerrd line, transfer-function, spectrum, visibility and compare: integrals over a thin disk or over pictures of a
+ * scene. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -16,13 +17,13 @@ enum { KEY_FIRST = 256, FIELDS_MAX = 64, KEY_OBSERVATION = KEY_FIRST + FIELDS_MA
 struct arguments {
     enum kd_integral what;
     const char *input, *output, *format;
-    const char *given[FIELDS_MAX]; /* as the table of fields */
-    const char *observation;       /* the file, of a comparison */
-    struct kd_scene_options scene; /* of those that may have one */
+    const char *given[FIELDS_MAX]; /* in the order of the table of fields */
+    const char *observation;       /* file of observations, for a comparison */
+    struct kd_scene_options scene; /* for integrals that accept a scene */
     const char *device;
 };
 
-/* Those that may be made of pictures. */
+/* Whether the integral may be computed from pictures. */
 static bool may_have_scene(enum kd_integral what)
 {
     return what == KD_INTEGRAL_SPECTRUM || kd_integral_is_pictured(what);
@@ -78,7 +79,7 @@ static enum kd_status read_file(const struct arguments *arguments, struct kd_int
     return status;
 }
 
-/* The scene of the file, or of --preset or --from, and what --set changes. */
+/* Loads the scene of the file, or of --preset or --from, and applies --set. */
 static enum kd_status load_scene(struct arguments *arguments, struct kd_integral_request *request,
                                  struct kd_error *error)
 {
@@ -198,7 +199,7 @@ done:
     return status;
 }
 
-/* --inclination-deg for inclination_deg. */
+/* Makes the options: --inclination-deg for inclination_deg. */
 static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32],
                         char helps[FIELDS_MAX][240], char values[FIELDS_MAX][40])
 {
@@ -231,7 +232,7 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
     }
 }
 
-/* The options of one of them, and the texts that they point into. */
+/* Options of one integral, and the texts that they point to. */
 struct table {
     struct argp argp;
     struct argp_option options[FIELDS_MAX + 4];

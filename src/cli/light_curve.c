@@ -1,4 +1,4 @@
-/* kerrd light-curve tells how bright a scene is and where its light comes from, as time goes on. */
+/* kerrd light-curve: flux and centroid of a scene over time. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -57,7 +57,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Reads the times as the scene's own time is read, with its range and its messages. */
+/* Parses the times like the scene's own time, with its range and messages. */
 static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to,
                            struct kd_error *error)
 {

@@ -1,4 +1,4 @@
-/* kerrd orbit follows timelike geodesics. */
+/* kerrd orbit: follows timelike geodesics. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -13,7 +13,7 @@
 
 enum { KEY_FIRST = 256 };
 
-/* The fields in the order of their keys: the names that kd_orbit_request_set and --help have for them. */
+/* Fields in the order of their keys, with the names of kd_orbit_request_set and --help. */
 static const struct {
     const char *name, *argument, *help;
 } fields[] = {
@@ -31,7 +31,7 @@ static const struct {
     { "v_r", "V", "components of the velocity, in units of that of light" },
     { "v_theta", "V", NULL },
     { "v_phi", "V", NULL },
-    /* these two follow the fields that tell which of the two it is */
+    /* these two follow the fields that decide which of the two it is */
     { "r", "R", "the radius there; or of a place on the way of an orbit by its constants" },
     { "outward", "true|false", "whether such an orbit moves outwards there" },
     { "periods", "N", "how long: radial periods (10), turns where r is constant" },
@@ -120,7 +120,7 @@ done:
     return status;
 }
 
-/* The bytes of the answer as the file asks for them. */
+/* Source of the answer's bytes. */
 struct source {
     struct kd_orbit_feed *feed;
     struct kd_buffer ready;
@@ -155,7 +155,7 @@ static void *help(void *feed)
     return NULL;
 }
 
-/* Follows many orbits on every core before the answer is asked for. */
+/* Integrates many orbits on all cores before the answer is read. */
 static void share(struct kd_orbit_feed *feed)
 {
     pthread_t threads[15];
@@ -179,7 +179,7 @@ static enum kd_status write_answer(const struct arguments *arguments, struct kd_
     }
     kd_progress_init(&source.progress);
     kd_progress_catch_signals();
-    /* What is wrong is known before a byte of the answer is, and then there is no file. */
+    /* Computes the first bytes before the file is opened, so that invalid input leaves no file. */
     source.status = kd_orbit_feed_more(feed, &source.ready, error);
     if (!source.status && feed->request->many) {
         share(feed);
@@ -211,7 +211,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     return status;
 }
 
-/* --inclination-deg for inclination_deg. */
+/* Makes the options: --inclination-deg for inclination_deg. */
 static void set_options(struct argp_option *options, char names[N_FIELDS][32])
 {
     options[0] =

@@ -1,4 +1,4 @@
-/* kerrd particles lists where the particles of a scene are, as an array for NumPy. */
+/* kerrd particles: positions of a scene's particles as an array for NumPy. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -52,7 +52,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* The bytes of the file: what is ready, made slice by slice. */
+/* Source of the file's bytes, made in slices. */
 struct source {
     struct kd_renderer *renderer;
     struct kd_particle_list list;

@@ -1,4 +1,4 @@
-/* kerrd pixel explains what one pixel of a picture shows. */
+/* kerrd pixel: explains one pixel of a picture. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"

@@ -1,4 +1,4 @@
-/* kerrd plan says what a scene would cost on this device. */
+/* kerrd plan: cost of a scene on this device. */
 #include "cli/cli.h"
 #include "cli/scene_options.h"
 #include "render/output/cost.h"
@@ -69,7 +69,7 @@ static enum kd_status plan_scene(struct arguments *arguments, struct kd_buffer *
     if (kd_plan_to_json(&plan, out) || kd_buffer_printf(out, "\n"))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the plan"));
 done:
-    kd_renderer_destroy(renderer); /* which owns the accuracy table of the capacity */
+    kd_renderer_destroy(renderer); /* it owns the accuracy table in the capacity */
     return status;
 }
 

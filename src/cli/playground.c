@@ -1,5 +1,4 @@
-/* kerrd playground lets bodies move round the hole for a while, and writes where they are then and what has
- * happened. */
+/* kerrd playground: moves bodies around the hole for some time, and writes their final state and the events. */
 #include "cli/cli.h"
 #include "cli/draw.h"
 #include "cli/ending.h"
@@ -36,7 +35,7 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    bool list, bounded; /* bounded: --set budget, which is else that of a server */
+    bool list, bounded; /* bounded: --set budget was given; otherwise the server's budget does not apply */
     struct kd_pictures_asked pictures;
 };
 
@@ -69,7 +68,7 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* What each file is, its name says or does not deny. */
+/* Checks that the extensions of the output files agree with their formats. */
 static void check_names(struct arguments *a, const struct argp_state *state)
 {
     if (a->output)
@@ -174,12 +173,12 @@ done:
     return status;
 }
 
-/* What has happened since the begin, a line each. More than KD_PLAYGROUND_EVENTS in one sub-step are not kept: a
- * line says which are lost. */
+/* Events since the beginning, one on each line. In a sub-step with more than KD_PLAYGROUND_EVENTS the oldest are lost,
+ * which a line reports. */
 struct story {
     struct kd_buffer text;
-    uint64_t told, lost;      /* number of the last event that it has; how many are missing */
-    struct kd_error short_of; /* why less time has gone by than was asked for; status KD_OK: it has */
+    uint64_t told, lost;      /* number of the last event written; number lost */
+    struct kd_error short_of; /* why the simulation ended early; status KD_OK: it did not */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)
@@ -198,7 +197,7 @@ static enum kd_status go_on_telling(struct story *story, const struct kd_playgro
 {
     const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS
                                                       ? last - KD_PLAYGROUND_EVENTS
-                                                      : 0; /* the one before the first that is kept */
+                                                      : 0; /* number of the event before the first stored one */
     enum kd_status status = KD_OK;
     if (story->told < first) {
         KD_TRY(add_lost(story, first));
@@ -239,7 +238,7 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     return status;
 }
 
-/* Why time stands before t; the first reason is told when all is written. */
+/* Records why time stops before t; only the first reason is reported, after everything is written. */
 static void tell_short(const struct kd_playground *p, double t, bool bounded, struct kd_error *short_of)
 {
     if (short_of->status)
@@ -259,7 +258,8 @@ static void tell_short(const struct kd_playground *p, double t, bool bounded, st
                      p->t, t, p->params.budget);
 }
 
-/* Goes on to the time t. The budget of sub-steps keeps a server's advances short: here it counts only as an option. */
+/* Moves the playground to the time t. The budget of sub-steps is meant for servers, so it only applies if the option
+ * was given. */
 static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, double t, struct story *story,
                             struct kd_error *error)
 {
@@ -305,7 +305,7 @@ done:
     return status;
 }
 
-/* Whether all files can be written is known before bodies move for minutes. */
+/* Checks that all files can be written before bodies move for minutes. */
 static enum kd_status check_files(const struct arguments *a, struct kd_error *error)
 {
     const char *const files[] = { a->output, a->series, a->fallback, a->events };
@@ -324,7 +324,7 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     KD_TRY(kd_pictures_check(&a->pictures, error));
     KD_TRY(check_files(a, error));
     KD_TRY(load(a, &p, error));
-    story.told = p->events.last; /* what a snapshot has told is not told again */
+    story.told = p->events.last; /* skip the events that a snapshot contains */
     kd_playground_series_begin(p, a->time);
     if (a->pictures.path)
         KD_TRY(film(a, p, &story, error));

@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One %d, perhaps with a width: where it is, and how long; NULL: there is none, or there is something else that
- * printf would take. */
+/* Finds the only %d, optionally with a width. Returns NULL if there is none, or any other conversion of printf. */
 static const char *number_in(const char *path, int *length)
 {
     const char *at = strchr(path, '%'), *end = at;
@@ -44,7 +43,7 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
     return KD_OK;
 }
 
-/* A scene that nobody names has the spin that the playground has. */
+/* Loads the scene. If none is given, it has the playground's spin. */
 static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                            struct kd_scene *out, struct kd_error *error)
 {
@@ -57,7 +56,7 @@ static enum kd_status load(struct kd_pictures_asked *asked, const char *view, co
     return status ? status : kd_scene_options_merge(&asked->scene, out, error);
 }
 
-/* The name of the next one. */
+/* Makes the name of the next picture. */
 static void name_of(const struct kd_pictures *p, char out[4096])
 {
     int length;
@@ -66,7 +65,7 @@ static void name_of(const struct kd_pictures *p, char out[4096])
         snprintf(out, 4096, "%s", p->asked->path);
         return;
     }
-    const int width = atoi(at + 1); /* behind a 0 or not: numbers in names are filled up with zeros */
+    const int width = atoi(at + 1); /* with or without a leading 0: numbers in names are padded with zeros */
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
 }
 

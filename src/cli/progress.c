@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define QUIET_S 0.5 /* a render shorter than this needs no bar */
+#define QUIET_S 0.5 /* renders shorter than this show no bar */
 #define REDRAW_S 0.1
 #define CELLS 30
 
@@ -29,7 +29,7 @@ static void draw(double fraction, double elapsed)
     memset(bar, '#', (size_t)full);
     bar[CELLS] = 0;
     fprintf(stderr, "\r\033[K[%s] %3.0f %%", bar, 100 * fraction);
-    if (fraction > 0.05) /* before that the guess is worth nothing */
+    if (fraction > 0.05) /* earlier estimates are too inaccurate */
         fprintf(stderr, "  %.0f s left", elapsed * (1 - fraction) / fraction);
     fflush(stderr);
 }

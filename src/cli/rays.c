@@ -1,4 +1,4 @@
-/* kerrd rays gives the end points of listed rays. */
+/* kerrd rays: end points of listed rays. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -36,7 +36,7 @@ enum {
 };
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
-/* The fields in the order of their keys, by the names that kd_rays_request_set has for them. */
+/* Fields in the order of their keys, with the names of kd_rays_request_set. */
 static const char *const names[N_FIELDS] = { "spin",
                                              "r",
                                              "inclination_deg",
@@ -57,7 +57,7 @@ static const char *const names[N_FIELDS] = { "spin",
 struct arguments {
     const char *input, *output, *device, *format;
     const char *fields[N_FIELDS]; /* NULL: not given */
-    bool trace, points;           /* points: of its path, instead of its steps */
+    bool trace, points;           /* points: of the path, instead of steps */
     struct kd_rays_request more;  /* the rays of --ray */
 };
 
@@ -107,8 +107,7 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
 
-/* Takes the format from the output's name where none is given. Refuses text for anything but steps, and arrays for
- * steps. */
+/* Sets the format from the output's name if it is not given. Text is for steps only, arrays are not. */
 static void settle_format(struct arguments *arguments, const struct argp_state *state)
 {
     const char *const *known = arguments->trace ? KD_ENDINGS("text", "json", "csv") : KD_ENDINGS("json", "npy", "csv");
@@ -179,7 +178,7 @@ static enum kd_status load_file(const char *path, struct kd_rays_request *reques
     return status;
 }
 
-/* Loads the file, then merges each option over what it said. */
+/* Loads the file, then merges each option over it. */
 static enum kd_status load(const struct arguments *arguments, struct kd_rays_request *request, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -195,7 +194,7 @@ done:
     return status;
 }
 
-/* What the wish for accuracy comes to, on a device if it needs one. */
+/* Resolves the accuracy request to engine, precision and steps, with a device if needed. */
 static enum kd_status settle(const struct arguments *arguments, struct kd_rays_request *request,
                              struct kd_renderer **renderer, struct kd_error *error)
 {
@@ -220,7 +219,8 @@ static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer 
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings,
                                           answer->ends, kd_progress_update, &progress, error);
     kd_progress_finish(&progress);
-    if (status == KD_EDEVICE && !*error->pointer) /* with a pointer it only lacks what was asked for */
+    /* an error with a pointer means that the device lacks a feature, not that it is lost */
+    if (status == KD_EDEVICE && !*error->pointer)
         kd_cli_device_lost(error);
     return status ? status : kd_rays_answer_summarise(answer, error);
 }
@@ -241,7 +241,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (strcmp(path, "-") || format == KD_RAYS_NPY)
         KD_TRY(kd_file_check(path, error));
-    double *alpha_beta = request.alpha_beta; /* the answer's from here on */
+    double *alpha_beta = request.alpha_beta; /* owned by the answer from here on */
     request.alpha_beta = NULL;
     KD_TRY(kd_rays_answer_init(&answer, &request.params, alpha_beta, request.n, error));
     KD_TRY(trace(renderer, &answer, error));
@@ -288,7 +288,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (request.params.observer) {
         kd_rays_looks_label(&request.params, request.alpha_beta, 1, request.alpha_beta, &outward, &energy);
-        request.params.observer = 0; /* the ray itself is every observer's */
+        request.params.observer = 0; /* the ray is now given without reference to an observer */
     }
     status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, &outward, 1 },
                            &steps, error);

@@ -1,4 +1,4 @@
-/* kerrd render makes a picture file of a scene. */
+/* kerrd render: renders a scene to a picture file. */
 #include "cli/cli.h"
 #include "cli/draw.h"
 #include "cli/file.h"
@@ -50,7 +50,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* What the picture costs and holds, while it is being made. */
 struct work {
     struct kd_renderer *renderer;
     struct kd_plan plan;

@@ -1,4 +1,4 @@
-/* kerrd doctor --selftest prints what the self-test of a device finds. Main thread only. */
+/* Output of kerrd doctor --selftest. Main thread only. */
 #ifndef KD_CLI_SELFTEST_H
 #define KD_CLI_SELFTEST_H
 
@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Runs the self-test on the device and prints its table, or with `json` one JSON document. KD_OK also when checks
- * failed: *failed counts them. */
+/* Runs the self-test on the device and prints its table, or with `json` a JSON document. Returns KD_OK even if checks
+ * failed; *failed counts these. */
 enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, struct kd_error *error);
 
 #endif

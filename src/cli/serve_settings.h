@@ -1,12 +1,12 @@
-/* The options of `kerrd serve`, each once: the flags, the file's members, the variables of the environment, help,
- * manual page, completions and docs/options.md are made of this list. Constant data. */
+/* List of the options of `kerrd serve`. Flags, members of the configuration file, environment variables, help, manual
+ * page, completions and docs/options.md are made from it. Constant data. */
 #ifndef KD_CLI_SERVE_SETTINGS_H
 #define KD_CLI_SERVE_SETTINGS_H
 
 #include "cli/cli.h"
 #include "cli/settings.h"
 
-/* GROUP(what the options that follow are for)
+/* GROUP(heading of the options that follow)
  * S(id, name, letter, argument, kind, least, most, default, where, help) */
 #define KD_SERVE_SETTINGS(S, GROUP) \
     GROUP("Where it listens:") \
@@ -73,6 +73,6 @@
 #define KD_SERVE_NOTHING(text)
 enum { KD_SERVE_SETTINGS(KD_SERVE_ID, KD_SERVE_NOTHING) KD_SERVE_COUNT };
 #undef KD_SERVE_ID
-extern const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT]; /* serve.c */
+extern const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT]; /* defined in serve.c */
 
 #endif

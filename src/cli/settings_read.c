@@ -1,4 +1,4 @@
-/* Options are read here from a file of JSON and from the environment. */
+/* Reads settings from a JSON file and from the environment. */
 #include "base/log.h"
 #include "base/slip.h"
 #include "cli/cli.h"
@@ -20,8 +20,7 @@
 #define PREFIX "KERRD_"
 #define FILE_MOST ((size_t)64 << 10)
 
-/* Variables that are no options of the server: what Vulkan does is for developers, and the scripts beside the
- * sources have one of their own. */
+/* Variables that are not settings: for developers of Vulkan code, and of the scripts in the repository. */
 static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WATCH", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])
@@ -32,7 +31,7 @@ void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTI
     out[n] = 0;
 }
 
-/* By the name of a member of the file; n: there is none. */
+/* Finds a setting by the name of a member; n: none. */
 static size_t find_key(const struct kd_settings *settings, const char *name)
 {
     size_t i = 0;
@@ -59,7 +58,7 @@ static enum kd_status refuse_key(const struct kd_settings *settings, const char 
     return kd_error_field(error, pointer, "there is no option %s; known are %s", given, known);
 }
 
-/* A member's value as a flag would have it; false: it is of another type. */
+/* Converts a member's value to the text of a flag. Returns false if it has another type. */
 static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, char number[24], const char **text)
 {
     *text = cJSON_IsString(item) ? item->valuestring : number;
@@ -73,7 +72,7 @@ static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, cha
     return true;
 }
 
-/* pointer: of the item. */
+/* Stores an item. pointer: its JSON pointer. */
 static enum kd_status take(struct kd_settings *settings, size_t i, const cJSON *item, const char *pointer,
                            struct kd_error *error)
 {
@@ -134,7 +133,7 @@ enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *p
     enum kd_status status;
     if (path[0] == '-' && path[1] && access(++path, F_OK) && errno == ENOENT)
         return KD_OK;
-    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* which names the file */
+    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* its error names the file */
     status = kd_tree_parse((const char *)text.data, text.size, FILE_MOST, KD_SCAN_FEW, &tree, error);
     if (!status)
         status = read_members(settings, tree, error);
@@ -148,8 +147,8 @@ done:
     return status;
 }
 
-/* Whether a variable is one that Kubernetes sets for each Service, as it does unless enableServiceLinks is false:
- * that of a Service called kerrd is KERRD_PORT=tcp://10.0.0.1:8080. */
+/* Whether a variable is one that Kubernetes sets for each Service, unless enableServiceLinks is false: for a Service
+ * called kerrd, KERRD_PORT=tcp://10.0.0.1:8080. */
 static bool is_link(const char *name, const char *value)
 {
     const char *port = strstr(name, "_PORT_");
@@ -157,7 +156,7 @@ static bool is_link(const char *name, const char *value)
            !strncmp(value, "udp://", 6) || (port && isdigit((unsigned char)port[6]));
 }
 
-/* The option that a variable is; n: none. *value is what stands behind the name. */
+/* Finds the setting of a variable; n: none. *value is the text behind the name. */
 static size_t find_variable(const struct kd_settings *settings, const char *variable, const char **value)
 {
     const size_t n = strcspn(variable, "=");

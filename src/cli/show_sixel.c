@@ -1,4 +1,4 @@
-/* Sends a picture as sixel, which libsixel makes. */
+/* Converts a picture to sixel by libsixel. */
 #include "cli/show.h"
 
 #include "image/png.h"
@@ -9,7 +9,7 @@
 
 enum { COLOURS = 256 };
 
-/* 8 bits a channel, whatever the file has. */
+/* Converts pixels to 8 bits a channel. */
 static unsigned char *bytes_of(const struct kd_png *png)
 {
     const size_t n = (size_t)png->width * png->height * 3;
@@ -22,7 +22,7 @@ static unsigned char *bytes_of(const struct kd_png *png)
     return bytes;
 }
 
-/* The pixels at the size wanted; frees those that it is given. NULL: no memory. */
+/* Scales the pixels and frees `from`. Returns NULL when out of memory. */
 static unsigned char *scaled(unsigned char *from, const struct kd_png *png, uint32_t width, uint32_t height)
 {
     if (!from || (width == png->width && height == png->height))

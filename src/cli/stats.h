@@ -1,4 +1,4 @@
-/* `kerrd render --stats` prints this: one picture's times and accuracy. Any thread. */
+/* Output of `kerrd render --stats`: times and accuracy of one picture. Any thread. */
 #ifndef KD_CLI_STATS_H
 #define KD_CLI_STATS_H
 
@@ -10,14 +10,14 @@ struct kd_stats {
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const struct kd_frame *frame;
-    double render_ms, encode_ms; /* by the wall clock */
-    size_t bytes;                /* of the PNG file */
+    double render_ms, encode_ms; /* elapsed time */
+    size_t bytes;                /* of the file */
 };
 
-/* One line of JSON. */
+/* Appends one line of JSON. */
 enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out);
 
-/* Ends a line of JSON and prints it on standard error, as --stats of sweeps and films does; frees it in any case.
+/* Ends a line of JSON and prints it on standard error, for --stats of sweeps and films. Frees it in any case.
  * KD_ENOMEM. */
 enum kd_status kd_stats_print(struct kd_json *json, struct kd_buffer *line, struct kd_error *error);
 

@@ -1,4 +1,4 @@
-/* kerrd sweep renders a scene for all values of some fields, into one file. */
+/* kerrd sweep: renders a scene for all values of some fields into one file. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -37,9 +37,9 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* By the end of its name: what the scenes become, and what all of them do. */
+/* A kind of output by its extension: the format of each scene and of the whole. */
 struct kind {
-    const char *name; /* of the format */
+    const char *name; /* extension */
     const struct kd_format *frame;
     const struct kd_gather_format *whole; /* NULL: a table */
 };
@@ -96,7 +96,7 @@ struct work {
     unsigned done, traced;
 };
 
-/* The plan of a scene; its error says which. */
+/* Plans a scene; an error names its number. */
 static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan,
                               struct kd_error *error)
 {
@@ -111,7 +111,7 @@ static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *
     return status;
 }
 
-/* All are looked at before the first is rendered. */
+/* Plans all scenes before the first is rendered. */
 static enum kd_status check(struct work *w, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -197,7 +197,7 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     return status;
 }
 
-/* The fluxes, in the order of the scenes, are there where a scene has one; null is that of one that has none. */
+/* Writes the fluxes in the order of the scenes, if any scene has one; null for a scene without. */
 static void write_fluxes(const struct work *w, struct kd_json *json)
 {
     bool any = false;

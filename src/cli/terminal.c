@@ -15,13 +15,13 @@
 #include <unistd.h>
 
 #define ESC "\033"
-#define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\" /* a picture of one pixel that is not kept */
+#define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\" /* a picture of one pixel that is not stored */
 #define KITTY_ANSWER ESC "_Gi=31;OK" ESC "\\"
-#define PIXELS_QUERY ESC "[14t"   /* answered by ESC [ 4 ; HEIGHT ; WIDTH t */
-#define ATTRIBUTES_QUERY ESC "[c" /* answered by ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
+#define PIXELS_QUERY ESC "[14t"   /* the answer is ESC [ 4 ; HEIGHT ; WIDTH t */
+#define ATTRIBUTES_QUERY ESC "[c" /* the answer is like ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
 enum { ANSWER_SIZE = 1024, CTRL_C = 3 };
 
-/* Finds the answer to ATTRIBUTES_QUERY; NULL: it has not come. */
+/* Finds the answer to ATTRIBUTES_QUERY; NULL: not received yet. */
 static const char *attributes_in(const char *answer)
 {
     for (const char *at = answer; (at = strstr(at, ESC "[?")); at++) {
@@ -43,7 +43,7 @@ static bool has_attribute(const char *attributes, long wanted)
     return false;
 }
 
-/* Reads until the attributes have come, or the time is over; true for Ctrl-C. */
+/* Reads until the attributes have come or the time is over. Returns true for Ctrl-C. */
 static bool listen(int fd, char answer[ANSWER_SIZE])
 {
     const double end = kd_clock_ms() + KD_TERMINAL_WAIT_MS;
@@ -66,8 +66,8 @@ static bool listen(int fd, char answer[ANSWER_SIZE])
     return false;
 }
 
-/* The answer to `query`, "" for none. The terminal shows none of it and makes no signal of a key meanwhile: else its
- * settings could stay so. */
+/* Sends `query` and reads the answer, "" if there is none. Echo and signal keys are off meanwhile: a signal could
+ * otherwise leave the terminal in raw mode. */
 static void ask(int fd, const char *query, char answer[ANSWER_SIZE])
 {
     struct termios before, raw;

@@ -39,7 +39,7 @@ done:
 
 void kd_trace_finish(struct kd_told_steps *trace) { kd_ray_path_finish(&trace->path); }
 
-/* Prints residuals by their size, and all else to as many digits as the precision has. */
+/* Writes a value: residuals with few digits, others with as many as the precision has. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x,
                                struct kd_buffer *out)
 {
@@ -128,7 +128,7 @@ done:
     return status;
 }
 
-/* Nothing for a number that does not exist. */
+/* Writes a number, or nothing if it is not finite. */
 static void put_member(struct kd_json *json, const char *name, double x)
 {
     if (isfinite(x))
@@ -162,7 +162,7 @@ enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer
         { "orders", p->orders },
         { "spin", p->spin },
         { "inclination_deg", p->inclination_deg },
-        { "r", p->r }, /* without r: from infinity */
+        { "r", p->r }, /* not finite: the ray comes from infinity */
         { "alpha", steps->alpha },
         { "beta", steps->beta },
         { "lambda", trace->motion.lambda },

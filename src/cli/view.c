@@ -1,4 +1,4 @@
-/* kerrd view shows a scene, or a picture that is there, in the terminal. */
+/* kerrd view: shows a scene or an existing picture in the terminal. */
 #include "cli/cli.h"
 #include "cli/draw.h"
 #include "cli/file.h"
@@ -53,7 +53,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Decides how the picture is sent. */
 static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out,
                              struct kd_error *error)
 {
@@ -69,8 +68,8 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
                         getenv("TMUX") ? ", or tmux, which stands before it, cannot" : "", remedy);
 }
 
-/* Reads the document if it is a picture that kerrd made; *picture stays empty for anything else, which the scene's
- * own options read. */
+/* Reads the document if it is a picture made by kerrd. *picture stays empty for anything else, which the scene's
+ * options read. */
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
                            struct kd_error *error)
 {
@@ -78,7 +77,7 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
-        !S_ISREG(about.st_mode)) /* what can be read once is the scene's own to read */
+        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so it is left to the scene's options */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {
@@ -113,7 +112,7 @@ done:
     return status;
 }
 
-/* The picture as it is, and a line that tells its scene. */
+/* Shows the picture unchanged, and a line about its scene. */
 static enum kd_status show_picture(const struct arguments *arguments, const struct kd_buffer *png,
                                    const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error)
 {

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A map of numbers in false colour has no exposure. */
+/* Whether a scene has an automatic exposure. Maps of numbers in false colour have none. */
 static bool takes_one(const struct kd_scene *scene)
 {
     const struct kd_words *layers = &scene->image.layers;
@@ -22,7 +22,7 @@ static bool is_auto(const struct kd_job_spec *spec, unsigned frame)
     return !kd_job_spec_scene(spec, frame, &scene, NULL) && takes_one(&scene);
 }
 
-/* Between keyframes a word stays what it is: a frame is "auto" only if a keyframe is. */
+/* Words are not interpolated between keyframes: a frame is "auto" only if a keyframe is. */
 static bool any_auto(const struct kd_job_spec *spec)
 {
     for (size_t i = 0; i < spec->timeline.n_keys; i++)
@@ -48,7 +48,6 @@ unsigned kd_job_exposure_frames(const struct kd_job_spec *spec, unsigned out[KD_
     return found;
 }
 
-/* What a frame shows, in few pixels. */
 static void make_small(struct kd_scene *scene)
 {
     const int32_t width = scene->image.width, height = scene->image.height;

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define VALUES_MAX 400000 /* some 40 fields a scene */
+#define VALUES_MAX 400000 /* some 40 fields for each scene */
 
 enum { ONE, EACH };
 static const char *const exposures[] = { [ONE] = "one", [EACH] = "each" };
@@ -98,7 +98,7 @@ done:
     return status;
 }
 
-/* A scene with axes. */
+/* Parses a scene with axes. */
 static enum kd_status read_sweep(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -117,7 +117,7 @@ done:
     return status;
 }
 
-/* Says what the frames of a film may be: each takes a state of its own, and a playground that they may show. */
+/* Checks that the scene of each keyframe can show the playground. */
 static enum kd_status look_through(struct reader *r, const struct kd_playground *p)
 {
     const struct kd_timeline *timeline = &r->spec->timeline;
@@ -141,7 +141,7 @@ static enum kd_status read_every(struct reader *r)
 
 static const char *named(const struct kd_job_base *base) { return base->preset && *base->preset ? base->preset : NULL; }
 
-/* A film of a playground: frames of a sequence. */
+/* Parses a film of a playground; its frames are a sequence. */
 static enum kd_status read_film(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -205,8 +205,8 @@ static enum kd_status read_output(struct reader *r)
 
 static bool makes_pictures(const struct kd_job_spec *spec) { return spec->series->frame->carries & KD_CARRIES_PICTURE; }
 
-/* Says whether frames have one exposure. What a playground's show is not known before it has moved, and those of
- * axes stand for themselves. */
+/* Parses "exposure". Films of playgrounds have no common exposure, because their frames are not known in advance;
+ * scenes of axes are independent. */
 static enum kd_status read_exposure(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -228,7 +228,7 @@ static enum kd_status read_exposure(struct reader *r)
     return KD_OK;
 }
 
-/* What cannot be blurred, in words; NULL: it can. */
+/* What cannot have motion blur, in words; NULL: it can. */
 static const char *unblurred(const struct reader *r)
 {
     return r->playground              ? "a playground, whose bodies move from frame to frame"

@@ -1,13 +1,13 @@
-/* Visibilities that lie in one bin of time are averaged, each baseline by itself. */
+/* Averages visibilities within bins of time, each baseline separately. */
 #include "observe/reduce.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MJD_1960 36934 /* from where bins are counted */
+#define MJD_1960 36934 /* origin of the bins */
 
-/* Bins of a time that is rounded to a tenth of a second, as it is kept in single precision by uvfits. */
+/* Bin of a time, which is rounded to 0.1 s because uvfits stores it in single precision. */
 static double bin_of(const struct kd_observation *o, double hour, double seconds)
 {
     return floor(((o->mjd - MJD_1960) * 86400 + rint(hour * 36000) / 10) / seconds);
@@ -35,7 +35,7 @@ static bool is_together(const struct keyed *x, const struct keyed *y)
     return x->bin == y->bin && x->m.station[0] == y->m.station[0] && x->m.station[1] == y->m.station[1];
 }
 
-/* The mean of n, whose errors are independent. */
+/* Mean of n visibilities with independent errors. */
 static struct kd_measured mean_of(const struct keyed *at, size_t n)
 {
     struct kd_measured mean = { .station = { at->m.station[0], at->m.station[1] } };

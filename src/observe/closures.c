@@ -1,5 +1,5 @@
 /* Closure phases and log closure amplitudes of one time (A. E. E. Rogers et al. 1974, ApJ 193, 293; A. A. Chael et al.
- * 2018, ApJ 857, 23, eqs. 11 to 15). What is chosen of them is what ehtim's c_phases and c_amplitudes choose. */
+ * 2018, ApJ 857, 23, eqs. 11 to 15). The sets are those of ehtim's c_phases and c_amplitudes. */
 #include "observe/reduce.h"
 
 #include <math.h>
@@ -8,10 +8,8 @@
 
 #define DEG (180 / M_PI)
 
-/* Where the visibility of two stations is among those of a time. */
-struct table {
-    uint32_t at[KD_OBSERVATION_STATIONS][KD_OBSERVATION_STATIONS]; /* one more than its place; 0: there is none */
-};
+/* Finds the visibility of two stations at one time. */
+struct table { uint32_t at[KD_OBSERVATION_STATIONS][KD_OBSERVATION_STATIONS]; /* index plus 1; 0: none */ };
 
 static bool find(const struct table *t, struct kd_comparison_row *row, int k, uint8_t first, uint8_t second)
 {
@@ -23,7 +21,7 @@ static bool find(const struct table *t, struct kd_comparison_row *row, int k, ui
 
 static double snr_of(const struct kd_measured *m) { return hypot(m->re, m->im) / m->sigma; }
 
-/* The phase of the bispectrum: its error is that of three phases, 1/snr each. */
+/* Phase of the bispectrum. Its variance is the sum over the three phases, each with error 1/snr. */
 static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_params *p, struct kd_comparison_row *row)
 {
     double phase = 0, variance = 0;
@@ -38,7 +36,8 @@ static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_p
     return isfinite(variance) && 1 / sqrt(variance) >= p->snr_cut;
 }
 
-/* Noise makes an amplitude too large and its logarithm too small: to second order the latter by half of 1/snr^2. */
+/* Log closure amplitude, debiased: noise increases an amplitude's mean, and decreases its logarithm by 1/(2 snr^2) to
+ * second order. */
 static bool amplitude_of(const struct kd_comparison *c, const struct kd_comparison_params *p,
                          struct kd_comparison_row *row)
 {
@@ -92,7 +91,7 @@ done:
     return status;
 }
 
-/* All: the three of each four stations. */
+/* Maximal set: three closure amplitudes for each four stations. */
 static enum kd_status all_quadrangles(struct kd_comparison *c, const struct table *t,
                                       const struct kd_comparison_params *p, const uint8_t *s, int n,
                                       struct kd_comparison_row *row, struct kd_error *error)
@@ -114,7 +113,7 @@ done:
     return status;
 }
 
-/* A minimal set: with the first station, each from the fourth on, and two of those between. */
+/* Minimal set: the first station, each station from the fourth on, and pairs of those between. */
 static enum kd_status quadrangles(struct kd_comparison *c, const struct table *t, const struct kd_comparison_params *p,
                                   const uint8_t *s, int n, struct kd_comparison_row *row, struct kd_error *error)
 {
@@ -131,7 +130,7 @@ done:
     return status;
 }
 
-/* The maximal set is in the order of the alphabet, the minimal one in that of the list. */
+/* Order of stations: alphabetical for the maximal set, that of the list for the minimal set. */
 static int stations_of(const struct kd_observation *o, const struct table *t, bool sorted,
                        uint8_t out[KD_OBSERVATION_STATIONS])
 {

@@ -1,3 +1,4 @@
+/* Prepares an observation for comparison and computes chi^2 of a model (comparison.h). */
 #include "observe/reduce.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ enum kd_status kd_comparison_add(struct kd_comparison *c, const struct kd_compar
     return KD_OK;
 }
 
-/* Leaves out what is too short, and adds to the errors of the others. */
+/* Leaves out short baselines and adds systematic errors to the rest. */
 static void prepare(struct kd_comparison *c, const struct kd_comparison_params *p)
 {
     size_t n = 0;
@@ -143,7 +144,8 @@ double kd_comparison_residual(const struct kd_comparison_row *row)
     return (row->product == KD_PRODUCT_CLOSURE_PHASE ? remainder(difference, 360) : difference) / row->error;
 }
 
-/* (Chael et al. 2018, eqs. C1 to C4) A phase counts by the chord between data and model. */
+/* Contribution of a row to chi^2 (Chael et al. 2018, eqs. C1 to C4). A phase counts by the chord between data and
+ * model. */
 static double share_of(const struct kd_comparison_row *row)
 {
     const double residual = kd_comparison_residual(row), error = row->error / DEG;
@@ -163,7 +165,7 @@ void kd_comparison_judge(struct kd_comparison *c, const double (*model)[2], doub
         chi2[i] = c->of[i] ? sum[i] / (double)c->of[i] : NAN;
 }
 
-/* Along one axis, x turns a pixel. */
+/* Fourier transform along one axis, x turns for each pixel. */
 static double along(enum kd_pixel_shape pulse, double x)
 {
     const double sinc = fabs(x) < 1e-9 ? 1 : sin(M_PI * x) / (M_PI * x);

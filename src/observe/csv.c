@@ -1,11 +1,11 @@
-/* The EHT's CSV of Stokes I (data product 2019-D01-01): a line of what is observed, a line of columns, and a line for
- * each visibility:
+/* Reads the EHT's CSV of Stokes I (data product 2019-D01-01): a line about the observation, a line of column names, and
+ * a line for each visibility:
  *
  *     #SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz
  *     #time(UTC),T1,T2,U(lambda),V(lambda),Iamp(Jy),Iphase(d),Isigma(Jy)
  *     00.76805556,AA,PV,-4361512960.0000,-4470103552.0000,0.15033433,172.4572,0.00471922
  *
- * Stations stand in the order of the alphabet, as in the same data's uvfits. */
+ * Stations are sorted alphabetically, as in the uvfits of the same data. */
 #include "observe/internal.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ struct line {
     size_t length, number;
 };
 
-/* The next line without its end; false: there is none. */
+/* Reads the next line without its line feed. Returns false at the end. */
 static bool next_line(const char **at, const char *end, struct line *line)
 {
     if (*at == end)
@@ -36,7 +36,7 @@ static bool next_line(const char **at, const char *end, struct line *line)
     return true;
 }
 
-/* A number that fills a text. */
+/* Parses a number that is the complete text. */
 static bool read_number(const char *text, size_t length, double *out)
 {
     char copy[NUMBER], *end;
@@ -48,7 +48,7 @@ static bool read_number(const char *text, size_t length, double *out)
     return end == copy + length && copy[0] != ' ' && isfinite(*out);
 }
 
-/* What follows a name up to the next comma. */
+/* Finds the text between a name and the next comma. */
 static bool find_value(const struct line *line, const char *name, const char **value, size_t *length)
 {
     const size_t n = strlen(name);
@@ -146,7 +146,7 @@ static enum kd_status read_row(const struct line *line, struct kd_observation *o
 
 static int by_name(const void *a, const void *b) { return strcmp(a, b); }
 
-/* Stations into the order of the alphabet. */
+/* Sorts the stations alphabetically. */
 static void sort_stations(struct kd_observation *o)
 {
     char before[KD_OBSERVATION_STATIONS][KD_STATION_NAME];

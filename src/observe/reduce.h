@@ -4,10 +4,10 @@
 
 #include "observe/comparison.h"
 
-/* average.c: a copy of the visibilities, or their means, by time and then by stations; *out is malloc'd. */
+/* average.c: copies or averages the visibilities, sorted by time, then stations; *out is malloc'd. */
 enum kd_status kd_average(const struct kd_observation *observation, double seconds, struct kd_measured **out, size_t *n,
                           struct kd_error *error);
-/* closures.c: adds the rows of those of one time, which are n from `first` on. */
+/* closures.c: adds the rows of one time, whose n visibilities start at `first`. */
 enum kd_status kd_closures(struct kd_comparison *c, const struct kd_observation *observation,
                            const struct kd_comparison_params *params, enum kd_product product, size_t first, size_t n,
                            struct kd_error *error);

@@ -1,9 +1,9 @@
-/* uvfits: visibilities as random groups of the primary HDU, stations in the binary table "AIPS AN" (E. W. Greisen 2020,
- * AIPS Memo 117; FITS Standard 4.0, 6 and 7.3). A reader of our own instead of CFITSIO, because of the whole of FITS
- * this takes two HDUs (docs/decisions/0020-observations-are-read-here.md).
+/* Reads uvfits: visibilities as random groups of the primary HDU, stations in the binary table "AIPS AN" (E. W. Greisen
+ * 2020, AIPS Memo 117; FITS Standard 4.0, 6 and 7.3). It does not use CFITSIO, because only two HDUs of FITS are needed
+ * (docs/decisions/0020-observations-are-read-here.md).
  *
- * Stokes I is the mean of RR and LL, or either where the other has no weight; channels and IFs are averaged by their
- * weights, at the frequency of the table of stations, as ehtim does. */
+ * Stokes I is the mean of RR and LL, or one of them if the other has no weight. Channels and IFs are averaged by their
+ * weights, at the frequency in the table of stations, as in ehtim. */
 #include "observe/internal.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ enum { BLOCK = 2880, CARD = 80, CARDS = 100 * 36, AXES = 7, PARAMETERS = 32, ELE
 
 struct hdu {
     const char *cards;
-    size_t n_cards, begin, size; /* of its data, and that with its padding left out */
+    size_t n_cards, begin, size; /* begin, size: of its data, without padding */
 };
 
 struct file {
@@ -24,7 +24,7 @@ struct file {
     struct kd_error *error;
 };
 
-/* The value of a card, behind its "= "; NULL: there is none. */
+/* Returns the value of a card behind "= "; NULL: no such card. */
 static const char *find_card(const struct hdu *hdu, const char *key)
 {
     char begin[11];
@@ -56,7 +56,7 @@ static double number_or(const struct hdu *hdu, const char *key, double otherwise
     return read_number(hdu, key, &x) ? x : otherwise;
 }
 
-/* Text between quotes, without trailing blanks; "" where there is none. */
+/* Reads quoted text without trailing blanks; "" if there is none. */
 static void read_text(const struct hdu *hdu, const char *key, char *out, size_t size)
 {
     const char *card = find_card(hdu, key);
@@ -69,10 +69,10 @@ static void read_text(const struct hdu *hdu, const char *key, char *out, size_t 
     out[n] = 0;
 }
 
-/* NAXIS2 and its like; find_card takes the first eight letters. */
+/* Makes a keyword with a number, such as NAXIS2; find_card uses its first eight letters. */
 static void numbered(char out[KEY], const char *key, int i) { snprintf(out, KEY, "%.6s%d", key, i); }
 
-/* A card that must be a whole number of least to most. */
+/* Reads a card that must be an integer from least to most. */
 static enum kd_status read_whole(const struct file *f, const struct hdu *hdu, const char *key, double least,
                                  double most, size_t *out)
 {
@@ -86,7 +86,7 @@ static enum kd_status read_whole(const struct file *f, const struct hdu *hdu, co
     return KD_OK;
 }
 
-/* The cards of the HDU that begins here, up to END; its data begin at the next block. */
+/* Finds the cards of the HDU that begins at `at`, up to END; its data begin at the next block. */
 static enum kd_status read_header(const struct file *f, size_t at, struct hdu *hdu)
 {
     *hdu = (struct hdu) { .cards = (const char *)f->data + at };
@@ -104,7 +104,7 @@ static enum kd_status read_header(const struct file *f, size_t at, struct hdu *h
 /* ---- the stations ---- */
 
 struct column {
-    size_t at, size; /* of a row; size 0: it is not there */
+    size_t at, size; /* within a row; size 0: no such column */
     char type;
 };
 
@@ -162,7 +162,7 @@ static double real(const uint8_t *at, bool is_double)
     return (double)x;
 }
 
-struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each of the list */ };
+struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each station in the list */ };
 
 static enum kd_status read_stations(const struct file *f, const struct hdu *hdu, struct kd_observation *o,
                                     struct stations *out)
@@ -173,7 +173,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
     enum kd_status status;
     KD_TRY(read_whole(f, hdu, "NAXIS1", 1, 1 << 16, &row));
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
-    if (row * rows > f->size - hdu->begin) /* NAXIS and BITPIX, which say how long the table is, may be anything */
+    if (row * rows > f->size - hdu->begin) /* NAXIS and BITPIX, which determine the table's length, may be wrong */
         return kd_error_set(f->error, KD_EINVAL,
                             "the table AIPS AN has %zu rows of %zu bytes; the uvfits must have as many, and ends %zu "
                             "bytes behind its header",
@@ -190,7 +190,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
         const double here = (sefd.type == 'D' && sefd.size == 8) || (sefd.type == 'E' && sefd.size == 4)
                                 ? real(at + sefd.at, sefd.type == 'D')
                                 : 0;
-        for (; k && noise[k - 1] > here; k--) { /* the quietest first, else as in the table */
+        for (; k && noise[k - 1] > here; k--) { /* sorted by noise; equals in the order of the table */
             noise[k] = noise[k - 1], out->number[k] = out->number[k - 1];
             memcpy(o->station[k], o->station[k - 1], sizeof o->station[k]);
         }
@@ -202,7 +202,7 @@ done:
     return status;
 }
 
-/* The table of stations, among the HDUs behind the groups. */
+/* Finds the table of stations among the HDUs behind the groups. */
 static enum kd_status find_stations(const struct file *f, size_t at, struct hdu *hdu)
 {
     enum kd_status status = KD_OK;
@@ -233,15 +233,15 @@ done:
 /* ---- the groups ---- */
 
 struct parameter {
-    size_t at; /* among the parameters of a group */
+    size_t at; /* index among the parameters of a group */
     double scale, zero;
     bool there;
 };
 
 struct groups {
     struct hdu hdu;
-    size_t n, parameters, elements, bytes; /* bytes: of a number */
-    size_t hands, hand_step;               /* of STOKES: how many, and numbers from one to the next */
+    size_t n, parameters, elements, bytes; /* bytes: size of a number */
+    size_t hands, hand_step;               /* number of polarizations in STOKES, and the step between them in numbers */
     size_t channels, channel_step, ifs, if_step;
     bool circular; /* RR and LL; else I */
     struct parameter u, v, baseline, date[2];
@@ -340,7 +340,7 @@ static enum kd_status open_groups(const struct file *f, struct groups *g)
     KD_TRY(read_whole(f, &g->hdu, "GCOUNT", 1, KD_OBSERVATION_ROWS, &g->n));
     KD_TRY(find_parameters(f, g));
     g->scale = number_or(&g->hdu, "BSCALE", 1), g->zero = number_or(&g->hdu, "BZERO", 0);
-    const size_t group = (g->parameters + g->elements) * g->bytes; /* at most 2^19, times 2^20 groups */
+    const size_t group = (g->parameters + g->elements) * g->bytes; /* no overflow: at most 2^19, times 2^20 groups */
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
         return kd_error_set(
             f->error, KD_EINVAL,
@@ -356,7 +356,7 @@ static double parameter_of(const struct groups *g, const uint8_t *group, const s
     return p->there ? real(group + p->at * g->bytes, g->bytes == 8) * p->scale + p->zero : 0;
 }
 
-/* A hand's mean over channels by their weights; returns the sum of these, 0: none has one. */
+/* Mean of a polarization over channels by their weights. Returns the sum of the weights; 0: no data. */
 static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, double mean[2])
 {
     double weight = 0;
@@ -376,11 +376,11 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* In single precision, as weights are, and as ehtim has it: where an amplitude is no larger than its error, sqrt(|V|^2
- * - sigma^2) tells the difference. */
+/* Error of a weight, in single precision like the weights and like ehtim: where an amplitude is about its error, the
+ * result of sqrt(|V|^2 - sigma^2) depends on it. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
-/* Stokes I and its error; false: no weight. */
+/* Reads Stokes I and its error. Returns false without a positive weight. */
 static bool read_light(const struct groups *g, const uint8_t *data, struct kd_measured *m)
 {
     double value[2][2], weight[2] = { 0 };
@@ -430,7 +430,8 @@ static enum kd_status read_group(const struct file *f, const struct groups *g, c
                             i + 1, baseline);
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline / 256, &m.station[0]));
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline % 256, &m.station[1]));
-    m.hour = parameter_of(g, group, &g->date[0]) + parameter_of(g, group, &g->date[1]); /* a Julian date, so far */
+    /* Julian date, converted by count_hours */
+    m.hour = parameter_of(g, group, &g->date[0]) + parameter_of(g, group, &g->date[1]);
     m.u = parameter_of(g, group, &g->u) * o->frequency_hz, m.v = parameter_of(g, group, &g->v) * o->frequency_hz;
     if (!(fabs(m.hour) < 1e7))
         return kd_error_set(f->error, KD_EINVAL, "DATE of visibility %zu of the uvfits is %g; it must be a Julian date",
@@ -440,7 +441,7 @@ done:
     return status;
 }
 
-/* Julian dates become hours of the day of the first. */
+/* Converts Julian dates to hours of the first day. */
 static void count_hours(struct kd_observation *o)
 {
     double first = INFINITY;

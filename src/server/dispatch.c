@@ -27,7 +27,8 @@
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
-#define PACE ((size_t)960000) /* bytes of a body within the time for one that is small: 32 kB/s of the default */
+/* bytes of a body for which the basic deadline is enough: 32 kB/s for the default of 30 s */
+#define PACE ((size_t)960000)
 
 static int socket_of(struct MHD_Connection *mhd)
 {
@@ -51,7 +52,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_prompt_thread(); /* a daemon's thread has no other beginning that is ours */
+            kd_prompt_thread(); /* no earlier code of ours runs on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -63,9 +64,9 @@ static void stage(struct kd_request *request, enum kd_stage to)
     kd_connections_stage(request->server->connections, request->connection, to, 0);
 }
 
-/* libmicrohttpd takes the query apart by itself, into memory of the connection; some hundred parameters exhaust
- * that, and it then waits for ever (0.9.75). Here it has not begun yet, and without "&" there is one: target.c reads
- * the query from our copy. */
+/* libmicrohttpd 0.9.75 parses the query itself, into memory of the connection; some hundred parameters exhaust it, and
+ * the connection then hangs. At this point it has not begun yet, and without "&" it finds one parameter; target.c
+ * parses the query from our copy. */
 static void hide_pairs(const char *uri)
 {
     union {
@@ -88,7 +89,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->mhd = mhd;
     request->connection = connection_of(mhd);
     request->close = kd_connection_is_health(
-        request->connection); /* its next request may be anything, and is for the other daemon */
+        request->connection); /* the next request on the connection may belong to the other daemon */
     kd_client_of(mhd, request->client);
     request->raw = strdup(uri);
     if (request->raw && kd_target_origin(request->raw, &request->authority)) {
@@ -136,7 +137,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     atomic_fetch_sub(&server->requests, 1);
 }
 
-/* What a request's body is, and how many bytes it may hold. */
+/* Name and size limit of a request's body. */
 static struct most {
     const char *what;
     size_t bytes;
@@ -146,7 +147,8 @@ static struct most {
     case KD_TAKES_RAYS: return (struct most) { "a body of rays", KD_RAYS_BODY_MAX };
     case KD_TAKES_ORBITS: return (struct most) { "a body of orbits", KD_ORBIT_BODY_MAX };
     case KD_TAKES_INTEGRAL: return (struct most) { "a body of an integral", KD_INTEGRAL_BODY_MAX };
-    case KD_TAKES_PLAN: return (struct most) { "a body of a job", KD_JOB_BODY_MAX }; /* that of a job, if it has axes */
+    /* with axes, the body is that of a job */
+    case KD_TAKES_PLAN: return (struct most) { "a body of a job", KD_JOB_BODY_MAX };
     case KD_TAKES_JOB: return (struct most) { "a body of a job with a playground", KD_JOB_FILM_MAX };
     case KD_TAKES_PLAYGROUND: return (struct most) { "a playground's document", KD_PLAYGROUND_JSON_MAX };
     case KD_TAKES_ASSET: return (struct most) { "an asset", KD_ASSET_BYTES };
@@ -193,7 +195,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
            !kd_media_type_is(type, all[i].other);
 }
 
-/* A sentence that has to be made is in text. */
+/* Whether the announced body must be refused; *problem may point into text. */
 static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
@@ -217,9 +219,8 @@ static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], s
     return refused;
 }
 
-/* A page of another site may have anything loaded by its visitors' browsers, which say so (Fetch Metadata, W3C).
- * What it could make a server do that it cannot reach itself is refused, but for a visit: a link to a picture is
- * one. */
+/* Whether a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
+ * the visitor's access to this server, so the request is refused, unless it is a visit, such as a link to a picture. */
 static bool is_foreign(const struct kd_request *request)
 {
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
@@ -231,7 +232,7 @@ static bool is_foreign(const struct kd_request *request)
     return !visit && !strncmp(request->route->path, "/v1/", 4);
 }
 
-/* Who may use nothing here does not learn either what there is. */
+/* Finds the route and checks access. Clients without access do not learn which routes exist. */
 static bool find_route(struct kd_request *request, struct kd_problem *problem)
 {
     struct kd_problem nowhere;
@@ -247,7 +248,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem)
     return found;
 }
 
-/* What has no name yet when it is asked for: what has one is found first, and then compared with If-Match. */
+/* Whether the request creates an object whose address is not known before, so that If-Match cannot hold. For objects
+ * with an address the handler compares it. */
 static bool makes_something(const struct kd_request *request)
 {
     return !request->route->question && !strchr(request->route->path, '{') &&
@@ -256,14 +258,14 @@ static bool makes_something(const struct kd_request *request)
 
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
-/* OPTIONS of the server as a whole: of "*", or of an address without a path (RFC 9112 3.2.4). */
+/* OPTIONS for the whole server: of "*", or of an address without a path (RFC 9112 3.2.4). */
 static bool asks_of_all(const struct kd_request *request)
 {
     return is_options(request) && !request->body_announced &&
            (!strcmp(request->raw, "*") || (request->authority && !strcmp(request->raw, "/")));
 }
 
-/* True when the request may go on; else *result is that of having answered it. */
+/* Decides whether the request is handled. Returns false with *result if it has been answered. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
@@ -280,7 +282,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
                                         .retry_after = 1,
                                         .close = true,
                                         .detail = "more connections are open than this server takes" };
-    else if (kd_cors_is_preflight(request)) { /* without a token: browsers send none */
+    else if (kd_cors_is_preflight(request)) { /* browsers send preflights without a token */
         *result = kd_cors_preflight(request);
         return false;
     } else if (asks_of_all(request)) {
@@ -316,7 +318,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     return false;
 }
 
-/* Of several lines none counts: one value is allowed. */
+/* Reads traceparent. Several lines are malformed, so they are ignored. */
 static void read_trace(struct kd_request *request)
 {
     struct kd_buffer value = kd_reply_header_list(request, "traceparent");
@@ -324,8 +326,8 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* The header is complete. What announces a body is refused by its header where it can be. The library closes
- * the connection after an answer at this point, so all else is answered at the next call. */
+/* Handles the complete header. Announced bodies are refused here if possible. libmicrohttpd closes the connection after
+ * an answer at this point, so requests without a body are answered in the next call. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;
@@ -352,7 +354,8 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     return MHD_YES;
 }
 
-/* libmicrohttpd takes no reply in the middle of a body, so this one goes round it and the connection ends. */
+/* Refuses in the middle of a body. libmicrohttpd cannot answer then, so the answer is written to the socket and the
+ * connection closed. */
 static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type type, const char *detail)
 {
     request->status = kd_problem_status(type);
@@ -382,7 +385,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
     }
     kd_once_take(request, data, *size);
     *size = 0;
-    if (all - request->body_mark >= PACE) { /* it keeps up, and has as long for the next part */
+    if (all - request->body_mark >= PACE) { /* it is fast enough; the next part gets the same time */
         request->body_mark = all;
         stage(request, KD_STAGE_BODY);
     }
@@ -395,7 +398,7 @@ enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const c
     struct kd_request *request = *state;
     (void)cls, (void)url;
     kd_library_works_on(socket_of(mhd));
-    if (!request) /* no memory for it */
+    if (!request) /* out of memory */
         return kd_reply_bare(mhd);
     if (!request->begun) {
         request->begun = true;

@@ -11,15 +11,13 @@
 #include <poll.h>
 #include <unistd.h>
 
-#define TICK_MS 100 /* how late a deadline or a vanished client may be noticed */
-#define LAST_ANSWERS_MS \
-    10e3 /* for clients to take the answers under way when nothing else is left, or when what is left hangs in the \
-            driver */
+#define TICK_MS 100          /* interval of checks for deadlines and disconnected clients */
+#define LAST_ANSWERS_MS 10e3 /* time for sending the last answers, and limit of waiting for a hanging driver */
 
 static void sleep_a_tick(struct kd_server *server)
 {
     struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
-    /* Once readable it stays so: on the way down the tick is a plain sleep. */
+    /* The eventfd stays readable, so during the shutdown poll would not wait for it. */
     if (atomic_load(&server->phase) == KD_SERVING)
         poll(&p, 1, TICK_MS);
     else
@@ -48,7 +46,7 @@ static bool cut_short(struct kd_server *server)
     return atomic_load(&server->abandon) || hangs(server) || kd_render_queue_lost(server->renders, NULL);
 }
 
-/* Requests that are computed for; each may be of several works. */
+/* Counts unfinished work; a request may consist of several pieces. */
 static unsigned unfinished(struct kd_server *server)
 {
     return kd_render_queue_unfinished(server->renders) + kd_turns_unfinished(server->rays) +
@@ -73,7 +71,7 @@ static void cancel_all(struct kd_server *server)
     kd_turns_cancel(server->turns);
 }
 
-/* The time that accepted work may take is over. */
+/* Cancels accepted work whose time is over. */
 static void end_the_rest(struct kd_server *server)
 {
     if (!atomic_load(&server->ended))
@@ -83,7 +81,7 @@ static void end_the_rest(struct kd_server *server)
     cancel_all(server);
 }
 
-/* One look; *since is when the present phase began. True when all is done. */
+/* Advances the shutdown by one check; *since is the start of the present phase. Returns true when all is done. */
 static bool step_down(struct kd_server *server, double *since)
 {
     double age = kd_clock_ms() - *since;
@@ -113,7 +111,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
-        kd_thumbnails_cancel(server->thumbnails); /* who came in between */
+        kd_thumbnails_cancel(server->thumbnails); /* requests that came meanwhile */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }
@@ -132,7 +130,7 @@ void *kd_keeper_main(void *user)
         kd_plays_sweep(server->plays);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
-    if (!hangs(server)) { /* nothing is suspended: the queues have finished, and take no more */
+    if (!hangs(server)) { /* no connection is suspended: the queues are empty and closed */
         stop_listening(server);
         MHD_stop_daemon(server->daemon);
         MHD_stop_daemon(server->health_daemon);

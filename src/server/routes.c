@@ -1,3 +1,4 @@
+/* Table of routes, declared in http/route.h. */
 #include "server/http/route.h"
 
 #define JSON "application/json"

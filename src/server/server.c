@@ -38,8 +38,8 @@ static bool add_host(struct kd_server *server, size_t *n, const char *name)
     return server->hosts[(*n)++];
 }
 
-/* Loopback by name and number, the listening address if it is one address, else the machine's own ones and its name,
- * the host of the public URL, and what the caller adds. */
+/* Collects the accepted Host names: loopback by name and number; the listening address, or on a wildcard address the
+ * machine's own addresses and name; the host of the public URL; and those of the caller. */
 static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *public_host,
                                     const char *const *more, struct kd_error *error)
 {
@@ -68,7 +68,7 @@ static enum kd_status collect_hosts(struct kd_server *server, const char *listen
     return good && server->hosts ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
-/* What decides a picture besides its scene. */
+/* Computes what a picture depends on besides its scene. */
 static void set_etag_tail(struct kd_server *server)
 {
     const char *device = kd_render_queue_device_name(server->renders);
@@ -87,7 +87,7 @@ static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connec
         kd_request_connection, server, MHD_OPTION_END);
 }
 
-/* The daemons' own limits lie above ours, so that they never close a connection without a word. */
+/* The daemons' own limits are above ours, so that they never close a connection without an answer. */
 static enum kd_status start_http(struct kd_server *server, int listener, unsigned connections, struct kd_error *error)
 {
     server->daemon = start_daemon(server, 2 * kd_connections_most(connections));
@@ -109,7 +109,7 @@ static enum kd_status start_keeper(struct kd_server *server, struct kd_error *er
     return KD_OK;
 }
 
-/* How many of a limit one client may have: one at least. */
+/* A client's share of a limit, at least one. */
 static unsigned share_of(const struct kd_server_params *params, unsigned limit)
 {
     unsigned percent = or_default(params->client_share, 75);
@@ -239,7 +239,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_public_url_make(params->public_url, &server->base, &server->public_url, &public_host, error));
     KD_TRY(collect_hosts(server, address, public_host, params->hosts, error));
     KD_TRY(kd_kept_create(server->base.path, server->access != NULL, &server->kept, error));
-    /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
+    /* Opens the socket first: opening a device takes long, and "address in use" is the most common failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);
     KD_TRY(make_assets(server, params, error));
@@ -255,11 +255,11 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(start_sessions(server, params, error));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    if (params->state) /* behind the jobs, which lock the folder, and before they go on: they may need them */
+    if (params->state) /* after the jobs, which lock the folder, and before kd_jobs_begin, since jobs may use assets */
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
     kd_jobs_begin(server->jobs);
     const int listening = fd;
-    fd = -1; /* from here on it is HTTP's to close */
+    fd = -1; /* from here on closed by the front */
     KD_TRY(start_http(server, listening, connections, error));
     KD_TRY(start_keeper(server, error));
 done:
@@ -296,7 +296,7 @@ void kd_server_stop(struct kd_server *server)
     uint64_t one = 1;
     atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
     if (write(server->stop_fd, &one, sizeof one) < 0) {
-        /* The counter is full: the keeper has been woken often enough. */
+        /* The counter is full, so the keeper has been woken. */
     }
 }
 
@@ -335,7 +335,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_turns_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
-    kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
+    kd_sessions_destroy(server->sessions); /* after the queue, whose last frames refer to sessions */
     kd_jobs_destroy(server->jobs);
     kd_asset_store_close(server->assets);
     kd_connections_destroy(server->connections);

@@ -1,4 +1,4 @@
-/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. It sees no Vulkan type. */
+/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. It uses no Vulkan type. */
 #ifndef KD_SERVER_SERVER_H
 #define KD_SERVER_SERVER_H
 
@@ -10,56 +10,56 @@
 struct kd_server;
 
 struct kd_server_params {
-    const char *listen; /* numeric address, default "127.0.0.1" */
-    uint16_t port;      /* 0: any free port */
-    const char
-        *base_path; /* what stands before every path, as a proxy passes it on: "/some/prefix"; NULL or "": nothing */
-    const char *public_url;   /* by which others reach the page (http/public_url.h); NULL: by the Host of a request */
+    const char *listen;       /* numeric address, default "127.0.0.1" */
+    uint16_t port;            /* 0: any free port */
+    const char *base_path;    /* prefix of every path, set by a proxy: "/some/prefix"; NULL or "": none */
+    const char *public_url;   /* public address of the page (http/public_url.h); NULL: taken from the request's Host */
     const char *const *hosts; /* Host names to accept besides loopback's, without port; NULL-terminated */
-    unsigned queue;           /* renders that may wait, default 16 */
-    unsigned sessions;        /* live ones at once, default 16 */
-    unsigned session_ms;      /* that one lives on unwatched, default 60 000 */
-    unsigned playgrounds;     /* at once, default 16; what session_ms says holds for them too */
-    unsigned playgrounds_kib; /* of memory that all of them may take, default 1 GiB */
-    unsigned jobs;            /* unfinished ones, default 16 */
-    unsigned client_share;    /* percent of connections, renders that wait, sessions and jobs that one client may have;
-                                 default 75 */
-    unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
-    unsigned client_device_s; /* seconds of the device's time that one client may use in a minute; 0: all */
-    const char *const *cors_origins;  /* of pages that may use it and read its answers (http/cors.h), NULL-terminated;
-                                         NULL: none but its own */
-    const char *const *embed_origins; /* of pages that may do so, and have /embed in a frame, NULL-terminated; NULL */
-    bool cross_site;                  /* take requests that pages of other sites make */
-    unsigned jobs_kib;                /* bytes of the frames of all jobs, default 16 GiB */
-    unsigned assets, assets_kib;      /* assets at once, and the size of all of them; default 64 and 256 MiB */
-    unsigned asset_keep_s;  /* how long an asset stays that nobody asks for, if others want its room; default a day */
-    const char *token_file; /* who may use it, and how (http/access.h); NULL: everybody may do everything */
-    const char *state;      /* a folder in which jobs and assets survive a restart; NULL: none */
-    unsigned drain_ms;      /* how long it goes on serving after a stop request, with /readyz failing; default 1000 */
-    unsigned
-        drain_s; /* how long after a stop request accepted work may take; what is left then is cancelled. Default 600 */
-    unsigned rest_ms;     /* without anything to do before memory is given back; default 60 000 */
-    unsigned connections; /* connections at once; one more is answered 503, but on the health routes; default 512 */
-    unsigned header_ms;   /* a request's header must be complete by then; default 10 000 */
-    unsigned body_ms;     /* and its body so long after that; default 30 000 */
-    unsigned longest_s;   /* a render estimated to take longer than this is refused with 422; default 600 */
-    unsigned reopenings;  /* of a device that fails, within ten minutes; default 3, UINT_MAX: none */
+    unsigned queue;           /* waiting renders, default 16 */
+    unsigned sessions;        /* live sessions, default 16 */
+    unsigned session_ms;      /* a session without viewers ends after this time, default 60 000 */
+    unsigned playgrounds;     /* playground sessions, default 16; session_ms applies to them too */
+    unsigned playgrounds_kib; /* memory of all playgrounds, default 1 GiB */
+    unsigned jobs;            /* unfinished jobs, default 16 */
+    /* percent of the limits of connections, waiting renders, sessions and jobs that one client may use; default 75 */
+    unsigned client_share;
+    unsigned client_jobs;     /* unfinished jobs of one client; 0: by client_share */
+    unsigned client_device_s; /* seconds of device time that a client may use in a minute; 0: no limit */
+    /* origins whose pages may use the server and read its answers (http/cors.h), NULL-terminated; NULL: none but its
+     * own */
+    const char *const *cors_origins;
+    /* origins with the same right whose pages may also show /embed in a frame, NULL-terminated; or NULL */
+    const char *const *embed_origins;
+    bool cross_site;             /* accept requests made by pages of other sites */
+    unsigned jobs_kib;           /* size of the frames of all jobs, default 16 GiB */
+    unsigned assets, assets_kib; /* number of assets and their total size; default 64 and 256 MiB */
+    unsigned asset_keep_s;       /* an asset unused for this long may be evicted for a new one; default: a day */
+    const char *token_file;      /* access tokens and roles (http/access.h); NULL: everybody may send every request */
+    const char *state;           /* folder for jobs and assets, which then survive a restart; NULL: none */
+    unsigned drain_ms;           /* after a stop request it serves for this long while /readyz fails; default 1000 */
+    unsigned drain_s;     /* accepted work still unfinished this long after a stop request is cancelled; default 600 */
+    unsigned rest_ms;     /* unneeded memory is freed after this time without work; default 60 000 */
+    unsigned connections; /* open connections; further ones get 503 except on the health routes; default 512 */
+    unsigned header_ms;   /* deadline of a request's header; default 10 000 */
+    unsigned body_ms;     /* deadline of its body after that; default 30 000 */
+    unsigned longest_s;   /* renders estimated to take longer are refused with 422; default 600 */
+    unsigned reopenings;  /* reopenings of a failed device within ten minutes; default 3; UINT_MAX: none */
     struct kd_renderer_params renderer;
 };
 
-/* Opens the device, starts the render thread and listens. params and its strings are not needed after the
- * call. A zero in it means the default; drain_ms UINT_MAX means no drain. */
+/* Opens the device, starts the render thread and listens. params and its strings may be freed after the call. Zero
+ * selects the default; drain_ms UINT_MAX means no drain. */
 enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out, struct kd_error *error);
 uint16_t kd_server_port(const struct kd_server *server);
-/* The addresses of this machine and its name, by which a server that listens on every address is reached,
- * NULL-terminated; else NULL. */
+/* The machine's addresses and name if the server listens on a wildcard address, NULL-terminated; else NULL. */
 const char *const *kd_server_own_names(const struct kd_server *server);
-/* Begin to stop: /readyz fails at once, running and queued renders finish. Async-signal-safe. */
+/* Begins to stop: /readyz fails at once; running and queued renders finish. Async-signal-safe. */
 void kd_server_stop(struct kd_server *server);
-/* Block until stopped and drained. KD_EDEVICE when the device was lost for good, or hangs: end the process soon, by
- * _exit and without kd_server_destroy, which would wait for threads that may never come back. */
+/* Blocks until the server has stopped. Returns KD_EDEVICE if the device was lost for good or hangs: then end the
+ * process by _exit, without kd_server_destroy, which would wait for threads that may never return. */
 enum kd_status kd_server_wait(struct kd_server *server, struct kd_error *error);
-/* Destroys the server. Without a stop before it, running renders are cancelled and nothing is drained. Accepts NULL. */
+/* Destroys the server. If it was not stopped before, running renders are cancelled and nothing is drained. Accepts
+ * NULL. */
 void kd_server_destroy(struct kd_server *server);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Between and around n allocations lie at most n + 1 gaps. */
+/* n allocations leave at most n + 1 gaps. */
 static bool reserve(struct kd_vk_arena *arena, size_t gaps)
 {
     if (gaps <= arena->capacity)

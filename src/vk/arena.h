@@ -1,5 +1,5 @@
-/* An arena knows which bytes of one range are free: offsets only, no memory. First fit in address order; neighbours
- * coalesce. Pure bookkeeping, not thread-safe. */
+/* Arena: records which bytes of a range are free. Offsets only, no memory. First fit in address order; neighbours
+ * coalesce. Not thread-safe. */
 #ifndef KD_VK_ARENA_H
 #define KD_VK_ARENA_H
 
@@ -10,17 +10,17 @@
 struct kd_vk_span { uint64_t begin, end; };
 
 struct kd_vk_arena {
-    struct kd_vk_span *free; /* ascending, never touching one another */
+    struct kd_vk_span *free; /* sorted; spans never touch one another */
     size_t n_free, capacity;
-    size_t live; /* allocations */
+    size_t live; /* number of allocations */
     uint64_t size;
 };
 
-bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* false: no host memory */
+bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* false: out of host memory */
 void kd_vk_arena_finish(struct kd_vk_arena *arena);
-/* alignment is a power of two. False when there is no such gap (or no host memory). */
+/* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or out of host memory. */
 bool kd_vk_arena_take(struct kd_vk_arena *arena, uint64_t size, uint64_t alignment, uint64_t *offset);
-/* Give back exactly what was taken. Cannot fail: take has made room for the span. */
+/* Returns exactly the range that was taken. Cannot fail: take has reserved room for the span. */
 void kd_vk_arena_give(struct kd_vk_arena *arena, uint64_t offset, uint64_t size);
 
 #endif

@@ -1,4 +1,4 @@
-/* Barriers are recorded here, and nowhere else. */
+/* Records pipeline barriers; no other file does. */
 #ifndef KD_VK_BARRIER_H
 #define KD_VK_BARRIER_H
 

@@ -47,7 +47,7 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
         name = "unnamed";
     if (!size)
         return kd_error_set(error, KD_EINTERNAL, "buffer '%s' has no bytes", name);
-    /* The size is checked before vkCreateBuffer, which need not cope with any size. */
+    /* The size is checked before vkCreateBuffer, which need not accept every size. */
     if (size > vk->physical.info.max_allocation_bytes)
         return kd_error_set(error, KD_ENOMEM, "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once",
                             name, (double)size / 0x1p20, (double)vk->physical.info.max_allocation_bytes / 0x1p20);
@@ -67,7 +67,7 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
         return kd_error_set(error, status, "buffer '%s': %s", name, why.message);
     }
     kd_vk_mapped_enter(vk, buffer);
-    if (vk->compiles_only && memory == KD_VK_READBACK) /* no kernel will write what the host reads */
+    if (vk->compiles_only && memory == KD_VK_READBACK) /* no kernel will write it */
         memset(kd_vk_buffer_map(buffer), 0, size);
     *out = buffer;
     return KD_OK;

@@ -1,4 +1,4 @@
-/* This is the inside of a buffer. */
+/* Struct of a buffer, private to this layer. */
 #ifndef KD_VK_BUFFER_H
 #define KD_VK_BUFFER_H
 
@@ -7,14 +7,14 @@
 #include "vk/vk.h"
 
 struct kd_vk_buffer {
-    struct kd_vk_retired retired; /* first: retire.c knows only this part */
+    struct kd_vk_retired retired; /* first member: retire.c uses only this part */
     VkBuffer handle;
     struct kd_vk_slice slice;
     uint64_t id, size;
     enum kd_vk_memory memory;
     struct kd_vk_buffer *next_mapped; /* in kd_vk.mapped */
     uint64_t read, written, seen;     /* mapped.h */
-    struct kd_vk_view *views;         /* view.h */
+    struct kd_vk_view *views;         /* cached texel views, view.h */
     char name[64];
 };
 

@@ -13,16 +13,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Stands before the driver's data. Drivers trust what they are given more than they should, so damage is found here. */
+/* Header of the file, before the driver's data. Drivers do not check these data sufficiently, so damage is detected
+ * here. */
 struct envelope {
     char magic[8];
     uint64_t bytes, hash;
 };
 static const char magic[8] = "kdpipe1";
 #define SUFFIX ".pipelines"
-#define FILE_MAX ((size_t)256 << 20) /* drivers keep some MiB; what is larger is not ours */
+#define FILE_MAX ((size_t)256 << 20) /* drivers store some MiB; a larger file is not ours */
 
-/* Is this the data of this very device and driver? The layout is Vulkan's VkPipelineCacheHeaderVersionOne. */
+/* Whether the data are for this device and driver, by Vulkan's VkPipelineCacheHeaderVersionOne. */
 static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size)
 {
     const VkPhysicalDeviceProperties *device = &vk->physical.properties;
@@ -35,7 +36,7 @@ static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size
            words[3] == device->deviceID && !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
 }
 
-/* NULL when there is to be none, or nowhere to put it. */
+/* Returns NULL if there is to be no file, or no folder for it. */
 static char *path_of(const struct kd_vk *vk, const char *dir)
 {
     const VkPhysicalDeviceProperties *device = &vk->physical.properties;
@@ -44,7 +45,7 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
     int n;
     if (dir)
         n = snprintf(base, sizeof base, "%s", dir);
-    else if (xdg && xdg[0] == '/') /* the specification wants relative ones ignored */
+    else if (xdg && xdg[0] == '/') /* the XDG specification says to ignore relative paths */
         n = snprintf(base, sizeof base, "%s/kerrd", xdg);
     else if (home && home[0])
         n = snprintf(base, sizeof base, "%s/.cache/kerrd", home);
@@ -60,7 +61,7 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
     return path;
 }
 
-/* The driver's data within the file, or NULL. */
+/* Returns the driver's data in the file, or NULL if it is damaged. */
 static const uint8_t *open_envelope(const struct kd_vk *vk, const struct kd_buffer *file, size_t *size)
 {
     struct envelope envelope;

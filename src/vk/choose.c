@@ -13,7 +13,7 @@ static void list_names(const struct kd_vk_info *infos, size_t count, char *out, 
                                  infos[i].missing[0] ? " (unusable)" : "");
 }
 
-/* The better of two devices of one type has double precision, or else computes more lanes at once. */
+/* Among devices of one type prefers double precision, then wider subgroups. */
 static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     if (a->type != b->type)
@@ -23,7 +23,7 @@ static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
     return a->subgroup_size > b->subgroup_size;
 }
 
-/* Finds the best usable device whose name contains `part` ("": all), the first of equals; count when there is none. */
+/* Finds the best usable device whose name contains `part` ("": any), the first of equals; count if there is none. */
 static size_t best(const struct kd_vk_info *infos, size_t count, const char *part, size_t *matches)
 {
     size_t found = count;

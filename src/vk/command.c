@@ -1,3 +1,4 @@
+/* Records dispatches, copies and fills, with their barriers and timestamps (vk.h). */
 #include "vk/barrier.h"
 #include "vk/buffer.h"
 #include "vk/device.h"
@@ -9,9 +10,9 @@
 
 #include <inttypes.h>
 
-enum { COUNTS_BYTES = 12 }; /* of a dispatch whose size a kernel has written */
+enum { COUNTS_BYTES = 12 }; /* of an indirect dispatch */
 
-/* The bytes a binding means: whole texels, if it is one of texels. */
+/* Bytes of a binding; of texels only complete ones. */
 static uint64_t size_of(const struct kd_vk_binding *binding, enum kd_vk_kind kind)
 {
     uint64_t size = binding->size ? binding->size : binding->buffer->size - binding->offset;
@@ -24,7 +25,7 @@ static bool inside(const struct kd_vk_buffer *buffer, uint64_t offset, uint64_t 
     return offset <= buffer->size && size <= buffer->size - offset;
 }
 
-/* What this device binds at most of a kind, in bytes. */
+/* Largest binding of a kind on this device, in bytes. */
 static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
 {
     const struct kd_vk_info *info = &vk->physical.info;
@@ -32,7 +33,7 @@ static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
     return texel ? info->max_texels * texel : kind == KD_VK_UNIFORM ? info->max_uniform_bytes : info->max_binding_bytes;
 }
 
-/* Beyond what holds for every kind. */
+/* Checks the rules that differ between kinds. */
 static enum kd_status check_kind(const struct kd_vk *vk, const char *pass, uint32_t index,
                                  const struct kd_vk_binding *binding, enum kd_vk_kind kind, struct kd_error *error)
 {
@@ -178,7 +179,8 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
         vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes,
                                 dispatch->push);
     dispatch_groups(vk, slot->commands, dispatch);
-    ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk); /* ours to write, not the caller's */
+    /* const for callers only; the layer may write it */
+    ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk);
 done:
     return status;
 }

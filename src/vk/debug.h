@@ -11,16 +11,16 @@ struct kd_vk;
 
 struct kd_vk_debug {
     VkDebugUtilsMessengerEXT messenger;
-    atomic_uint messages; /* warnings and errors: a layer may report from any thread */
+    atomic_uint messages; /* number of warnings and errors; layers may report from any thread */
 };
 
 VkDebugUtilsMessengerCreateInfoEXT kd_vk_debug_messenger(struct kd_vk_debug *debug);
-/* KD_EDEVICE when VK_EXT_debug_utils is absent: then nothing would be heard. */
+/* Returns KD_EDEVICE without VK_EXT_debug_utils, because no message would be received. */
 enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance,
                                   struct kd_error *error);
 void kd_vk_debug_finish(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance);
 
-/* Name an object for messages and captures; without debug utils nothing happens. */
+/* Names an object for messages and captures; no effect without debug utils. */
 void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 #define KD_VK_HANDLE(handle) ((uint64_t)(handle))

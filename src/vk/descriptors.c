@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-/* Room for the largest set of each kind each time, so that counting sets is enough to know when a pool is full. */
+/* Adds a pool. Each pool has room for KD_VK_SETS_PER_POOL of the largest sets, so that counting sets shows when it is
+ * full. */
 static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descriptors, struct kd_error *error)
 {
     enum kd_status status;
@@ -49,7 +50,7 @@ done:
 void kd_vk_descriptors_reset(struct kd_vk *vk, struct kd_vk_descriptors *descriptors)
 {
     for (size_t i = 0; i * KD_VK_SETS_PER_POOL < descriptors->used; i++)
-        vk->fn.ResetDescriptorPool(vk->device, descriptors->pools[i], 0); /* can only succeed */
+        vk->fn.ResetDescriptorPool(vk->device, descriptors->pools[i], 0); /* cannot fail */
     descriptors->used = 0;
 }
 

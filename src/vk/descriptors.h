@@ -1,4 +1,4 @@
-/* Descriptor sets of one submission are taken one by one, and all given back at once when the slot is reused. */
+/* Descriptor sets of one submission: allocated one by one, and freed together when the slot is reused. */
 #ifndef KD_VK_DESCRIPTORS_H
 #define KD_VK_DESCRIPTORS_H
 
@@ -11,8 +11,8 @@ struct kd_vk;
 #define KD_VK_SETS_PER_POOL 64
 
 struct kd_vk_descriptors {
-    VkDescriptorPool *pools; /* kept at the most that one submission has needed */
-    size_t n_pools, used;    /* used: sets, over all pools */
+    VkDescriptorPool *pools; /* as many as the largest submission has needed */
+    size_t n_pools, used;    /* used: sets in all pools */
 };
 
 enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Devices that hung when they were destroyed. They are kept, because a driver may crash when one is torn down that
- * still works (lavapipe does); the list keeps them reachable for leak checkers. */
+/* Devices that were hanging when they were destroyed. They are not freed, because a driver may crash when a device is
+ * closed that still works (lavapipe does). The list keeps them reachable for leak checkers. */
 static struct kd_vk *graveyard;
 
 enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error)
@@ -47,7 +47,7 @@ done:
     return status;
 }
 
-/* The required features and whatever optional ones there are: kernels ask kd_vk_info before using them. */
+/* Enables the required features and all optional ones that exist; users check kd_vk_info before relying on these. */
 static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
 {
     enum kd_status status;
@@ -89,7 +89,7 @@ done:
         return KD_OK;
     if (vk->device && vk->fn.DestroyDevice)
         vk->fn.DestroyDevice(vk->device, NULL);
-    vk->device = VK_NULL_HANDLE; /* what follows may rely on: a device has all its functions */
+    vk->device = VK_NULL_HANDLE; /* later code relies on this: a device has all its functions */
     return status;
 }
 
@@ -125,17 +125,15 @@ done:
     return status;
 }
 
-#define IDLE_TRIES \
-    3 /* a call that had no memory may have some the next time; without an answer all that the device has would stay \
-         for good */
+#define IDLE_TRIES 3 /* retried when out of memory, since leaving the device open would leak all its memory */
 
-/* Whether its objects may be destroyed. Those of a lost device may, by the specification, once vkDeviceWaitIdle has
- * returned; those of one that hangs never. */
+/* Whether the objects may be destroyed. By the specification, those of a lost device may be once vkDeviceWaitIdle has
+ * returned; those of a hanging one never. */
 static bool is_idle(struct kd_vk *vk)
 {
     if (vk->pipelines_only)
         return true;
-    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
+    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* has a deadline, so closing cannot hang */
     if (vk->hangs)
         return false;
     VkResult idle = vk->fn.DeviceWaitIdle(vk->device);
@@ -180,5 +178,5 @@ const char *kd_vk_choice(const struct kd_vk *vk) { return vk->choice; }
 
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk)
 {
-    return atomic_load(&((struct kd_vk *)vk)->instance.debug.messages); /* C11 atomics take no const */
+    return atomic_load(&((struct kd_vk *)vk)->instance.debug.messages); /* C11 atomics do not accept const */
 }

@@ -1,4 +1,4 @@
-/* Where lavapipe keeps the kernels that it has compiled: the rules of Mesa's src/util/disk_cache_os.c
+/* Finds where lavapipe stores compiled kernels, by the rules of Mesa's src/util/disk_cache_os.c
  * (disk_cache_generate_cache_dir, disk_cache_enabled) in versions 22 to 25. */
 #include "base/hash.h"
 #include "vk/device.h"
@@ -21,7 +21,7 @@ static bool is_set(const char *name)
                      !strcasecmp(value, "y") || !strcasecmp(value, "t"));
 }
 
-/* The folder in which Mesa makes its own. */
+/* Finds the folder in which Mesa makes its own folder. */
 static void find_folder(char dir[DIR_BYTES])
 {
     const char *own = getenv("MESA_SHADER_CACHE_DIR"), *older = getenv("MESA_GLSL_CACHE_DIR"),
@@ -32,7 +32,7 @@ static void find_folder(char dir[DIR_BYTES])
         *dir = 0;
 }
 
-/* Whether files can be made in it, or in the nearest folder above it that is there: Mesa makes the rest. */
+/* Whether files can be created in the folder, or in its nearest existing parent: Mesa makes the rest. */
 static bool is_writable(const char *dir)
 {
     char path[DIR_BYTES];

@@ -25,11 +25,11 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
     void *symbol = dlsym(library, "vkGetInstanceProcAddr");
     if (!symbol)
         return absent(error, "vkGetInstanceProcAddr");
-    /* ISO C has no cast from an object pointer to a function pointer; POSIX says the bytes are the same. */
+    /* ISO C has no cast from an object pointer to a function pointer; in POSIX they have the same representation. */
     memcpy(&fn->GetInstanceProcAddr, &symbol, sizeof symbol);
     fn->EnumerateInstanceVersion =
         (PFN_vkEnumerateInstanceVersion)fn->GetInstanceProcAddr(NULL, "vkEnumerateInstanceVersion");
-    uint32_t version = VK_API_VERSION_1_0; /* a loader without that function is a 1.0 loader */
+    uint32_t version = VK_API_VERSION_1_0; /* a loader without that function has version 1.0 */
     if (fn->EnumerateInstanceVersion) {
         enum kd_status status =
             kd_vk_result_error(error, fn->EnumerateInstanceVersion(&version), "vkEnumerateInstanceVersion");

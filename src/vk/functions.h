@@ -1,8 +1,8 @@
-/* The one table of Vulkan entry points is filled at run time from libvulkan.so.1.
+/* Table of Vulkan entry points, loaded at run time from libvulkan.so.1.
  *
- * Every call of this layer goes through a struct kd_vk_functions, so a test can replace a member and
- * see what a failing or lying driver does. The library stays loaded for the life of the process:
- * drivers leave threads and thread-local data behind that outlive a dlclose. */
+ * All calls of this layer go through a struct kd_vk_functions, so that a test can replace a member to imitate a failing
+ * driver. The library stays loaded until the process ends, because drivers leave threads and thread-local data behind
+ * that outlive a dlclose. */
 #ifndef KD_VK_FUNCTIONS_H
 #define KD_VK_FUNCTIONS_H
 
@@ -13,7 +13,7 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan.h>
 
-/* The end of an error where a loader or a driver is missing. apt and dnf know the package by this name. */
+/* End of the message about a missing loader or driver. apt and dnf know the package by this name. */
 #define KD_VK_INSTALL "install mesa-vulkan-drivers, whose driver works on any machine"
 
 #define KD_VK_GLOBAL_FUNCTIONS(X) \
@@ -35,7 +35,7 @@
     X(CreateDevice) \
     X(GetDeviceProcAddr)
 
-/* These belong to VK_EXT_debug_utils and are NULL where the extension is not enabled. */
+/* Entry points of VK_EXT_debug_utils; NULL if the extension is not enabled. */
 #define KD_VK_DEBUG_FUNCTIONS(X) \
     X(CreateDebugUtilsMessengerEXT) \
     X(DestroyDebugUtilsMessengerEXT) \
@@ -108,19 +108,19 @@ struct kd_vk_functions {
 #undef KD_VK_MEMBER
 };
 
-/* Three steps, each needing what the one before made possible. KD_EDEVICE names what is absent. */
+/* Three steps, in this order. KD_EDEVICE names what is missing. */
 enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error *error);
 enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);
 
-/* For tests alone: called after each step, to replace members (tests/gpu/fake_device.h). NULL otherwise. */
+/* For tests only: called after each step to replace members (tests/gpu/fake_device.h). Otherwise NULL. */
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 
-const char *kd_vk_result_name(VkResult result); /* "VK_ERROR_DEVICE_LOST", ... never NULL */
-/* KD_OK for a success, KD_ENOMEM for the two out-of-memory results, KD_EDEVICE for any other. */
+const char *kd_vk_result_name(VkResult result); /* such as "VK_ERROR_DEVICE_LOST"; never NULL */
+/* Returns KD_OK for a success, KD_ENOMEM for the two out-of-memory results, KD_EDEVICE for all others. */
 enum kd_status kd_vk_result_error(struct kd_error *error, VkResult result, const char *call);
 
-/* A step of Vulkan: calls fn->name(...), fills the `error` in scope, and is a KD_TRY. */
+/* Calls fn->name(...); on failure fills the `error` in scope and leaves like KD_TRY. */
 #define KD_VK_TRY(fn, name, ...) KD_TRY(kd_vk_result_error(error, (fn)->name(__VA_ARGS__), "vk" #name))
 
 #endif

@@ -20,7 +20,7 @@ static VkAccessFlags writes(VkPipelineStageFlags stages)
            (stages & VK_PIPELINE_STAGE_TRANSFER_BIT ? VK_ACCESS_TRANSFER_WRITE_BIT : 0u);
 }
 
-/* Reads contribute their stage alone: write-after-read needs order, not a flush. */
+/* For reads only the stage matters: write-after-read needs ordering, not a flush. */
 static struct kd_vk_barrier everything(const struct kd_vk_hazards *hazards)
 {
     struct kd_vk_barrier barrier = {
@@ -37,8 +37,8 @@ static struct kd_vk_barrier everything(const struct kd_vk_hazards *hazards)
     return barrier;
 }
 
-/* Widen an entry that touches the access, or append one. The union of touching ranges is exact, so tiles
- * written side by side stay one entry. */
+/* Extends an entry that touches the access, or appends one. The union of touching ranges is exact, so that tiles
+ * written side by side remain one entry. */
 static void enter(struct kd_vk_hazards *hazards, const struct kd_vk_access *access)
 {
     for (size_t i = 0; i < hazards->count; i++) {

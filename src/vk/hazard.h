@@ -1,10 +1,10 @@
-/* Says which commands must not overlap: it is a pure table, with no Vulkan call in it.
+/* Hazard table: decides which commands need a barrier between them. Pure, without Vulkan calls.
  *
- * It lists the accesses since the last barrier, in recorded order and across submissions (a pipeline barrier
- * also orders earlier submissions of its queue). A command conflicts when one of its ranges overlaps a listed
- * range of the same buffer and either of the two writes. The barrier that follows orders everything before it
- * against everything after it, in all stages we use and for each kind of binding, so it empties the table: on
- * hardware a barrier of one buffer costs what a global one costs, since caches are flushed whole. */
+ * It lists the accesses since the last barrier, in recorded order and across submissions, because a pipeline barrier
+ * also orders earlier submissions of its queue. A command conflicts if one of its ranges overlaps a listed range of the
+ * same buffer and at least one of the two writes. The barrier orders all commands before it against all after it, in
+ * all stages that we use and for each kind of binding, so it empties the table. On hardware a barrier for one buffer
+ * costs as much as a global one, since caches are flushed completely. */
 #ifndef KD_VK_HAZARD_H
 #define KD_VK_HAZARD_H
 
@@ -15,20 +15,20 @@
 #include <stdint.h>
 
 struct kd_vk_access {
-    uint64_t buffer;            /* an identity, never reused */
+    uint64_t buffer;            /* identity, never reused */
     uint64_t begin, end;        /* bytes */
-    VkPipelineStageFlags stage; /* compute shader, transfer or the reading of counts, one bit */
+    VkPipelineStageFlags stage; /* one bit: compute shader, transfer or indirect dispatch */
     bool write;                 /* writes, and may read as well */
-    bool host;                  /* of memory that the host has mapped */
+    bool host;                  /* of memory mapped by the host */
 };
 
-/* After this many separate ranges without a barrier one is emitted, to start afresh. */
+/* When this many separate ranges are listed, a barrier is recorded to empty the table. */
 #define KD_VK_MAX_ACCESSES 128
 
 struct kd_vk_hazards {
     struct kd_vk_access list[KD_VK_MAX_ACCESSES];
     size_t count;
-    VkPipelineStageFlags host_stages; /* that wrote mapped memory since the last barrier towards the host */
+    VkPipelineStageFlags host_stages; /* stages that wrote mapped memory since the last barrier to the host */
 };
 
 struct kd_vk_barrier {
@@ -36,13 +36,13 @@ struct kd_vk_barrier {
     VkAccessFlags src_access, dst_access;
 };
 
-/* Enter one command with its n <= KD_VK_MAX_ACCESSES accesses; those of one command do not conflict with each
- * other. True: *barrier has to be recorded before the command. */
+/* Adds a command with n <= KD_VK_MAX_ACCESSES accesses, which do not conflict with each other. Returns true if *barrier
+ * must be recorded before the command. */
 bool kd_vk_hazards_add(struct kd_vk_hazards *hazards, const struct kd_vk_access *accesses, size_t n,
                        struct kd_vk_barrier *barrier);
 
-/* Called at the end of a submission: true if *barrier has to be recorded for the host to see what was written. The
- * other direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
+/* At the end of a submission: returns true if *barrier must be recorded so that the host sees what was written. The
+ * other direction needs none: vkQueueSubmit makes earlier host writes visible to the device. */
 bool kd_vk_hazards_to_host(struct kd_vk_hazards *hazards, struct kd_vk_barrier *barrier);
 
 #endif

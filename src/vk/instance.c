@@ -8,7 +8,7 @@
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 
-#ifndef VK_EXT_layer_settings /* headers of before 1.3.272, like Debian 12's */
+#ifndef VK_EXT_layer_settings /* headers before 1.3.272, such as Debian 12's */
 #define VK_EXT_LAYER_SETTINGS_EXTENSION_NAME "VK_EXT_layer_settings"
 #define VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT ((VkStructureType)1000496000)
 #define VK_LAYER_SETTING_TYPE_BOOL32_EXT 0
@@ -40,7 +40,7 @@ static bool has_layer(const struct kd_vk_functions *fn, const char *name)
     return found;
 }
 
-/* Whether an extension is there: of a layer, or with layer NULL of the loader and the drivers. */
+/* Whether an extension exists: of a layer, or with layer NULL of the loader and drivers. */
 static bool has_extension(const struct kd_vk_functions *fn, const char *layer, const char *name)
 {
     uint32_t n = 0;
@@ -76,9 +76,9 @@ static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCr
     return kd_vk_functions_instance(&instance->fn, instance->handle, error);
 }
 
-/* A driver that runs out of address space ends the process (lavapipe, LLVM). Measured with lavapipe: pictures and
- * volumes fail below 0.8 GiB and are well with 1.2 on two cores; a thread more reserves a stack of 8 MiB and a heap
- * of 64. */
+/* Checks that there is enough address space, because a driver that runs out of it kills the process (lavapipe, LLVM).
+ * Measured with lavapipe: pictures and volumes fail below 0.8 GiB and work with 1.2 GiB on two cores; each further
+ * thread reserves a stack of 8 MiB and a heap of 64 MiB. */
 static enum kd_status check_address_space(struct kd_error *error)
 {
     const uint64_t left = kd_address_space_left(), needed = (UINT64_C(1) << 30) + kd_cores() * (UINT64_C(72) << 20);
@@ -119,15 +119,15 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
     const VkApplicationInfo application = { .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                             .pApplicationName = "kerrd",
                                             .apiVersion = VK_API_VERSION_1_2 };
-    /* Chained, the messenger also hears what happens inside vkCreateInstance and vkDestroyInstance. */
+    /* When chained, the messenger also receives messages from vkCreateInstance and vkDestroyInstance. */
     VkDebugUtilsMessengerCreateInfoEXT messenger = kd_vk_debug_messenger(&instance->debug);
     const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features = { .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                                .pNext = debug_utils ? &messenger : NULL,
                                                .enabledValidationFeatureCount = 1,
                                                .pEnabledValidationFeatures = &enable };
-    /* Newer layers (Debian 13's 1.4, for one) leave what shaders read and write out of synchronisation validation
-     * unless they are told otherwise. All our hazards are between a shader and something else. */
+    /* Newer layers (such as Debian 13's 1.4) exclude shader accesses from synchronisation validation by default. All
+     * our hazards involve a shader. */
     const VkBool32 yes = VK_TRUE;
     const VkLayerSettingEXT heuristic = { VALIDATION_LAYER, "syncval_shader_accesses_heuristic",
                                           VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes };

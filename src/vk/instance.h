@@ -1,4 +1,4 @@
-/* Makes a Vulkan instance, with its function table and, when wanted, the validation layer. */
+/* Creates a Vulkan instance with its function table and optionally the validation layer. */
 #ifndef KD_VK_INSTANCE_H
 #define KD_VK_INSTANCE_H
 
@@ -11,8 +11,8 @@ struct kd_vk_instance {
     struct kd_vk_debug debug;
 };
 
-/* validate without the layer being installed is KD_EDEVICE: who asks for validation must not believe
- * that silence means health. The struct must not move afterwards: the messenger points into it. */
+/* validate without an installed layer is KD_EDEVICE, because missing messages would be taken for success. The struct
+ * must not move afterwards: the messenger points into it. */
 enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error);
 void kd_vk_instance_finish(struct kd_vk_instance *instance);
 

@@ -7,11 +7,12 @@
 
 struct kd_vk_kind_info {
     VkDescriptorType descriptor;
-    VkFormat format;      /* of its texels; every device reads these formats as uniform texels (Vulkan 1.2, table 61) */
-    uint32_t texel_bytes; /* 0: it has none */
+    /* of texels; every device supports these formats for uniform texel buffers (Vulkan 1.2, table 61) */
+    VkFormat format;
+    uint32_t texel_bytes; /* 0: not texels */
 };
 
-/* NULL: there is no such kind. */
+/* Returns NULL for an unknown kind. */
 const struct kd_vk_kind_info *kd_vk_kind_info(enum kd_vk_kind kind);
 
 #endif

@@ -27,7 +27,7 @@ void kd_vk_mapped_use(struct kd_vk *vk, struct kd_vk_buffer *buffer, bool write)
         buffer->written = kd_vk_current(vk);
 }
 
-/* Offset and size are multiples of every nonCoherentAtomSize: heap_take sees to that. */
+/* Offset and size are multiples of every nonCoherentAtomSize, because of KD_VK_ALIGNMENT in heap_take. */
 static VkMappedMemoryRange range_of(const struct kd_vk_buffer *buffer)
 {
     return (VkMappedMemoryRange) { .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
@@ -36,8 +36,8 @@ static VkMappedMemoryRange range_of(const struct kd_vk_buffer *buffer)
                                    .size = buffer->slice.size };
 }
 
-/* Buffers for reading back are left out: the host writes nothing to them, and its old copy must not replace what the
- * device wrote. */
+/* Skips READBACK buffers: the host does not write to them, and its stale copy must not overwrite what the device
+ * wrote. */
 VkResult kd_vk_mapped_flush(struct kd_vk *vk, uint64_t value)
 {
     VkResult result = VK_SUCCESS;

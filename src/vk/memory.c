@@ -10,16 +10,17 @@
 #define COHERENT VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
 #define CACHED VK_MEMORY_PROPERTY_HOST_CACHED_BIT
 
-/* Memory types that need a feature of their own (AMD's uncached ones, protected, lazily allocated) are never used. */
+/* Whether the memory type has ordinary flags only. Types that need a feature (AMD's uncached ones, protected, lazily
+ * allocated) are never used. */
 static bool plain(VkMemoryPropertyFlags flags)
 {
     return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED));
 }
 
-/* Points for a type, -1 where it will not do. The host reads memory that it does not cache ten times more slowly:
- * for reading back, cached memory is worth the invalidation that it may need; for writing, which goes past the
- * cache, coherence is. Host memory is sought outside the device's: on a discrete card the part of its memory that
- * the host can map may be as small as 256 MiB. */
+/* Score of a memory type, -1 if it is unsuitable. The host reads uncached memory ten times more slowly, so for READBACK
+ * cached memory is worth the invalidation that it may need. For UPLOAD, which bypasses the cache, coherent memory is
+ * better. Host memory is preferred outside the device's: on a discrete card the mappable part of its memory may be as
+ * small as 256 MiB. */
 static int points(VkMemoryPropertyFlags flags, enum kd_vk_memory memory, bool host_near)
 {
     bool visible = flags & VISIBLE, local = flags & LOCAL, cached = flags & CACHED, coherent = flags & COHERENT;
@@ -47,7 +48,7 @@ int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32
     return best;
 }
 
-/* Every buffer has the same usage, hence the same allowed types: ask once, of a small one. */
+/* Every buffer has the same usage, hence the same allowed types, which are queried once with a small buffer. */
 static enum kd_status allowed_types(struct kd_vk *vk, uint32_t *allowed, struct kd_error *error)
 {
     enum kd_status status;
@@ -120,7 +121,7 @@ done:
     return status;
 }
 
-/* A new block, at the end of the list: buffers are taken from the oldest one that has room, and the latest become
+/* Appends a block to the list: buffers are taken from the oldest block with room, so that the latest blocks become
  * empty. */
 static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t size, struct kd_error *error)
 {
@@ -159,7 +160,8 @@ static bool take(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignm
     return false;
 }
 
-/* Takes a slice from a block that has room, else from a new one, of the usual size or only just large enough. */
+/* Takes a slice from a block with room, else from a new block of the usual size, or if that fails of just the size
+ * needed. */
 static enum kd_status take_or_grow(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment,
                                    struct kd_vk_slice *out, struct kd_error *error)
 {
@@ -188,7 +190,7 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
     size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
     enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
     if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
-        status = take_or_grow(vk, type, size, alignment, out, &why); /* with what was waiting to be freed */
+        status = take_or_grow(vk, type, size, alignment, out, &why); /* try again with the memory of retired buffers */
     if (!status)
         return KD_OK;
     return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",

@@ -1,4 +1,4 @@
-/* Device memory is a few large blocks, cut into buffers. */
+/* Device memory: a few large blocks, divided among buffers. */
 #ifndef KD_VK_MEMORY_H
 #define KD_VK_MEMORY_H
 
@@ -6,12 +6,11 @@
 #include "vk/functions.h"
 #include "vk/vk.h"
 
-/* Vulkan guarantees 4096 allocations; a block this large keeps us far below. A larger buffer gets a block of
+/* Vulkan guarantees 4096 allocations; with blocks of this size far fewer are needed. A larger buffer gets a block of
  * its own. */
 #define KD_VK_BLOCK_BYTES (UINT64_C(64) << 20)
-/* No nonCoherentAtomSize is larger (Vulkan 1.2, table 53): buffers share no atom. No
- * min{Storage,Uniform,Texel}BufferOffsetAlignment is larger either: a binding of any kind may begin at each
- * multiple. */
+/* At least any nonCoherentAtomSize (Vulkan 1.2, table 53), so that buffers share no atom; and at least any
+ * min{Storage,Uniform,Texel}BufferOffsetAlignment, so that bindings of all kinds may start at each multiple. */
 #define KD_VK_ALIGNMENT 256
 #define KD_VK_BUFFER_USAGE \
     (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | \
@@ -23,7 +22,7 @@ struct kd_vk_block {
     VkDeviceMemory memory;
     uint32_t type;
     struct kd_vk_arena arena;
-    uint8_t *map; /* NULL if the host cannot see it */
+    uint8_t *map; /* NULL: not visible to the host */
     bool coherent;
 };
 
@@ -31,7 +30,7 @@ struct kd_vk_heap {
     VkPhysicalDeviceMemoryProperties properties;
     uint32_t types[3]; /* memory type by enum kd_vk_memory */
     struct kd_vk_block *blocks;
-    uint64_t used[VK_MAX_MEMORY_HEAPS]; /* bytes held, by heap */
+    uint64_t used[VK_MAX_MEMORY_HEAPS]; /* bytes allocated from each heap */
 };
 
 struct kd_vk_slice {
@@ -45,8 +44,8 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
                                struct kd_vk_slice *out, struct kd_error *error);
 void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice);
 
-/* The best of the memory types in `allowed` (a bit each) for a purpose, or -1. Pure. host_near: the device's
- * own memory is the host's too (CPU, integrated), so mapping it costs nothing. */
+/* Chooses the best memory type among `allowed` (a bit each), or -1. Pure. host_near: the device's memory is the host's
+ * memory (CPU, integrated GPU), so that mapping costs nothing. */
 int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed, enum kd_vk_memory memory,
                       bool host_near);
 

@@ -5,20 +5,20 @@
 #include "vk/functions.h"
 #include "vk/vk.h"
 
-/* The name is from vulkan_beta.h, which needs a macro to be included. */
+/* Defined in vulkan_beta.h, whose inclusion needs a macro. */
 #define KD_VK_PORTABILITY_SUBSET "VK_KHR_portability_subset"
 
 struct kd_vk_physical {
     VkPhysicalDevice handle;
     struct kd_vk_info info;
     VkPhysicalDeviceProperties properties;
-    uint32_t family;         /* the queue family we submit to */
-    uint32_t timestamp_bits; /* valid ones; 0: no timestamps */
+    uint32_t family;         /* queue family for submissions */
+    uint32_t timestamp_bits; /* valid bits; 0: no timestamps */
     bool int64, host_query_reset, subgroup_extended_types;
-    bool portability_subset, memory_budget; /* it lists that extension */
+    bool portability_subset, memory_budget; /* the extension is listed */
 };
 
-/* Every physical device of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
+/* Lists the physical devices of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
 enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance, struct kd_vk_physical **out,
                                    size_t *count, struct kd_error *error);
 

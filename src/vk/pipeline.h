@@ -1,4 +1,4 @@
-/* This is the inside of a compute pipeline. */
+/* Struct of a compute pipeline, private to this layer. */
 #ifndef KD_VK_PIPELINE_H
 #define KD_VK_PIPELINE_H
 
@@ -7,7 +7,7 @@
 #include "vk/vk.h"
 
 struct kd_vk_pipeline {
-    struct kd_vk_retired retired; /* first: retire.c knows only this part */
+    struct kd_vk_retired retired; /* first member: retire.c uses only this part */
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
     VkPipeline handle;

@@ -1,5 +1,5 @@
-/* Objects wait here whose owner has destroyed them while the device may still use them: each waits for the last
- * submission that could and is freed when that is seen finished. */
+/* Deferred destruction: an object that the device may still use is freed when the last submission that uses it has
+ * finished. */
 #ifndef KD_VK_RETIRE_H
 #define KD_VK_RETIRE_H
 
@@ -9,16 +9,16 @@ struct kd_vk;
 
 /* The first member of each object that can be retired. */
 struct kd_vk_retired {
-    uint64_t ticket; /* last submission that uses it, recorded or under way; 0: none */
+    uint64_t ticket; /* last submission that uses it, recorded or submitted; 0: none */
     struct kd_vk_retired *next;
     void (*free)(struct kd_vk *vk, struct kd_vk_retired *object);
 };
 
-/* Free it now if it is idle, else later. On a lost device: when that is closed. */
+/* Frees the object now if it is idle, else later. On a lost device: when the device is closed. */
 void kd_vk_retire(struct kd_vk *vk, struct kd_vk_retired *object);
-/* Free those that have become idle. */
+/* Frees the objects that have become idle. */
 void kd_vk_retire_idle(struct kd_vk *vk);
-/* Free all: the device is known to be idle. */
+/* Frees all objects. The device is known to be idle. */
 void kd_vk_retire_all(struct kd_vk *vk);
 
 #endif

@@ -1,4 +1,4 @@
-/* Command buffers are used in turn, and a timeline counts submissions. */
+/* Submission: a ring of command buffers, and a timeline semaphore that counts submissions. */
 #ifndef KD_VK_SUBMIT_H
 #define KD_VK_SUBMIT_H
 
@@ -8,9 +8,9 @@ struct kd_vk;
 struct kd_vk_slot;
 
 enum kd_status kd_vk_submit_init(struct kd_vk *vk, struct kd_error *error);
-void kd_vk_submit_finish(struct kd_vk *vk); /* the device is idle; accepts half-built */
+void kd_vk_submit_finish(struct kd_vk *vk); /* the device is idle; accepts a half-built one */
 
-/* The slot to record into, opened if none is. */
+/* Returns the slot for recording, and begins recording if needed. */
 enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, struct kd_error *error);
 
 #endif

@@ -13,8 +13,7 @@ static struct kd_vk_view *find(const struct kd_vk_buffer *buffer, VkFormat forma
     return view;
 }
 
-/* Destroy idle views until few are left. Those that the device may still use stay, so a buffer has no more than that
- * and what is under way. */
+/* Destroys idle views until fewer than KD_VK_VIEWS_KEPT are left. Views in use stay. */
 static void thin_out(struct kd_vk *vk, struct kd_vk_buffer *buffer)
 {
     uint32_t n = 0;

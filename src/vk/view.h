@@ -1,5 +1,5 @@
-/* These are views of a buffer as texels. A buffer keeps those that it was bound with, as most are bound again and
- * again, and takes them along when it is freed. */
+/* Texel views of a buffer. A buffer caches the views that it was bound with, since most are bound repeatedly, and frees
+ * them with itself. */
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 
@@ -15,16 +15,16 @@ struct kd_vk_view {
     VkBufferView handle;
     VkFormat format;
     uint64_t offset, range;
-    uint64_t ticket; /* last submission that uses it, recorded or under way */
+    uint64_t ticket; /* last submission that uses it, recorded or submitted */
 };
 
-/* Beyond so many, an idle view of the buffer gives its place to a new one. */
+/* When a buffer has more views than this, an idle one is replaced. */
 #define KD_VK_VIEWS_KEPT 8
 
-/* A view of these bytes, for the submission that is being recorded. */
+/* Returns a view of these bytes for the submission being recorded. */
 enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset,
                               uint64_t range, VkBufferView *out, struct kd_error *error);
-/* Before the buffer is destroyed, which nothing uses any more. */
+/* Frees the views before the buffer is destroyed; the device no longer uses it. */
 void kd_vk_views_finish(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 
 #endif

@@ -1,4 +1,4 @@
-/* Writes the completions for bash: tables of words, which the functions of completion.bash read. */
+/* Writes completions for bash: tables of words for the functions of completion.bash. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
@@ -26,7 +26,7 @@ static void write_options(struct kd_writer *w, const struct kd_context *context)
     kd_write(w, "' ;;\n");
 }
 
-/* An option that may do without its argument takes it behind "=" alone: "optional" goes before the kind. */
+/* Writes the kinds of arguments. "optional" before the kind marks an option whose argument can only follow "=". */
 static void write_arguments(struct kd_writer *w, const struct kd_context *context)
 {
     const enum kd_argument positional = kd_argument_positional(context->argp->args_doc);

@@ -1,4 +1,4 @@
-/* These lists hold the examples of the manual, and the variables of the environment that it speaks of. */
+/* Examples and environment variables of the manual. */
 #include "cli/reference/manual.h"
 
 const struct kd_example kd_examples[] = {

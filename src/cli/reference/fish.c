@@ -1,5 +1,4 @@
-/* Writes the completions for fish: a line for each option, and tables that the functions of completion.fish
- * read. */
+/* Writes completions for fish: a line for each option, and tables for the functions of completion.fish. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
@@ -12,7 +11,7 @@ static void write_text(struct kd_writer *w, const char *text)
         kd_write(w, *text == '\'' || *text == '\\' ? "\\%c" : "%c", *text);
 }
 
-/* " -x -a 'json csv'": what stands behind an option, or as an argument. */
+/* Writes the completion of an argument: " -x -a 'json csv'". */
 static void write_action(struct kd_writer *w, enum kd_argument takes, const char *argument, bool optional)
 {
     static const char *const actions[KD_ARGUMENT_KINDS] = {

@@ -1,4 +1,4 @@
-/* This program prints what is made of the option tables: completions and manual pages. */
+/* Program that prints completions, manual pages and docs/options.md, made from the option tables. */
 #include "cli/file.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/manual.h"

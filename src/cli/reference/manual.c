@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-/* Text as roff has it: what it would take for its own is escaped, and what stands in backquotes becomes bold. */
+/* Writes text as roff: escapes special characters and sets backquoted text in bold. */
 static void write_escaped(struct kd_writer *w, const char *text, size_t length)
 {
     bool bold = false;
@@ -64,7 +64,7 @@ static void write_name(struct kd_writer *w, const char *prefix, const char *name
     write_text(w, name);
 }
 
-/* .TP, and "-o, --output=FILE" in the fonts that manuals have. */
+/* Writes .TP and "-o, --output=FILE" in the usual fonts. */
 static void write_option(struct kd_writer *w, const struct kd_option *o)
 {
     const char *gap = "";
@@ -116,7 +116,7 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-/* The variables that are options, in one entry: what each means stands with its flag. */
+/* Writes the variables of the options in one entry; each option's text explains them. */
 static void write_settings(struct kd_writer *w)
 {
     const char *gap = "";
@@ -159,7 +159,7 @@ static void write_examples(struct kd_writer *w, const char *command)
         if (command && strcmp(kd_examples[i].command, command))
             continue;
         if (!command && i && !strcmp(kd_examples[i].command, kd_examples[i - 1].command))
-            continue; /* the first of each */
+            continue; /* only the first example of each command */
         kd_write(w, any ? ".PP\n" : ".SH EXAMPLES\n");
         write_text(w, kd_examples[i].says);
         kd_write(w, "\n.PP\n.RS 4\n.EX\n");
@@ -181,7 +181,7 @@ static void write_exit_status(struct kd_writer *w)
                 "has one.\n");
 }
 
-/* Whether any text of the page names `kerrd NAME`. */
+/* Whether a text of the page mentions `kerrd NAME`. */
 static bool names(const struct kd_context *context, const char *name)
 {
     char text[80];
@@ -195,7 +195,7 @@ static bool names(const struct kd_context *context, const char *name)
     return false;
 }
 
-/* The program's own page names all others; the page of a command those that it speaks of. */
+/* Writes SEE ALSO: on the program's page all commands, on a command's page those that it mentions. */
 static void write_see_also(struct kd_writer *w, const struct kd_context *context)
 {
     const char *gap = context ? ",\n" : "";
@@ -220,7 +220,7 @@ static bool has(const struct kd_options *options, const struct kd_option *option
     return false;
 }
 
-/* All but those that `told` has. */
+/* Writes all options that are not in `told`. */
 static void write_options(struct kd_writer *w, const struct kd_options *options, const struct kd_options *told)
 {
     for (size_t i = 0; i < options->n; i++)

@@ -6,15 +6,15 @@
 
 #include <stdbool.h>
 
-/* The page of a subcommand, or with NULL that of kerrd. Its date is that of SOURCE_DATE_EPOCH, else today. False:
- * there is no such command. */
+/* Writes the page of a subcommand, or of kerrd if command is NULL. Its date is SOURCE_DATE_EPOCH, else today. Returns
+ * false if there is no such command. */
 bool kd_manual_page(struct kd_writer *w, const char *command);
 
-/* What a page says besides what the option tables do: examples, which tests/cli/manual.py runs, in an empty folder
- * and in this order; and what of the environment is read. */
+/* Contents of pages besides the option tables: examples and environment variables. tests/cli/manual.py runs the
+ * examples in this order, in an empty folder. */
 struct kd_example {
-    const char *command; /* on whose page it stands */
-    const char *line;    /* as it is typed; one that begins with # is not run by the test */
+    const char *command; /* command on whose page it appears */
+    const char *line;    /* command line; the test skips lines that begin with # */
     const char *says;
 };
 extern const struct kd_example kd_examples[];
@@ -22,7 +22,7 @@ extern const size_t kd_n_examples;
 
 struct kd_variable {
     const char *name;
-    const char *commands; /* "sweep serve": those that read it; NULL: all that take a --device */
+    const char *commands; /* commands that read it, "sweep serve"; NULL: all with --device */
     const char *says;
 };
 extern const struct kd_variable kd_variables[];

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* argp adds these to every parser. -h is kerrd's own, and hidden: it does the same as -?. */
+/* Options that argp adds to every parser. -h is kerrd's own hidden alias of -?. */
 static const struct argp_option built_in[] = {
     { "help", '?', NULL, 0, "Give this help list", -1 },
     { "usage", 0, NULL, 0, "Give a short usage message", -1 },
@@ -19,7 +19,7 @@ static const struct argp_option built_in[] = {
 static bool is_end(const struct argp_option *o) { return !o->name && !o->key && !o->doc && !o->group; }
 static char letter_of(const struct argp_option *o) { return o->key > ' ' && o->key <= '~' ? (char)o->key : 0; }
 
-/* A letter that is taken is the first's: a parent's, in which argp looks first. */
+/* A letter used twice belongs to the first option, the parent's, which argp also finds first. */
 static char free_letter(const struct kd_options *out, const struct argp_option *o)
 {
     for (size_t i = 0; i < out->n; i++)
@@ -40,8 +40,8 @@ static bool add_alias(struct kd_options *out, const struct argp_option *o)
     return true;
 }
 
-/* `group` goes on from option to option: one of group 0 is of the same as that before it, and a heading begins the
- * next. */
+/* Appends an option and updates *group as argp does: group 0 continues the group before, a heading begins the next
+ * one. */
 static bool add(struct kd_options *out, const struct argp_option *o, int *group)
 {
     const bool heading = !o->name && !letter_of(o);
@@ -87,7 +87,7 @@ static bool add_all(const struct argp *argp, struct kd_options *out)
     return true;
 }
 
-/* Groups come as argp has them: 0, 1, 2, ..., then the negative ones, -1 last. */
+/* argp's order of groups: 0, 1, 2, ..., then the negative ones, -1 last. */
 static long rank(int group) { return group < 0 ? 2L * INT_MAX + 2 + group : group; }
 
 static void sort(struct kd_options *options)

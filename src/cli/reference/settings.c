@@ -4,14 +4,14 @@
 
 #include <string.h>
 
-/* Text for a cell of a table: a bar and a bracket would mean something else there. */
+/* Writes text for a table cell, with the bar and bracket escaped. */
 static void write_cell(struct kd_writer *w, const char *text)
 {
     for (; *text; text++)
         kd_write(w, *text == '|' || *text == '<' ? "\\%c" : "%c", *text);
 }
 
-/* What a member of the file may be. */
+/* Writes the possible values of a member of the file. */
 static void write_values(struct kd_writer *w, const struct kd_cli_setting *setting)
 {
     switch (setting->kind) {

@@ -15,7 +15,7 @@ const char *const kd_argument_names[KD_ARGUMENT_KINDS] = {
     "device",  "preset",   "field", "axis",   "playground", "setting", "quantity",
 };
 
-/* Whole arguments that mean a kind. */
+/* Complete arguments with a kind of their own. */
 static const struct {
     const char *argument;
     enum kd_argument takes;
@@ -43,7 +43,8 @@ static bool is_placeholder(const char *text, size_t length)
     return capital;
 }
 
-/* FILE, FILE.csv, SCENE.json: capitals, and perhaps an extension; without one it is FILE. */
+/* Whether the text is like FILE, FILE.csv or SCENE.json: capitals and optionally an extension; without one only
+ * FILE. */
 static bool is_file(const char *text, size_t length)
 {
     const char *dot = memchr(text, '.', length);
@@ -107,7 +108,7 @@ void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_w
     }
 }
 
-/* "a|b|c" of a field: a word that takes a number behind it, as name_N, without that. */
+/* Writes the words of a field as "a|b|c". A word with a number, such as name_N, is written without the number. */
 static void words_of(const struct kd_field *field, char *out, size_t size)
 {
     *out = 0;

@@ -1,5 +1,5 @@
-/* What the argument of an option may be is told by how --help calls it: FILE is a file, DIR a folder, "json|csv" one
- * of these words. Constant data and pure functions, any thread. */
+/* Kind of an option's argument by its name in --help: FILE is a file, DIR a folder, "json|csv" one of these words.
+ * Constant data and pure functions, any thread. */
 #ifndef KD_CLI_REFERENCE_VALUES_H
 #define KD_CLI_REFERENCE_VALUES_H
 
@@ -7,35 +7,34 @@
 
 enum kd_argument {
     KD_ARGUMENT_NOTHING,
-    KD_ARGUMENT_ANYTHING,   /* a number, an address: nothing can be proposed */
+    KD_ARGUMENT_ANYTHING,   /* a number, an address: no completion */
     KD_ARGUMENT_FILE,       /* FILE, FILE.csv, SCENE.json */
     KD_ARGUMENT_FOLDER,     /* DIR */
     KD_ARGUMENT_NAMED_FILE, /* NAME=FILE */
-    KD_ARGUMENT_WORDS,      /* a|b|c; what is written in capitals there, as in X|infinity, is anything */
-    KD_ARGUMENT_LIST,       /* COLUMN,...: words with commas between them */
+    KD_ARGUMENT_WORDS,      /* a|b|c; an alternative in capitals, as in X|infinity, stands for any text */
+    KD_ARGUMENT_LIST,       /* COLUMN,...: words separated by commas */
     KD_ARGUMENT_DEVICE,
-    KD_ARGUMENT_PRESET,     /* of scenes */
+    KD_ARGUMENT_PRESET,     /* preset of scenes */
     KD_ARGUMENT_FIELD,      /* PATH=VALUE of a scene */
     KD_ARGUMENT_AXIS,       /* FIELD=VALUES of a sweep */
-    KD_ARGUMENT_PLAYGROUND, /* a preset of playgrounds */
+    KD_ARGUMENT_PLAYGROUND, /* preset of playgrounds */
     KD_ARGUMENT_SETTING,    /* SETTING=VALUE of a playground */
-    KD_ARGUMENT_QUANTITY,   /* of kerrd physics */
+    KD_ARGUMENT_QUANTITY,   /* quantity of kerrd physics */
     KD_ARGUMENT_KINDS,
 };
-/* What a script of completions calls them: "file", "named-file", ... */
+/* Names of the kinds in completion scripts: "file", "named-file", ... */
 extern const char *const kd_argument_names[KD_ARGUMENT_KINDS];
 
-enum kd_argument kd_argument_of(const char *argument); /* NULL: nothing */
-/* The same of an argument without an option, by argp's args_doc: "[SCENE.json|-]". */
+enum kd_argument kd_argument_of(const char *argument); /* NULL: KD_ARGUMENT_NOTHING */
+/* The same for a positional argument, by argp's args_doc: "[SCENE.json|-]". */
 enum kd_argument kd_argument_positional(const char *args_doc);
 
-/* The words that may stand there, as "a b c": those that are spelt out, columns, presets, playgrounds, quantities;
- * nothing for other kinds. */
+/* Writes the possible words as "a b c": enumerated ones, columns, presets, playgrounds, quantities; nothing for other
+ * kinds. */
 void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_writer *w);
 
-/* Calls `one` for each field of a scene, or setting of a playground, with its name and the words that it takes,
- * "a|b", or "" for a number; list: several of them, with commas between. A field of a list of things has the index
- * 0. */
+/* Calls `one` for each field of a scene, or each setting of a playground, with its name and its words as "a|b", or ""
+ * for a number. list: several words with commas between. Fields of list elements have the index 0. */
 typedef void (*kd_named_value_fn)(struct kd_writer *w, const char *name, const char *words, bool list,
                                   const char *help);
 void kd_argument_fields(kd_named_value_fn one, struct kd_writer *w);

@@ -1,20 +1,20 @@
-/* Writes the completions for zsh: for each command what _arguments takes, and tables that the functions of
- * completion.zsh read. */
+/* Writes completions for zsh: the arguments of _arguments for each command, and tables for the functions of
+ * completion.zsh. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
 
 #include <string.h>
 
-/* Text between single quotes in which `special` characters get a backslash. */
+/* Writes text for single quotes, with a backslash before each of the `special` characters. */
 static void write_text(struct kd_writer *w, const char *text, const char *special)
 {
     for (; *text; text++)
         kd_write(w, *text == '\'' ? "'\\''" : strchr(special, *text) ? "\\%c" : "%c", *text);
 }
 
-/* ":ARGUMENT:ACTION", as _arguments has them: with a space before it an action is called as it stands, without
- * options of compadd. */
+/* Writes ":ARGUMENT:ACTION" of _arguments. An action with a leading space is called unchanged, without options of
+ * compadd. */
 static void write_action(struct kd_writer *w, enum kd_argument takes, const char *argument, const char *colons)
 {
     static const char *const actions[KD_ARGUMENT_KINDS] = {
@@ -41,7 +41,7 @@ static void write_action(struct kd_writer *w, enum kd_argument takes, const char
     }
 }
 
-/* '(-o --output)'{-o+,--output=}'[text]:FILE:_files' */
+/* Writes '(-o --output)'{-o+,--output=}'[text]:FILE:_files'. */
 static void write_option(struct kd_writer *w, const struct kd_option *o)
 {
     const char *long_end = o->takes == KD_ARGUMENT_NOTHING ? "" : o->optional ? "=-" : "=";

@@ -1,5 +1,5 @@
-/* GET /v1/accuracy answers with the table that `kerrd bench accuracy` keeps for this device, as it is now on disk:
- * the workers read it, as a disk may take its time. */
+/* GET /v1/accuracy: the table that `kerrd bench accuracy` stores for this device. Workers read it, because a disk may
+ * be slow. */
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/render/task.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 struct reading {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_buffer json;
 };
 

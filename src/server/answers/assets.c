@@ -1,3 +1,4 @@
+/* Handlers of /v1/assets: upload, counts, download, delete. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/asset/store.h"
@@ -53,8 +54,9 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
     kd_json_number(json, "channels", about->channels);
 }
 
-/* {"sha256", "type", of a picture "width", "height", "bit_depth" and "channels", of a grid "nodes" and "spin", of an
- * observation "visibilities" and "stations", "bytes", "created"}, and for who has just put it here the token. */
+/* Writes {"sha256", "type", "bytes", "created"}; for a picture also "width", "height", "bit_depth" and "channels", for
+ * a grid "nodes" and "spin", for an observation "visibilities" and "stations"; and for the client that has uploaded it
+ * the token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -70,19 +72,19 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
     return kd_json_finish_line(&json);
 }
 
-/* A request that puts one here: hashed and written by the workers. */
+/* An upload, which workers hash and write. */
 struct putting {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_asset_put put;
 };
 
-/* On the HTTP thread, which waits for no disk. */
+/* On the HTTP thread, which does not wait for the disk. */
 static void finish(struct kd_task *task)
 {
     struct putting *p = (struct putting *)task;
     const struct kd_server *server = task->request->server;
     kd_asset_put_finish(&p->put);
-    if (p->put.created && task->request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
+    if (p->put.created && task->request->status != MHD_HTTP_CREATED) /* the client does not know it */
         kd_asset_store_remove_later(server->assets, p->put.asset, server->turns);
     if (p->put.asset)
         kd_asset_release(server->assets, p->put.asset);
@@ -140,8 +142,8 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* What the bytes are said to be, where they begin as another kind does; false: they do not. What begins as none is
- * refused when it is read. */
+/* Whether Content-Type contradicts the first bytes; text then holds the message. Bytes of an unknown kind are refused
+ * when they are parsed. */
 static bool wrong_type(const struct kd_request *request, char text[200])
 {
     static const struct {
@@ -183,7 +185,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* How much is kept, and what may be; no hashes: who knows one may have the bytes. */
+/* Answers with the number and size of assets and the limits, without hashes, because whoever knows a hash may download
+ * the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     enum MHD_Result refused;
@@ -216,7 +219,7 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     return kd_reply_json(request, kd_json_finish_line(&json), &text, JSON_TYPE);
 }
 
-/* An answer that reads the bytes where they lie, and holds the asset. */
+/* An answer that sends the bytes from memory and holds a reference to the asset. */
 struct sending {
     struct kd_asset_store *store;
     struct kd_asset *asset;
@@ -236,7 +239,7 @@ static void release(void *cls)
     free(s);
 }
 
-/* Takes the reference over. The bytes under this address never change. */
+/* Takes over the reference. The bytes at this address never change. */
 static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *asset)
 {
     const struct kd_asset_about *about = kd_asset_about(asset);
@@ -259,9 +262,9 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
                                                .cls = s });
 }
 
-/* A request that removes one, on a worker: the files are gone when it is answered. */
+/* A deletion, which runs on a worker: when it is answered the files are deleted. */
 struct removing {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_asset *asset;
     bool was;
 };
@@ -303,7 +306,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
                   : refuse_unknown(request);
 }
 
-/* Takes the reference over. */
+/* Takes over the reference. */
 static enum MHD_Result begin_removal(struct kd_request *request, struct kd_asset *asset)
 {
     enum MHD_Result refused = MHD_NO;

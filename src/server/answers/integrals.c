@@ -1,5 +1,5 @@
-/* Answers POST /v1/line and its like: integrals over a thin disk, or over pictures of a scene (integral/run.h).
- * A worker computes them, and has their pictures rendered one after the other. */
+/* POST /v1/line and other integrals over a thin disk or over pictures of a scene (integral/run.h). A worker computes
+ * them, and has their pictures rendered one after another. */
 #include "integral/run.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
@@ -11,7 +11,8 @@
 #include <string.h>
 
 #define OFFERED "application/json, text/csv, " KD_NPY_TYPE
-#define NS_A_PRODUCT 1.2 /* of a pixel, or of one image order of it, by a baseline: one core */
+/* estimated time of one product, of a pixel (or one image order of it) and a baseline, on one core */
+#define NS_A_PRODUCT 1.2
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* with its text */
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
@@ -19,13 +20,13 @@ static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
                                      [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
 
 struct job {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_integral_request request;
     enum kd_integral_format format;
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* in the render queue while it RENDERS */
+    struct kd_render_job picture; /* in the render queue in the stage RENDERS */
     struct kd_buffer text;
 };
 
@@ -38,7 +39,7 @@ static void finish(struct kd_task *task)
     kd_buffer_finish(&job->text);
 }
 
-/* What the pictures take together: all of one size take as long as each other. */
+/* Plans the pictures and adds up their estimated times; all pictures of one size take equally long. */
 static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_error *error)
 {
     struct kd_server *server = job->task.request->server;
@@ -78,8 +79,8 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
         return status;
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->turns.client, bytes, &task->held, &task->quota, error));
-    /* Without pictures this is one piece: mostly some hundredths of a second, and 0.3 s for the most that can be
-     * asked. */
+    /* Without pictures the integral is one piece: mostly some hundredths of a second, and 0.3 s for the largest
+     * request. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;
@@ -92,13 +93,13 @@ static void rendered(struct kd_render_job *picture)
     kd_turns_wake(job->task.queue, &job->task.turns);
 }
 
-/* Has the next picture rendered. */
+/* Pushes the next picture to the render queue. */
 static enum kd_status push_picture(struct job *job, struct kd_error *error)
 {
     struct kd_request *request = job->task.request;
     struct kd_render_queue *renders = request->server->renders;
     struct kd_capacity capacity;
-    /* The first asks for a place; the others take its place, so that what is half done is not refused. */
+    /* Only the first picture needs admission; the others take its place, so that a request is not refused halfway. */
     enum kd_status status =
         job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
@@ -120,7 +121,7 @@ done:
     return status;
 }
 
-/* What a piece did: there is more to do, or a picture is under way. */
+/* Runs one piece. *end: more is to be done, or a picture is being rendered. */
 static enum kd_status piece(struct job *job, double until_ms, enum kd_turn_end *end, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

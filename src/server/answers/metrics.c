@@ -1,4 +1,4 @@
-/* Answers GET /metrics: counters, gauges and histograms in Prometheus's text format 0.0.4. */
+/* GET /metrics: counters, gauges and histograms in Prometheus's text format 0.0.4. */
 #include "server/asset/store.h"
 #include "server/http/measures.h"
 #include "server/http/process.h"
@@ -41,8 +41,8 @@ struct counts {
     struct kd_plays_counts plays;
 };
 
-/* This answers on the thread of the health routes, which waits for nobody: a lock that is held long, while a job is
- * written to a slow disk, leaves the numbers of the last time. */
+/* Runs on the thread of the health routes, which must not block: if a lock is held for long, for example while a job is
+ * written to a slow disk, the last values are reported. */
 static struct counts count(struct kd_server *server)
 {
     struct counts now;

@@ -1,4 +1,4 @@
-/* Workers integrate the orbits of POST /v1/orbits in turns; long answers may be streamed while they do. */
+/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed meanwhile. */
 #include "server/answers/orbits.h"
 
 #include "orbit/feed.h"
@@ -13,8 +13,9 @@
 #include <string.h>
 
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
-#define FULL (1u << 20) /* bytes of a stream that wait for their client; no more are made until a quarter is left */
-#define BYTES_PER_SAMPLE 220 /* bytes of text, to reckon with */
+/* unsent bytes of a stream at which the integration pauses; it continues at a quarter of this */
+#define FULL (1u << 20)
+#define BYTES_PER_SAMPLE 220 /* estimates for the size of an answer as text */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
@@ -22,20 +23,20 @@ static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
                                      [KD_ORBIT_CSV] = "text/csv",
                                      [KD_ORBIT_NPY] = KD_NPY_TYPE };
 
-/* A job is held by the request and by the queue; the one that lets go last frees it. */
+/* A job with two owners, the request and the scheduler; the last one to release it frees it. */
 struct kd_orbits_job {
-    struct kd_turns_job turns; /* first */
+    struct kd_turns_job turns; /* first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
-    struct kd_request *owner; /* in the first turn only: suspended, it stays */
+    struct kd_request *owner; /* valid in the first turn only, while the request is suspended */
     struct kd_orbit_request request;
     struct kd_orbit_feed feed;
     double submitted_ms, begun_ms, deadline_ms, queue_ms, run_ms;
     size_t held;
     enum { READING, RUNNING } state;
 
-    pthread_mutex_t lock;       /* for what follows */
+    pthread_mutex_t lock;       /* for all members below */
     struct MHD_Connection *mhd; /* NULL once the request is closed */
     int socket;
     bool suspended, full, finished;
@@ -43,7 +44,7 @@ struct kd_orbits_job {
     size_t taken;
     enum kd_status status;
     struct kd_error error;
-    bool malformed, quota; /* no JSON; KD_EBUSY because the client has its share */
+    bool malformed, quota; /* malformed: not JSON; quota: KD_EBUSY is due to the client's share */
 };
 
 static void let_go(struct kd_orbits_job *job)
@@ -66,12 +67,12 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     job->mhd = NULL;
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
-    if (wake) /* the queue still holds it, or is just letting go: then nothing is parked */
+    if (wake) /* the scheduler still has it; if it is being finished, nothing is parked */
         kd_turns_wake(job->server->turns, &job->turns);
     let_go(job);
 }
 
-/* With the lock. */
+/* Called with the lock. */
 static void resume(struct kd_orbits_job *job)
 {
     if (job->suspended && job->mhd) {
@@ -121,7 +122,7 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
     return status;
 }
 
-/* Room for a piece in `out`, and what has been taken of it given back. With the lock. */
+/* Whether `out` has room for another piece; frees the part that was sent. Called with the lock. */
 static bool has_room(struct kd_orbits_job *job)
 {
     if (job->format != KD_ORBIT_NDJSON)
@@ -201,7 +202,7 @@ static void done(struct kd_turns_job *turns)
     let_go(job);
 }
 
-/* Writes into the stream what has gone wrong after it has begun, for which it has no other place. With the lock. */
+/* Appends an error to the stream, since the status line was sent before. Called with the lock. */
 static void say_in_stream(struct kd_orbits_job *job)
 {
     struct kd_problem problem = kd_problem_from(&job->error);
@@ -216,7 +217,7 @@ static void say_in_stream(struct kd_orbits_job *job)
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct kd_orbits_job *job = cls;
-    (void)position; /* asked for in order */
+    (void)position; /* the library reads in order */
     pthread_mutex_lock(&job->lock);
     if (job->finished && job->status)
         say_in_stream(job);
@@ -237,7 +238,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     return over ? MHD_CONTENT_READER_END_OF_STREAM : (ssize_t)n;
 }
 
-/* The format that Accept would rather have, JSON if it does not care; -1: none. */
+/* Format preferred by Accept, JSON if there is no preference; -1: none is acceptable. */
 static int choose_format(struct kd_request *request)
 {
     size_t best = kd_reply_accepted(request, 4, kd_accept_string, types);
@@ -269,7 +270,8 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        request->reply_bytes = (unsigned long)job->server->longest_s << 24; /* as long as the integration may take */
+        /* sets the deadline to that of the integration */
+        request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);
     } else {
@@ -309,7 +311,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     pthread_mutex_init(&job->lock, NULL);
     kd_orbit_request_init(&job->request);
     request->orbits = job;
-    /* First: a job may be done before push returns. */
+    /* Suspend first, because the job may be done before push returns. */
     MHD_suspend_connection(request->mhd);
     kd_turns_push(server->turns, &job->turns);
     return MHD_YES;

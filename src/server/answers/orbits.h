@@ -4,7 +4,7 @@
 
 struct kd_orbits_job;
 
-/* The request is closed: its job ends at its next turn, if it has not. HTTP thread; accepts NULL. */
+/* Releases the job of a closed request, which ends it at its next turn. HTTP thread; accepts NULL. */
 void kd_orbits_job_abandon(struct kd_orbits_job *job);
 
 #endif

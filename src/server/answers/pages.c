@@ -1,3 +1,4 @@
+/* Handler of the page and of its files below /web/, including sign-in by a token in the address. */
 #include "server/http/reply.h"
 #include "server/http/representation.h"
 #include "server/http/route.h"
@@ -13,16 +14,16 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
-/* A policy binds what a browser shows as a document by itself: HTML, SVG. Of a script or a style it binds nothing,
- * and with all those of the page it would weigh as much as the largest of them. */
+/* Whether a file needs a Content-Security-Policy. A policy applies to documents (HTML, SVG), not to scripts and styles,
+ * where it would add up to the size of the largest of them. */
 static bool document(const struct kd_served *file)
 {
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) &&
            strncmp(file->type, "text/css", strlen("text/css"));
 }
 
-/* The base path itself, without the slash behind it, would have a browser look for the page's files one folder too
- * high. */
+/* Redirects from the base path without a slash to the one with it: a browser would otherwise resolve the page's files
+ * one folder too high. */
 static enum MHD_Result moved(struct kd_request *request)
 {
     const char *token = kd_access_query(request);
@@ -35,8 +36,8 @@ static enum MHD_Result moved(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
 }
 
-/* Turns a token in the page's address into a cookie, and the address into one without it. The cookie's path is the
- * folder of the address, as browsers have it where none is named: behind a proxy only the browser knows that. */
+/* Turns a token in the page's address into a cookie and redirects to the address without it. The cookie has no Path, so
+ * browsers use the folder of the address: behind a proxy only the browser knows that. */
 static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 {
     char cookie[KD_ACCESS_TOKEN_MAX + 80];
@@ -50,14 +51,14 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);
 }
 
-/* blob: is how a picture whose headers were read gets into an <img>. */
+/* blob: is needed to show a picture in an <img> whose headers were read by script. */
 static const char *const guarded[] = { "Content-Security-Policy",
                                        "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action "
                                        "'self'; frame-ancestors 'none'",
                                        "Referrer-Policy", "no-referrer", NULL };
 
-/* "/" and what lies below "/web/". A page is small and may change with the next version of the program: it is asked
- * for again each time, and 304 says that it has not. */
+/* Handles "/" and files below "/web/". They are small and may change with the next version, so browsers revalidate them
+ * each time. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
     if (!*request->target.path)

@@ -1,5 +1,5 @@
-/* Answers GET /v1/physics/NAME: quantities by name (quantity/quantity.h). An answer that takes a moment is
- * computed here, others by the workers, in turns. */
+/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). Quick ones are computed on the HTTP thread, others by
+ * workers in slices. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -15,13 +15,13 @@
 #define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
 #define WAV_TYPE "audio/wav"
-#define MOMENT_MS 2.        /* time of this thread, which serves everybody */
-#define BYTES_PER_NUMBER 26 /* as text at its longest */
+#define MOMENT_MS 2.        /* time limit on the HTTP thread, which serves all clients */
+#define BYTES_PER_NUMBER 26 /* longest text of a number */
 
 enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
 
 struct job {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_quantity_run run;
     enum form form;
     struct kd_buffer text;
@@ -46,7 +46,7 @@ static enum form accepted(struct kd_request *request, const struct kd_quantity *
     return best < n ? (enum form)best : FORM_NONE;
 }
 
-/* What the query says; `format` is ours, for links that cannot say Accept. */
+/* Parses the query. `format` is an alternative to Accept, for links. */
 static enum kd_status read_query(const struct kd_target *target, struct kd_quantity_request *quantity, enum form *form,
                                  struct kd_error *error)
 {
@@ -105,7 +105,7 @@ static enum kd_status write_answer(struct job *job, struct kd_error *error)
     return status ? kd_error_set(error, status, "out of memory for %zu points", answer->points) : KD_OK;
 }
 
-/* Computes points until it is time, then makes the text. */
+/* Computes points until until_ms; after the last, formats the answer. */
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct job *job = (struct job *)task;

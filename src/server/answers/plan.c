@@ -1,5 +1,5 @@
-/* Answers POST /v1/plan: what rendering a scene takes, or all scenes of a sweep together, whose body is that of
- * a job with axes. The scenes of a sweep are planned by the workers, in turns. */
+/* POST /v1/plan: cost of rendering a scene, or all scenes of a sweep, for which the body is that of a job with axes.
+ * Workers plan the scenes of a sweep in slices. */
 #include "render/output/cost.h"
 #include "scene/scan.h"
 #include "server/asset/store.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 struct sweep {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_job_spec spec;
     char preset[32];
     struct kd_cost cost;

@@ -1,4 +1,4 @@
-/* Answers POST /v1/rays, from the request to the stream of the answer. */
+/* POST /v1/rays, from the request to the stream of the answer. */
 #include "server/http/negotiate.h"
 #include "server/answers/rays_work.h"
 #include "server/http/reply.h"
@@ -10,11 +10,11 @@
 
 #define JSON_TYPE "application/json"
 #define OFFERED JSON_TYPE ", " KD_NPY_TYPE
-#define BLOCK (64u << 10) /* bytes of the answer that are made at a time, in some tenths of a millisecond */
-#define TEXT_PER_RAY 180  /* bytes, without its crossings; a guess for the deadline of taking the answer */
+#define BLOCK (64u << 10) /* bytes of the answer generated at once, in some tenths of a millisecond */
+#define TEXT_PER_RAY 180  /* estimated size without crossings, for the answer's deadline */
 #define TEXT_PER_CROSSING 110
 
-/* The answer on its way out; it outlives the request where a client takes it slowly. */
+/* The answer while it is sent; it outlives the request if the client reads slowly. */
 struct outgoing {
     struct kd_server *server;
     char client[KD_CLIENT];
@@ -26,7 +26,7 @@ struct outgoing {
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct outgoing *out = cls;
-    (void)position; /* asked for in order */
+    (void)position; /* the library reads in order */
     size_t n = kd_rays_stream_read(&out->stream, to, size);
     return n ? (ssize_t)n : MHD_CONTENT_READER_END_OF_STREAM;
 }
@@ -58,7 +58,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     return NULL;
 }
 
-/* Says in headers what the JSON form says in its first members, for readers of either form. */
+/* Adds headers with the content of the first members of the JSON form, for both forms. */
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };
@@ -86,7 +86,7 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
     kd_buffer_finish(&text);
 }
 
-/* The format that Accept would rather have, JSON if it does not care; -1: neither. */
+/* Format preferred by Accept, JSON if there is no preference; -1: none is acceptable. */
 static int choose_format(struct kd_request *request)
 {
     static const char *const types[] = { JSON_TYPE, KD_NPY_TYPE };
@@ -132,7 +132,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Parameters that an array has no place for; a JSON body has a place for all of them. */
+/* Parses the parameters that an NPY body cannot hold; a JSON body holds them itself. */
 static enum kd_status read_query(const struct kd_target *target, bool npy, struct kd_rays_request *request,
                                  struct kd_error *error)
 {

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE 2048 /* rays: some 18 to 25 ms of one core */
+#define SLICE 2048 /* rays: some 18 to 25 ms on one core */
 
-/* Rays of a turn with the device: few at first, then as many as take TURN_MS. From the fastest engine to the
- * dearest, from a GPU to one core, a ray's cost varies by a factor of a million. */
+/* Rays in a turn on the device: few at first, then as many as take TURN_MS. The cost of a ray varies by a factor of a
+ * million, from the fastest engine on a GPU to the slowest on one core. */
 #define FIRST_TURN 256
 #define TURN_MS 40.0
 
@@ -38,7 +38,7 @@ done:
     return status;
 }
 
-/* With the device. */
+/* Called by the owner of the device. */
 static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_renderer *renderer,
                                       kd_progress_fn progress, void *progress_user)
 {
@@ -49,10 +49,10 @@ static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_re
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
                                           answer->crossings + first * answer->params.orders, answer->ends + first,
                                           progress, progress_user, &device->error);
-    job->traced += status ? 0 : n; /* a device that is opened again goes on here */
+    job->traced += status ? 0 : n; /* after a reopening the rest is traced */
     job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
     device->more = job->traced < answer->n;
-    /* A device without double precision is not a lost one. */
+    /* A device that lacks double precision has not failed. */
     return status == KD_EDEVICE && *device->error.pointer ? KD_EINVAL : status;
 }
 
@@ -130,7 +130,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     switch (job->where) {
     case KD_RAYS_NEW: return begin(job);
     case KD_RAYS_HERE: return trace_slice(job);
-    case KD_RAYS_ON_DEVICE: break; /* which is done */
+    case KD_RAYS_ON_DEVICE: break; /* finished */
     }
     return KD_TURN_LAST;
 }
@@ -157,6 +157,6 @@ struct kd_rays_job *kd_rays_job_begin(struct kd_request *request, enum MHD_Resul
                                               .last = last };
     struct kd_rays_job *job = kd_task_begin(request, request->server->rays, &kind, refused);
     if (job)
-        job->task.deadline_ms = INFINITY; /* their number is bounded */
+        job->task.deadline_ms = INFINITY; /* the number of rays is limited instead */
     return job;
 }

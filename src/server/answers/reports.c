@@ -1,4 +1,4 @@
-/* The server reports on itself: health, device, and the documents that are kept. */
+/* Reports of the server on itself: health, device and cached documents. */
 #include "server/openapi/kept.h"
 #include "server/http/reply.h"
 #include "server/http/representation.h"
@@ -45,6 +45,6 @@ enum MHD_Result kd_handle_kept(struct kd_request *request)
     struct kd_error error = { 0 };
     if (document)
         return kd_reply_served(request, document, NULL);
-    kd_scene_preset(&scene, request->rest, &error); /* it says which there are */
+    kd_scene_preset(&scene, request->rest, &error); /* for its message, which lists the presets */
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
 }

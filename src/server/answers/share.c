@@ -1,4 +1,5 @@
-/* Answers /v1/share, which makes the address of a scene, and /oembed, which tells what is shown in its place. */
+/* Handlers of /v1/share, which makes the address of a scene, and of /oembed, which describes a shared scene for
+ * embedding. */
 #include "server/answers/share.h"
 
 #include "base/json.h"
@@ -28,7 +29,7 @@ static enum kd_status tell_preset(const char *name, struct kd_shared *out)
     return status ? status : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
 }
 
-/* target: the link, taken apart. */
+/* target: the parsed link. */
 static enum kd_status tell_changes(const struct kd_target *target, struct kd_shared *out)
 {
     struct kd_scene_changed *changed = calloc(target->n_pairs + 1, sizeof *changed);
@@ -105,8 +106,8 @@ enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buff
     return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
 }
 
-/* An address of this server: relative to the request's own, as each Location is, unless the server knows by which
- * address it is reached. */
+/* Adds an address of this server: absolute if the public address is known, else relative to the request's, as in
+ * Location. */
 static enum kd_status add_address(const struct kd_request *request, struct kd_json *json, const char *name,
                                   const char *path, const char *rest)
 {
@@ -119,8 +120,8 @@ static enum kd_status add_address(const struct kd_request *request, struct kd_js
     return status;
 }
 
-/* The address to send on: of a server with access tokens the page's own, which asks for one. And that for frames of
- * other pages, where there are any that may have one. */
+/* Adds the address to share, which is that of the page if the server has access tokens, because the page asks for one;
+ * and the address for frames, if there are origins that may embed it. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
 {
@@ -166,8 +167,8 @@ enum MHD_Result kd_handle_share(struct kd_request *request)
     return result;
 }
 
-/* The code in the address of a shared scene of this server, up to a query or a fragment behind it; NULL: it is
- * another address, or memory ran out. For the caller to free. */
+/* Returns the code (malloc'd) in the address of a shared scene of this server, without query and fragment. NULL:
+ * another address, or out of memory. */
 static char *code_in(const struct kd_request *request, const char *url)
 {
     struct kd_buffer home = { 0 };
@@ -179,7 +180,7 @@ static char *code_in(const struct kd_request *request, const char *url)
     return ours ? strndup(at, strcspn(at, "/?#")) : NULL;
 }
 
-/* The widest picture that fits what the site has room for. */
+/* Chooses the widest picture that fits within maxwidth and maxheight. */
 static bool width_of(const struct kd_request *request, int32_t *width, struct kd_error *error)
 {
     static const char *const names[] = { "maxwidth", "maxheight" };
@@ -245,7 +246,7 @@ static enum MHD_Result tell_oembed(struct kd_request *request, const char *code,
     return result;
 }
 
-/* oEmbed 1.0, https://oembed.com: of another address than that of a shared scene 404. */
+/* oEmbed 1.0, https://oembed.com. Answers 404 for addresses other than those of shared scenes. */
 enum MHD_Result kd_handle_oembed(struct kd_request *request)
 {
     struct kd_error error = { 0 };

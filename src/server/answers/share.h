@@ -1,4 +1,4 @@
-/* What other sites show of a shared scene: title, description, addresses. HTTP thread. */
+/* Title, description and addresses of a shared scene, for other sites. HTTP thread. */
 #ifndef KD_SERVER_ANSWERS_SHARE_H
 #define KD_SERVER_ANSWERS_SHARE_H
 
@@ -6,18 +6,20 @@
 #include "scene/scene.h"
 #include "server/http/request.h"
 
-/* Texts in UTF-8, each with a NUL behind it. All are made of kerrd's own tables and numbers. */
+/* Texts in UTF-8, each followed by NUL. They contain nothing but kerrd's own strings and numbers. */
 struct kd_shared {
-    struct kd_buffer link, code;    /* of scene/link.h; of it image/text_code.h */
-    struct kd_buffer title, about;  /* "Gargantua"; a sentence or two */
-    struct kd_buffer home, address; /* absolute: of the page, without the slash behind it; of /s/CODE */
-    struct kd_buffer picture;       /* absolute: its address, of KD_SHARED_WIDTH pixels */
+    struct kd_buffer link, code;    /* the link (scene/link.h) and its code (image/text_code.h) */
+    struct kd_buffer title, about;  /* title, such as "Gargantua"; one or two sentences */
+    struct kd_buffer home, address; /* absolute addresses: of the page, without a slash at its end; of /s/CODE */
+    struct kd_buffer picture;       /* absolute address of the picture, KD_SHARED_WIDTH pixels wide */
 };
 
-/* Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. Whatever the result, finish it. */
+/* Makes the texts. Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. Call kd_shared_finish whatever the
+ * result. */
 enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_scene *scene, struct kd_shared *out,
                               struct kd_error *error);
-/* Appends what the page's address has behind its #: without a preset it would be the first view. */
+/* Appends the fragment of the page's address, the text behind #. It names the preset, because the page would otherwise
+ * start from its first view. */
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);
 void kd_shared_finish(struct kd_shared *shared);
 

@@ -1,5 +1,5 @@
-/* Answers /s/CODE: a page of which other sites show title, words and picture where somebody has put a link to it
- * (Open Graph, https://ogp.me; oEmbed). Its script leads to the page with the scene; without scripts it shows the
+/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page from which other sites take title, description and picture of
+ * a link (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene; without scripts it shows the
  * picture and a link. */
 #include "server/answers/share.h"
 
@@ -11,7 +11,7 @@
 
 #define HTML "text/html; charset=utf-8"
 
-/* Text as an attribute's value or an element's content. */
+/* Escapes text for HTML attributes and content. */
 static enum kd_status escape(const struct kd_buffer *text, struct kd_buffer *out)
 {
     static const struct {
@@ -31,7 +31,7 @@ static enum kd_status escape(const struct kd_buffer *text, struct kd_buffer *out
     return status ? status : kd_buffer_printf(out, "%s", "");
 }
 
-/* A value of a query: all but unreserved characters (RFC 3986 2.3) as escapes. */
+/* Escapes a query value: all but unreserved characters (RFC 3986 2.3). */
 static enum kd_status as_value(const struct kd_buffer *text, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
@@ -119,7 +119,7 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* The link is a scene's; of the code nothing is told as it stands. */
+/* Makes the page for frames from the link that the code decodes to, not from the code as received. */
 static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
 {
     struct kd_buffer texts[3] = { 0 };
@@ -182,5 +182,5 @@ static enum MHD_Result answer(struct kd_request *request,
 
 enum MHD_Result kd_handle_shared(struct kd_request *request) { return answer(request, reply); }
 
-/* /embed/CODE: the picture alone, for a frame of another page, live once it is touched. */
+/* /embed/CODE: the picture alone, for a frame in another page; it becomes a live view when touched. */
 enum MHD_Result kd_handle_embed(struct kd_request *request) { return answer(request, reply_frame); }

@@ -1,6 +1,5 @@
-/* The page that a browser gets which comes without an access token, or with a wrong one: it asks for it. It needs no
- * script, and its form leads where the page takes a token by its address. Italian or English, as Accept-Language has
- * it. */
+/* Sign-in page for browsers without a valid access token. It works without scripts: its form passes the token in the
+ * page's address. In Italian or English, by Accept-Language. */
 #include "server/http/reply.h"
 
 #include <string.h>
@@ -22,7 +21,7 @@ static const struct {
 };
 enum { LANGUAGES = sizeof words / sizeof *words };
 
-/* Browsers name the language that their user would rather have first. */
+/* The first known language in Accept-Language, which browsers order by preference. */
 static size_t language(struct kd_request *request)
 {
     struct kd_buffer list = kd_reply_header_list(request, "Accept-Language");
@@ -48,7 +47,7 @@ static enum kd_status write_page(struct kd_request *request, const struct kd_pro
 {
     const size_t i = language(request);
     const char *base = strrchr(request->server->base.path,
-                               '/'); /* of an address without the slash at its end: the form goes to the one with it */
+                               '/'); /* base path without a slash at its end: the form leads to the one with it */
     const bool bare = base && !*request->target.path, tried = kd_target_value(&request->target, KD_ACCESS_QUERY);
     const char *says = problem->type == KD_PROBLEM_WRONG_TOKENS ? words[i].later : tried ? words[i].wrong : "";
     return kd_buffer_printf(

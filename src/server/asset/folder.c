@@ -75,7 +75,7 @@ static void name_of(const char *hash, const char *kind, char out[FILE_NAME])
     snprintf(out, FILE_NAME, "%.64s.%s", hash, kind);
 }
 
-/* Reads the hash that a file's name begins with; false: the name is none of ours. */
+/* Reads the hash at the beginning of a file's name. Returns false if the name is not that of an asset. */
 static bool hash_of(const char *name, const char *kind, char hash[KD_ASSET_NAME])
 {
     snprintf(hash, KD_ASSET_NAME, "%.64s", name);
@@ -105,7 +105,7 @@ static bool read_record(int folder, const char *hash, struct kd_asset_about *out
     return good;
 }
 
-/* Ends of the names of files that hold bytes. */
+/* Extensions of files that hold an asset's bytes. */
 static const char *const ends[] = { "png", "npz", "uvfits", "csv" };
 enum { ENDS = sizeof ends / sizeof *ends };
 
@@ -116,7 +116,7 @@ static const char *end_of(const struct kd_asset_about *about)
                                                               : about->nodes[0] > 0];
 }
 
-/* Reads the bytes of an asset, and checks them. Returns why they are not taken, or NULL. */
+/* Reads and checks the bytes of an asset. Returns why they are not accepted, or NULL. */
 static const char *read_bytes(int folder, struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     char name[FILE_NAME], hash[KD_ASSET_NAME];
@@ -134,7 +134,7 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
     return NULL;
 }
 
-/* Says whether an asset's record is there, whatever it holds. */
+/* Whether an asset has a record, whatever it holds. */
 static bool has_record(int folder, const char *hash)
 {
     char name[FILE_NAME];
@@ -143,8 +143,7 @@ static bool has_record(int folder, const char *hash)
     return !fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW);
 }
 
-/* Says whether a server that was killed left the file behind: bytes without their record, or the beginning of a
- * file. */
+/* Whether the file was left by a killed server: bytes without a record, or an unfinished file. */
 static bool is_left_over(int folder, const char *name)
 {
     static const char *const kinds[] = { "png", "npz", "uvfits", "csv", "json" };

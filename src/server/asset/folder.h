@@ -1,15 +1,15 @@
-/* Reads and writes the files of assets, and no others; never follows a link. Private to store.c. */
+/* Reads and writes the files of assets, and no other files; never follows a link. Private to store.c. */
 #ifndef KD_SERVER_ASSET_FOLDER_H
 #define KD_SERVER_ASSET_FOLDER_H
 
 #include "base/buffer.h"
 #include "server/asset/store.h"
 
-/* Opens STATE/assets, which is made if it is not there; *out is its descriptor. Fails with KD_EIO and the path. */
+/* Opens STATE/assets and creates it if needed. *out is a descriptor. Fails with KD_EIO; the message has the path. */
 enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error *error);
 
-/* Calls found() for each asset that is whole and that kd_asset_look takes; the bytes are found()'s to keep or free.
- * Files that a killed server left half done are removed. */
+/* Calls found() for each complete asset that kd_asset_look accepts; found() owns the bytes. Removes files that a killed
+ * server left half written. */
 enum kd_status kd_asset_folder_load(int folder,
                                     void (*found)(void *user, const struct kd_asset_about *about,
                                                   struct kd_buffer *bytes),
@@ -19,8 +19,7 @@ enum kd_status kd_asset_folder_load(int folder,
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);
 void kd_asset_folder_remove(int folder, const char *hash);
 
-/* Fills in what the bytes say of themselves; KD_EINVAL: they are no picture, no grid and no observation that is taken.
- */
+/* Fills in what the bytes contain. Returns KD_EINVAL if they are no supported picture, grid or observation. */
 enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error);
 
 #endif

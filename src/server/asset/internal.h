@@ -7,8 +7,8 @@
 #include <pthread.h>
 
 enum kd_asset_state {
-    KD_ASSET_WRITING, /* its files are being written, */
-    KD_ASSET_READY,   /* it can be found, */
+    KD_ASSET_WRITING, /* its files are being written */
+    KD_ASSET_READY,   /* it can be found */
     KD_ASSET_LEAVING, /* its files are being removed */
 };
 
@@ -16,9 +16,9 @@ struct kd_asset {
     struct kd_asset_about about;
     char client[KD_CLIENT];
     double used_ms;
-    unsigned references; /* the store's own among them */
+    unsigned references; /* including the store's own */
     enum kd_asset_state state;
-    struct kd_turns_job removal; /* of kd_asset_store_remove_later */
+    struct kd_turns_job removal; /* for kd_asset_store_remove_later */
     struct kd_asset_store *store;
     struct kd_asset *next;
     uint8_t bytes[];
@@ -27,27 +27,26 @@ struct kd_asset {
 struct kd_asset_store {
     struct kd_asset_limits limits;
     struct kd_assets assets;
-    pthread_mutex_t lock; /* for what follows; never held while a file is written or removed */
-    int folder;           /* -1: none */
+    pthread_mutex_t lock; /* for all members below; never held while a file is written or removed */
+    int folder;           /* descriptor; -1: no folder */
     struct kd_asset *first;
-    uint64_t checking;      /* bytes that checks under way take */
-    _Atomic unsigned count; /* these two are written with the lock, and read without */
+    uint64_t checking;      /* bytes used by checks under way */
+    _Atomic unsigned count; /* count and bytes are written with the lock and read without */
     _Atomic uint64_t bytes;
 };
 
-/* NULL: no memory. */
+/* Returns NULL when out of memory. */
 struct kd_asset *kd_asset_make(struct kd_asset_store *store, const struct kd_asset_about *about, const void *data,
                                size_t size, const char *client);
 
-/* With the lock. */
+/* Called with the lock. */
 void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset);
-void kd_asset_take_out(struct kd_asset_store *store,
-                       struct kd_asset *asset); /* of the list, and lets go of the store's reference */
+/* Removes it from the list and drops the store's reference. */
+void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset);
 void kd_asset_let_go(struct kd_asset *asset);
 struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash); /* in any state */
 
-/* Removes the files of an asset that is LEAVING, and then the asset. Without the lock; takes as long as the disk
- * does. */
+/* Removes the files of an asset in the state LEAVING, then the asset. Called without the lock; waits for the disk. */
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset);
 
 #endif

@@ -1,6 +1,6 @@
-/* How bytes become an asset, a piece each turn: hashed, compared with what is here, checked, given a place, written.
- * Nothing is checked twice. What a check unpacks counts to the limit of bytes while it lasts; a check that is alone may
- * go beyond it, for no asset gives way to bytes that may turn out to be no grid. */
+/* Stores an asset in pieces, one in each slice: hash, look for the same bytes, check, reserve room, write. Nothing is
+ * checked twice. The bytes that a check unpacks count in the limit meanwhile. A check that runs alone may exceed it,
+ * since no asset is evicted for bytes that may turn out not to be a grid. */
 #include "server/asset/internal.h"
 
 #include "base/clock.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STRETCH = 1 << 20 }; /* bytes that are hashed between two looks at the clock: some 3 ms */
+enum { STRETCH = 1 << 20 }; /* bytes hashed between two checks of the clock: some 3 ms */
 
 struct kd_asset_putting {
     struct kd_asset_store *store;
@@ -24,12 +24,12 @@ struct kd_asset_putting {
     struct sha256_ctx hash;
     struct kd_asset_about about;
     struct kd_matter_reader *grid;
-    uint64_t reserved; /* of store->checking */
+    uint64_t reserved; /* part of store->checking */
     enum kd_status (*step)(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                            struct kd_error *error);
 };
 
-/* The asset that nobody has asked for longest, if that is long enough to give way; NULL: none. With the lock. */
+/* Finds the least recently used asset, if it may be evicted; NULL: none. Called with the lock. */
 static struct kd_asset *oldest(const struct kd_asset_store *store)
 {
     struct kd_asset *best = NULL;
@@ -49,10 +49,11 @@ static bool is_anyone_leaving(const struct kd_asset_store *store)
     return false;
 }
 
-/* What a step finds where it wants room. */
+/* Result of a search for room. */
 enum room { ROOM, ROOM_LATER, ROOM_NONE };
 
-/* Looks for room for one more asset. *leaves: the caller removes this one first, without the lock. With the lock. */
+/* Looks for room for an asset. *leaves: an asset that the caller must remove first, without the lock. Called with the
+ * lock. */
 static enum room find_room(struct kd_asset_store *store, uint64_t bytes, struct kd_asset **leaves)
 {
     if (store->count < store->limits.most && store->bytes + bytes <= store->limits.bytes)
@@ -63,7 +64,7 @@ static enum room find_room(struct kd_asset_store *store, uint64_t bytes, struct 
     return *leaves || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
 }
 
-/* Says whether the client has its share already, or would have more with these bytes. With the lock. */
+/* Whether these bytes exceed the client's share. Called with the lock. */
 static bool has_share(const struct kd_asset_store *store, size_t size, const char *client)
 {
     unsigned assets = 0;
@@ -84,7 +85,7 @@ static enum kd_status is_full(struct kd_asset_put *put, struct kd_error *error)
                         (unsigned long long)limits->bytes);
 }
 
-/* After a look for room: removes what gives way, and says how to go on. Without the lock. */
+/* Removes the evicted asset and decides how to continue. Called without the lock. */
 static enum kd_status after_room(struct kd_asset_put *put, enum room room, struct kd_asset *leaves,
                                  enum kd_asset_progress *how, struct kd_error *error)
 {
@@ -97,7 +98,7 @@ static enum kd_status after_room(struct kd_asset_put *put, enum room room, struc
     return KD_OK;
 }
 
-/* True: the bytes are here already, or come or go just now. With the lock. */
+/* Whether the same bytes are stored, being stored or being removed. Called with the lock. */
 static bool is_here(struct kd_asset_put *put, enum kd_asset_progress *how)
 {
     struct kd_asset *there = kd_asset_find(put->own->store, put->own->about.hash);
@@ -122,7 +123,7 @@ static void end_check(struct kd_asset_putting *p)
     p->reserved = 0;
 }
 
-/* Writes the files of an asset that has a place. From then on it can be found. */
+/* Writes the files of an asset that has a place; it can then be found. */
 static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asset, struct kd_error *error)
 {
     enum kd_status status = store->folder >= 0 ? kd_asset_folder_write(store->folder, &asset->about, error) : KD_OK;
@@ -136,7 +137,7 @@ static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asse
     return status;
 }
 
-/* Says whether there is room for the asset, and gives it its place if it has been made. With the lock. */
+/* Looks for room, and inserts the asset if it has been made. Called with the lock. */
 static enum room take_place(struct kd_asset_put *put, struct kd_asset *fresh, struct kd_asset **leaves,
                             enum kd_asset_progress *how, bool *here)
 {
@@ -160,7 +161,8 @@ static enum kd_status is_beyond_share(const struct kd_asset_store *store, struct
                         store->limits.client_most, (unsigned long long)store->limits.client_bytes);
 }
 
-/* Finds a place, and writes. The bytes are copied once there is room, without the lock; the room may be gone then. */
+/* Finds room and stores the asset. The bytes are copied when there is room, without the lock; the room is then checked
+ * again. */
 static enum kd_status place(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                             struct kd_error *error)
 {

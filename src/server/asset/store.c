@@ -63,7 +63,7 @@ struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *h
     return NULL;
 }
 
-/* Takes in an asset from the folder. Who put it there is not known any more, so it counts to no client. */
+/* Adds an asset from the folder. Its client is not recorded, so it counts toward no client's share. */
 static void load(void *user, const struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     struct kd_asset_store *store = user;
@@ -128,7 +128,7 @@ void kd_asset_store_close(struct kd_asset_store *store)
     if (!store)
         return;
     while (store->first) {
-        if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0) /* its turn did not come any more */
+        if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0) /* its removal did not run before the end */
             kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
     }
@@ -154,14 +154,14 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
 
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
-    if (store->folder >= 0) /* before the same bytes can be put here again */
+    if (store->folder >= 0) /* before the same bytes can be stored again */
         kd_asset_folder_remove(store->folder, asset->about.hash);
     pthread_mutex_lock(&store->lock);
     kd_asset_take_out(store, asset);
     pthread_mutex_unlock(&store->lock);
 }
 
-/* Makes the asset one that nobody finds; false: somebody else removes it. */
+/* Hides the asset from searches. Returns false if another thread removes it. */
 static bool begin_to_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
     pthread_mutex_lock(&store->lock);
@@ -186,7 +186,7 @@ static enum kd_turn_end removal_turn(struct kd_turns_job *job)
     return KD_TURN_LAST;
 }
 
-/* The last thing that happens to the job: the asset that holds it may go. */
+/* Runs last, because it may free the asset that contains the job. */
 static void removal_done(struct kd_turns_job *job)
 {
     struct kd_asset *asset = (struct kd_asset *)((char *)job - offsetof(struct kd_asset, removal));

@@ -20,11 +20,12 @@
 #define FILE_MOST ((size_t)64 << 10) /* bytes of a token file */
 #define BLANK " \t\r"
 #define LETTERS "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-#define TOKEN_CHARACTERS LETTERS "-._~=" /* of those of RFC 6750 what an address and a cookie hold as they are */
+/* the characters of RFC 6750 tokens that need no escape in an address or a cookie */
+#define TOKEN_CHARACTERS LETTERS "-._~="
 
 struct entry {
     struct kd_visitor visitor;
-    uint8_t hash[SHA256_DIGEST_SIZE]; /* of the token, which is kept nowhere */
+    uint8_t hash[SHA256_DIGEST_SIZE]; /* of the token; the token itself is not stored */
 };
 
 struct kd_access {
@@ -57,7 +58,7 @@ static bool parse_role(const char *text, enum kd_role *out)
     return *out == KD_ROLE_RENDER || !strcmp(text, "view");
 }
 
-/* What is wrong with a line, as a sentence's end without the token; NULL: nothing. */
+/* Returns what is wrong with a line, as the end of a sentence without the token; NULL if nothing is. */
 static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token,
                             const char *more, struct entry *entry)
 {
@@ -155,14 +156,15 @@ void kd_access_free(struct kd_access *access)
     free(access);
 }
 
-/* Cookies of the name that are looked at. A browser sends several where paths lie in one another, or an old one is
- * left; many would be many tries at once. */
+/* Cookies of our name that are checked. A browser sends several if paths are nested or an old cookie is left. The limit
+ * keeps a request from testing many tokens at once. */
 enum { COOKIES = 4 };
 
-/* What a request brings as its token. */
+/* Tokens found in a request. */
 struct brought {
-    const char *alone, *bearer;   /* one that decides alone; else what there is; each may be NULL */
-    const char *cookies[COOKIES]; /* and these, up to a NULL */
+    /* alone: if set, the only one that counts; bearer: the one in Authorization; each may be NULL */
+    const char *alone, *bearer;
+    const char *cookies[COOKIES]; /* checked after bearer if alone is NULL */
     size_t n_cookies;
 };
 
@@ -185,8 +187,9 @@ static struct brought brought_by(struct kd_request *request)
     return brought;
 }
 
-/* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization
- * may as well hold the token of a session, so what is not ours there leaves it to the cookie. */
+/* Returns the visitor of a request, or NULL. A token in the page's address or in our own header is the only one
+ * checked. Authorization may instead hold the token of a session, so the cookies are checked if it has no access
+ * token. */
 static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
 {
     const struct kd_access *access = request->server->access;
@@ -199,20 +202,21 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
     return visitor;
 }
 
-/* 32 hexadecimal digits: nobody finds a token of that form by trying. */
+/* Tokens of sessions have 32 hexadecimal digits. An access token of that form cannot be found by guessing. */
 static bool may_be_sessions(const char *bearer)
 {
     return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32;
 }
 
-/* In how many seconds tokens of this address are looked at again; 0: they are, or none has come. Its client is still
- * its address. */
+/* Seconds until tokens of this address are checked again; 0: they are checked, or the request has none. Runs while
+ * request->client is still the address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_guesses *guesses = request->server->guesses;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
-    uint64_t hash = KD_HASH_BEGIN; /* the same for the same token, whichever way it is brought */
-    if (request->visitor) { /* by its cookie, perhaps, beside a try; but a bearer may be a session's token, too */
+    uint64_t hash = KD_HASH_BEGIN; /* so that the same token has the same hash wherever it stands */
+    /* known by its cookie, perhaps; a wrong bearer beside it counts as a guess unless it may be a session's token */
+    if (request->visitor) {
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
         const unsigned wait =
             tried ? kd_guesses_wrong(guesses, request->client,

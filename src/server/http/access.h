@@ -8,7 +8,7 @@
 
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
-#define KD_ACCESS_QUERY "access" /* on the page alone, which answers it with the cookie */
+#define KD_ACCESS_QUERY "access" /* query parameter of the page alone, which answers by setting the cookie */
 #define KD_ACCESS_TOKEN_MIN 16   /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
@@ -17,11 +17,10 @@ struct kd_access;
 struct kd_request;
 struct kd_route;
 
-/* Roles, each of which may do what those before it may. view: ask for whatever leaves nothing at the server; render:
- * all. */
+/* Roles. view: requests that create nothing on the server. render: all requests. */
 enum kd_role { KD_ROLE_VIEW = 1, KD_ROLE_RENDER };
 
-/* Whether a role may use a method of a route. */
+/* Whether the role may send this method to the route. */
 bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned method);
 
 struct kd_visitor {
@@ -29,19 +28,20 @@ struct kd_visitor {
     enum kd_role role;
 };
 
-/* Reads a token file: NAME ROLE TOKEN a line, # begins a comment. KD_EINVAL, with a sentence that names the line and
- * no token, where it cannot be read, others may read or write it, or a line is not as it should be. */
+/* Reads a token file: NAME ROLE TOKEN on each line; # begins a comment. Returns KD_EINVAL if the file cannot be read,
+ * if its group may write it, if others may read or write it, or if a line is malformed. The message names the line and
+ * never the token. */
 enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error);
 void kd_access_free(struct kd_access *access); /* accepts NULL */
 
-/* Whose token it is; NULL: nobody's. Takes as long for a wrong one as for a right one, whichever of them it is. Any
- * thread. */
+/* Returns the owner of a token, or NULL if no entry has it. Takes as long for a wrong token as for a right one,
+ * whichever entry matches. Any thread. */
 const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token);
 
-/* The token in the address of the page, as ?access=TOKEN; NULL: there is none, or the server takes none. */
+/* The token in the page's address, ?access=TOKEN. NULL if there is none, or if the server has no token file. */
 const char *kd_access_query(const struct kd_request *request);
-/* Whether a request may go on: its target has been taken apart, and request->route is where it leads, NULL for
- * nowhere. Sets request->visitor and ->spent. False with *problem filled (401, 403, 429). HTTP threads. */
+/* Authorises a request whose target has been parsed. request->route is its route, or NULL if no route has its path.
+ * Sets request->visitor and ->spent. Returns false with *problem filled (401, 403, 429). HTTP threads. */
 bool kd_access_check(struct kd_request *request, struct kd_problem *problem);
 
 #endif

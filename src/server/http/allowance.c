@@ -23,8 +23,7 @@ static size_t find(const struct kd_allowance *all, const char *client)
     return i;
 }
 
-/* The place of a client, which is made where it has none: in that of the fullest bucket, since least is forgotten
- * with that. */
+/* Finds or makes the place of a client. A new client replaces the fullest bucket, which holds the least history. */
 static struct kd_allowance_place *place_of(struct kd_allowance *all, const char *client, double now_ms)
 {
     const size_t known = find(all, client);
@@ -59,7 +58,7 @@ void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)
 {
     const double left = kd_allowance_left_ms(all, client, now_ms) - owed_ms;
-    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* until there is a millisecond */
+    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* until the bucket holds 1 ms */
 }
 
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)

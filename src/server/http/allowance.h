@@ -7,31 +7,30 @@
 #include "server/http/shares.h"
 
 #define KD_ALLOWANCE_CLIENTS \
-    256u /* with a bucket that is not full, told apart at once; one more is given the place of the one that is fullest \
-          */
+    256u /* buckets that are not full; when all places are taken, the fullest bucket is dropped */
 
 struct kd_allowance {
-    unsigned seconds; /* of the device's time that a client may use in a minute; 0: as much as it likes. The rest is 0
-                         to begin with */
+    /* seconds of device time that a client may use in a minute; 0: no limit. Initialise all other members to 0 */
+    unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];
-        double ms, at_ms; /* what the bucket held, and when; as full as may be where at_ms is 0 */
+        double ms, at_ms; /* contents of the bucket at the time at_ms; at_ms 0: full */
     } places[KD_ALLOWANCE_CLIENTS];
 };
 
-/* What the bucket holds, in ms of the device's time; below 0 it is owed. INFINITY without a limit, and for "":
- * nobody's, as jobs are that go on after a restart. */
+/* Contents of the client's bucket in ms of device time; negative: debt. INFINITY without a limit, and for the client
+ * "", which owns the jobs that continue after a restart. */
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
-/* Takes what work of a client has used. */
+/* Subtracts device time that work of a client has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
-/* In how many ms there is something in the bucket once so much more has been taken out of it; 0: there is now. */
+/* Milliseconds until the bucket holds at least 1 ms after a further owed_ms is subtracted; 0: it does now. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* For people: what a client may use in a minute, what is left of that once so much more has been taken out, and when
- * all is there again; in seconds. Where there is a limit. */
+/* Quota for display and headers, in seconds: what a client may use in a minute, what is left of that after owed_ms is
+ * subtracted, and the time until the bucket is full. Only valid where there is a limit. */
 struct kd_quota { unsigned seconds, left_s, whole_in_s; };
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* Whether work that waits may go on. patient: nobody sits before it, and it leaves half of the bucket to what
- * somebody asks for. */
+/* Whether waiting work of a client may run. patient: work in the background, which may use only the upper half of the
+ * bucket; the rest is left to interactive requests. */
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms);
 
 #endif

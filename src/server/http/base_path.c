@@ -7,7 +7,7 @@
 
 #define CHARACTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~@"
 
-/* What is wrong with it, or NULL. */
+/* Returns what is wrong with the text, or NULL. */
 static const char *fault(const char *text)
 {
     if (*text != '/')

@@ -9,16 +9,16 @@
 
 struct kd_base_path {
     char path[KD_BASE_PATH_MOST + 1];
-    /* Sentences of a 404: of a path outside the base path, and of one that no route has. */
+    /* Details of the two 404s: the path is outside the base path; no route has the path. */
     char outside[KD_BASE_PATH_MOST + 160], unknown[KD_BASE_PATH_MOST + 100];
 };
 
-/* Takes it from text, NULL for none. KD_EINVAL unless it is segments of letters, digits and -._~@, each behind a
- * slash, none of which is "." or "..". */
+/* Parses text; NULL: no base path. Returns KD_EINVAL unless text is a sequence of "/segment", each segment made of
+ * letters, digits and -._~@ and neither "." nor "..". */
 enum kd_status kd_base_path_init(struct kd_base_path *base, const char *text, struct kd_error *error);
 
-/* Gives what stands behind the base path: "/v1/render" of "/some/prefix/v1/render", "" of "/some/prefix"; NULL: the
- * path is not below it. */
+/* Returns the rest of the path behind the base path: "/v1/render" of "/some/prefix/v1/render", "" of "/some/prefix".
+ * NULL if the path is not below the base path. */
 const char *kd_base_path_behind(const struct kd_base_path *base, const char *path);
 
 #endif

@@ -15,7 +15,7 @@ struct kd_bytes {
     struct kd_bytes_params params;
     pthread_mutex_t lock;
     _Atomic size_t bytes;
-    struct place places[]; /* params.clients, and one of all others */
+    struct place places[]; /* params.clients of them, and one for all other clients */
 };
 
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params)
@@ -36,7 +36,7 @@ void kd_bytes_destroy(struct kd_bytes *b)
     free(b);
 }
 
-/* Finds the place of a client; NULL: it has no bytes here. */
+/* Finds the place of a client that holds bytes; else NULL. */
 static struct place *find(struct kd_bytes *b, const char *client)
 {
     for (unsigned i = 0; i < b->params.clients; i++)
@@ -68,8 +68,8 @@ enum kd_status kd_bytes_take(struct kd_bytes *b, const char *client, size_t n, s
     pthread_mutex_lock(&b->lock);
     size_t own = find_or_make(b, client)->bytes;
     const struct kd_bytes_params *p = &b->params;
-    double room =
-        size <= p->small ? 1 + (double)p->reserve / (double)p->max : 1; /* of the reserve a client has the same share */
+    /* in the reserve a client has the same fraction */
+    double room = size <= p->small ? 1 + (double)p->reserve / (double)p->max : 1;
     *quota = (double)(own + n) > room * (double)p->share && !(p->lone && !own);
     bool fits = !*quota && ((double)(b->bytes + n) <= room * (double)p->max || (p->lone && !b->bytes));
     if (fits)
@@ -91,7 +91,7 @@ void kd_bytes_give(struct kd_bytes *b, const char *client, size_t n)
 {
     pthread_mutex_lock(&b->lock);
     struct place *place = find(b, client);
-    if (!place || place->bytes < n) /* it came when all places were taken */
+    if (!place || place->bytes < n) /* its bytes were counted in the common place, because all others were in use */
         place = &b->places[b->params.clients];
     place->bytes -= n < place->bytes ? n : place->bytes;
     b->bytes -= n;

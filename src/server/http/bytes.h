@@ -13,25 +13,26 @@
 
 struct kd_bytes;
 
-/* NULL: out of memory. */
 struct kd_bytes_params {
-    /* How many clients are told apart at once; there are never more than connections. What further ones have counts
-     * as that of one. */
+    /* Number of clients counted separately, at most the number of connections. All further clients are counted as
+     * one. */
     unsigned clients;
-    size_t max, share;     /* in all; of one client */
-    size_t reserve, small; /* beside max, for what has at most `small` bytes; and as large a share of it */
-    bool lone; /* a client that has nothing here may have more than a share, and more than max where nobody has anything
-                */
+    size_t max, share; /* limits in bytes: of all clients together; of one client */
+    /* reserve: bytes beyond max for bodies or answers of at most `small` bytes; a client's share of it is share /
+     * max */
+    size_t reserve, small;
+    bool lone; /* a client that holds nothing may exceed share, and may exceed max if no client holds anything */
 };
-struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params);
-void kd_bytes_destroy(struct kd_bytes *bytes); /* accepts NULL */
+struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params); /* NULL: out of memory */
+void kd_bytes_destroy(struct kd_bytes *bytes);                          /* accepts NULL */
 
-/* Takes n more bytes of something that has, or will have, `size` in all. KD_EBUSY, and nothing is counted, where
- * they are too many in all, or with *quota too many of this client. n 0 asks whether any may come. */
+/* Reserves n more bytes of a body or answer whose full length is `size`. Returns KD_EBUSY and reserves nothing if that
+ * exceeds a limit; *quota is true if the limit is this client's share. n = 0 tests whether a limit is exceeded
+ * already. */
 enum kd_status kd_bytes_take(struct kd_bytes *bytes, const char *client, size_t n, size_t size, bool *quota);
-/* Counts bytes that are there already, whether they are too many or not. */
+/* Counts bytes that are already allocated, even beyond the limits. */
 void kd_bytes_add(struct kd_bytes *bytes, const char *client, size_t n);
 void kd_bytes_give(struct kd_bytes *bytes, const char *client, size_t n);
-size_t kd_bytes_held(const struct kd_bytes *bytes); /* waits for nobody */
+size_t kd_bytes_held(const struct kd_bytes *bytes); /* bytes reserved now; never blocks */
 
 #endif

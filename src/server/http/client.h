@@ -8,9 +8,9 @@
 
 #include <microhttpd.h>
 
-/* "" where it cannot be told: all of those are one client. */
+/* Writes "" if the address is unknown; all such clients count as one. */
 void kd_client_of(struct MHD_Connection *mhd, char out[KD_CLIENT]); /* HTTP thread only */
-/* The client that has a token of this name: no address is called so. */
+/* Client name for the owner of an access token. It never equals the text of an address. */
 void kd_client_named(const char *name, char out[KD_CLIENT]);
 void kd_client_at(const struct sockaddr *address, char out[KD_CLIENT]);
 

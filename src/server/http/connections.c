@@ -15,35 +15,35 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define IDLE_MS 60e3    /* past libmicrohttpd's idle timeout: only for those that trickle */
-#define CROWDED_MS 2e3  /* to say what it wants, for a connection accepted beyond the limit */
-#define REPLY_MS 30e3   /* to take an answer, and besides ... */
-#define BYTES_PER_MS 32 /* ... the time it takes at 32 kB/s, a poor mobile line */
+#define IDLE_MS 60e3    /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
+#define CROWDED_MS 2e3  /* for the header of a connection accepted beyond the limit */
+#define REPLY_MS 30e3   /* for reading an answer, ... */
+#define BYTES_PER_MS 32 /* ... and in addition the time for its bytes at 32 kB/s, a poor mobile line */
 
-#define STALL_MS 2e3  /* a client that reads takes something in less, over nearly any line */
-#define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
+#define STALL_MS 2e3  /* a client that reads takes some bytes within this time on nearly any line */
+#define LINGER_MS 2e3 /* several round trips and a few MiB; a client that sends more is reset */
 #define LINGER_BYTES ((size_t)16 << 20)
-#define LINGERING 64 /* at once */
-#define SILENT 32    /* connections that may wait without a word when all others are in use */
+#define LINGERING 64 /* sockets being drained */
+#define SILENT 32    /* connections that may wait without having sent anything when all others are in use */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
     int socket;
     char client[KD_CLIENT];
-    bool linger, handed_on, health, cut; /* cut: shut down for another */
+    bool linger, handed_on, health, cut; /* cut: shut down to make room */
     size_t discarded;
     enum kd_stage stage;
     double deadline;   /* on kd_clock_ms; 0: none */
-    int unsent;        /* bytes, when it was last looked at */
-    double stalled_ms; /* since then there are as many; 0: it has not been looked at */
+    int unsent;        /* unsent bytes in the socket at the last check */
+    double stalled_ms; /* when unsent last changed; 0: not checked yet */
 };
 
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit, share; /* the health routes' do not count */
+    unsigned count, limit, share; /* without the health routes' connections */
     unsigned n_handed_on, n_health;
-    struct kd_connection *lingering; /* no longer connections; singly linked */
+    struct kd_connection *lingering; /* removed, being drained; singly linked */
     unsigned n_lingering;
     double header_ms, body_ms;
 };
@@ -109,8 +109,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    struct kd_connection *stale =
-        find(all, socket); /* whose daemon closed it without a word: its number would not be free else */
+    /* the library has closed this socket without a callback: otherwise its number would not be free */
+    struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
         free(stale);
@@ -126,8 +126,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     return one;
 }
 
-/* Shuts down the oldest connection to the health routes. A client that asks for health in earnest has sent all at
- * once, and has been answered long ago. */
+/* Shuts down the oldest connection to the health routes. A real health check sends its request at once, so the oldest
+ * has long been answered. */
 static void cut_oldest_health(struct kd_connections *all)
 {
     struct kd_connection *oldest = NULL;
@@ -142,8 +142,7 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of the client of one, itself among them. handed_on: without those that have not said
- * anything yet. */
+/* Counts the connections of one's client, including one. handed_on: without those that have not sent anything yet. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -181,7 +180,7 @@ struct kd_connection *kd_connections_find(struct kd_connections *all, int socket
 
 bool kd_connection_is_health(const struct kd_connection *one) { return one && one->health; }
 
-/* A descriptor of our own keeps the socket when the library closes its one. */
+/* Keeps the socket open by a second descriptor when the library closes its own. */
 static bool keep(struct kd_connections *all, struct kd_connection *one)
 {
     int socket = all->n_lingering < LINGERING ? fcntl(one->socket, F_DUPFD_CLOEXEC, 0) : -1;
@@ -261,7 +260,7 @@ bool kd_connections_crowded(struct kd_connections *all, const struct kd_connecti
     return crowded;
 }
 
-/* The daemon takes some more than are served: those are told why they are not. */
+/* The daemon accepts more connections than are served; the excess get an answer that says why they are refused. */
 unsigned kd_connections_most(unsigned limit) { return limit + limit / 4 + 16; }
 
 bool kd_connections_full(struct kd_connections *all)
@@ -272,7 +271,7 @@ bool kd_connections_full(struct kd_connections *all)
     return full;
 }
 
-/* Nothing of an answer is on the wire in these stages, so a whole one may be put there from outside. */
+/* In these stages nothing of an answer has been sent, so a complete answer can be written to the socket directly. */
 static void answer_late(const struct kd_connection *one)
 {
     if (one->stage == KD_STAGE_HEADER)
@@ -281,7 +280,8 @@ static void answer_late(const struct kd_connection *one)
         kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive", NULL);
 }
 
-/* Throw away what has arrived, 1 MiB each sweep at most: the lock is held. False when there is no more to wait for. */
+/* Discards what has arrived, at most 1 MiB a sweep because the lock is held. False at the end or beyond
+ * LINGER_BYTES. */
 static bool empty(struct kd_connection *one)
 {
     enum { READS = 64 };
@@ -303,7 +303,7 @@ static void empty_lingering(struct kd_connections *all, double now)
     }
 }
 
-/* A request that has arrived and that its daemon has not read yet is not late, however busy this machine is. */
+/* A request that has arrived but that its daemon has not read yet is not late. */
 static bool waits_for_us(const struct kd_connection *one)
 {
     int unread = 0;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_AGE_S "600" /* that a browser remembers an answer to its preflight; Chromium takes up to two hours */
+#define MAX_AGE_S "600" /* seconds that a browser may cache a preflight; Chromium accepts up to two hours */
 #define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
 #define EXPOSED \
     "Accept-Ranges, Allow, Content-Digest, Content-Disposition, Content-Encoding, Content-Range, ETag, " \
@@ -21,10 +21,10 @@
 struct kd_cors {
     char **origins;
     size_t n;
-    struct kd_buffer embedders; /* with blanks between */
+    struct kd_buffer embedders; /* separated by blanks */
 };
 
-/* What is wrong with an origin, as a sentence's end; NULL: nothing. */
+/* Returns what is wrong with an origin, as the end of a sentence; NULL if nothing is. */
 static const char *fault_of(const char *origin)
 {
     if (!strcmp(origin, "null"))

@@ -11,29 +11,29 @@
 
 struct kd_cors;
 
-/* Reads origins as browsers send them, "https://host" or "http://host:port", several of them in a text with commas
- * between; texts and embeds are NULL-terminated, or NULL for none. Pages of embeds may have /embed in a frame, too.
- * "null" stands for pages without an origin, files among them, which may have no frame. KD_EINVAL: one of them is
- * none, with what it should be. */
+/* Parses lists of origins as browsers send them: "https://host" or "http://host:port", with commas between. texts and
+ * embeds are NULL-terminated, or NULL for none. Pages of embeds may also show /embed in a frame. "null" stands for
+ * pages without an origin, such as files; it is not permitted in embeds. Returns KD_EINVAL with a message that names
+ * the malformed origin. */
 enum kd_status kd_cors_create(const char *const *texts, const char *const *embeds, struct kd_cors **out,
                               struct kd_error *error);
 void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 
-/* The origin of the page that asks, if it is listed; NULL: it is not, or nothing says that a page asks. HTTP
- * threads, as all that follows. */
+/* Returns the listed origin that sent the request, or NULL if it is not listed or the request has no Origin. This and
+ * all functions below: HTTP threads. */
 const char *kd_cors_origin(const struct kd_request *request);
-/* Whether it is listed, and another one than the server's own: then no cookie is looked at. */
+/* Whether the request comes from a listed origin other than the server's own. Its cookies are then ignored. */
 bool kd_cors_foreign(const struct kd_request *request);
-/* Adds to any answer what lets the page read it, where it may; nothing on a server without a list. */
+/* Adds the CORS headers to an answer if the request's origin is listed. No effect on a server without a list. */
 void kd_cors_add(const struct kd_request *request, struct MHD_Response *response);
 
-/* Those that may have /embed in a frame, as the policy frame-ancestors lists them; NULL: there are none, or cors is
- * NULL. */
+/* Returns the origins that may show /embed in a frame, as the value of the policy frame-ancestors. NULL if there are
+ * none or cors is NULL. */
 const char *kd_cors_embedders(const struct kd_cors *cors);
 
-/* Whether this is what a browser asks first, on a server with a list. */
+/* Whether the request is a preflight. False on a server without a list. */
 bool kd_cors_is_preflight(const struct kd_request *request);
-/* Answers it for the route that its target leads to: methods and request headers that are taken there. */
+/* Answers a preflight with the methods and request headers of the route. */
 enum MHD_Result kd_cors_preflight(struct kd_request *request);
 
 #endif

@@ -6,19 +6,19 @@
 
 struct kd_sessions_counts {
     unsigned sessions, viewers;
-    uint64_t frames, bytes; /* published so far, of all; of those, once each */
+    uint64_t frames, bytes; /* totals since the start; bytes: each frame's size counted once */
 };
 
 struct kd_plays_counts {
     unsigned plays, watchers;
-    uint64_t bytes;         /* of memory that they may take */
-    uint64_t steps, events; /* so far, of all: sub-steps while they went on by themselves */
+    uint64_t bytes;         /* upper bound of the memory they use */
+    uint64_t steps, events; /* totals since the start; steps: sub-steps of running playgrounds */
 };
 
 struct kd_jobs_counts {
     unsigned waiting, running, done, failed;
-    uint64_t frames; /* finished by this server */
-    uint64_t bytes;  /* of the frames of all jobs */
+    uint64_t frames; /* finished by this server since its start */
+    uint64_t bytes;  /* on disk, of all jobs */
 };
 
 #endif

@@ -9,16 +9,16 @@
 #include <stdbool.h>
 #include <sys/resource.h>
 
-#define MOST 65536u /* more is not asked for: each costs the kernel memory */
-#define RESERVE \
-    200u /* the device, files of frames under way, those who linger or wait to say what they want, those who ask for \
-            health */
+#define MOST 65536u /* upper bound: each costs the kernel memory */
+/* for the device, files of frames under way, lingering sockets, connections that have sent nothing yet, health
+ * checks */
+#define RESERVE 200u
 
-/* Whether descriptors are enough for so many connections: a socket each, and a file that it may be sent. */
+/* Whether the limit is enough: each connection needs a socket and a file to send. */
 static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static DIR *folder; /* of descriptors: it stays open */
+static DIR *folder; /* /proc/self/fd, kept open */
 
 double kd_descriptors_open(void)
 {

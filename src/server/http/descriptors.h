@@ -2,12 +2,12 @@
 #ifndef KD_SERVER_HTTP_DESCRIPTORS_H
 #define KD_SERVER_HTTP_DESCRIPTORS_H
 
-/* Raises the soft limit to the hard one. As many connections as are wanted, or as few as leave descriptors for all
- * else: then no accept and no open fails for want of one, and who is one too many is told so. */
+/* Raises the soft limit of descriptors to the hard one. Returns how many of the wanted connections fit beside all other
+ * descriptors, so that accept and open do not fail, and a connection over the limit gets an answer. */
 unsigned kd_descriptors_for(unsigned connections);
 
-/* Open descriptors of this process; NAN where /proc does not tell. After kd_descriptors_for it needs none of its
- * own: it can be asked when there is none left. Any thread. */
+/* Open descriptors of this process; NAN where /proc is not available. After kd_descriptors_for it opens none itself, so
+ * it works when the limit is reached. Any thread. */
 double kd_descriptors_open(void);
 
 #endif

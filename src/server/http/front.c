@@ -17,23 +17,22 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define FULL_MS 10 /* between two looks whether a descriptor is free */
-#define BATCH 64   /* events, and connections accepted between two looks at them */
+#define FULL_MS 10 /* pause between two checks for a free descriptor */
+#define BATCH 64   /* events handled, and connections accepted, in one iteration */
 
-/* A connection that has not said yet what it wants. Its deadline is that of a header (connections.h). */
+/* A connection that is not handed on yet. It has the deadline of a header (connections.h). */
 struct guest {
     struct guest *previous, *next;
     struct kd_connection *connection;
     int socket;
     struct sockaddr_storage address;
     socklen_t address_size;
-    bool spare; /* it has the descriptor that was kept in reserve: whether the server lives it may ask, and nothing else
-                 */
+    bool spare; /* it uses the reserved descriptor: only health routes are served */
 };
 
 struct kd_front {
     struct kd_front_params params;
-    int epoll, stop, reserve;   /* reserve: a descriptor to give up where there is no other; -1: it is given up */
+    int epoll, stop, reserve;   /* reserve: a descriptor to release when none is left; -1: released */
     struct guest *first, *last; /* the latest first */
     pthread_t thread;
 };
@@ -47,7 +46,7 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
-    /* A socket that lingers stays open under another number, and would go on having events for a guest that is gone. */
+    /* A lingering socket stays open by another descriptor, and epoll would report events for a guest that is freed. */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
     close(guest->socket);
@@ -78,13 +77,15 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
         return;
     }
     unlink_guest(front, guest);
-    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* it may have been handed on before it was watched */
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* ignored if it is not watched yet */
+    /* on failure the library has closed the socket */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
-        kd_connections_remove(front->params.connections, guest->connection); /* the library has closed the socket */
+        kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
 }
 
-/* Hand it on once its first bytes say whose it is. gone: no more bytes will come. True while it is still a guest. */
+/* Hands a guest on once its first bytes decide which daemon is its own. gone: no more bytes will come. Returns true
+ * while it remains a guest. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
     char begin[KD_BEGINS_BYTES];
@@ -120,7 +121,7 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Watches for edges, because bytes that are only looked at would make a level stay high. */
+/* Watches edge-triggered, because bytes that are only peeked at would keep a level-triggered event set. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -130,13 +131,13 @@ static void watch(struct kd_front *front, struct guest *guest)
 
 static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
-/* Makes room when every descriptor is in use: the guest that has waited longest without a word goes, else the next
- * one has the reserve. Without either there is nothing to do but to wait for somebody to go. */
+/* Frees a descriptor when all are in use: closes the guest that has waited longest, or else releases the reserve.
+ * Without either, it waits until a connection closes. */
 static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
     if (poll(&waiting, 1, 0) < 1)
-        return; /* without a descriptor accept fails even if nobody waits */
+        return; /* accept would fail for lack of a descriptor although nobody waits */
     if (front->last)
         send_away(front, front->last);
     else if (front->reserve >= 0) {
@@ -147,7 +148,7 @@ static void make_room(struct kd_front *front)
         poll(NULL, 0, FULL_MS);
 }
 
-/* Accepts a connection; false when nobody waits any more. */
+/* Accepts a connection. Returns false when none is waiting. */
 static bool accept_one(struct kd_front *front)
 {
     struct sockaddr_storage address = { 0 };
@@ -155,11 +156,11 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false; /* who waits to be accepted is told of again */
+        return false; /* the waiting connection is reported again */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&
-               errno != EBADF; /* one that has gone already */
+               errno != EBADF; /* other errors concern a connection that is gone already */
     if (front->reserve < 0)
         front->reserve = keep_reserve();
     struct guest *guest = admit(front, socket, &address, size);
@@ -168,7 +169,7 @@ static bool accept_one(struct kd_front *front)
     guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
-    if (look_at(front, guest, false)) /* what it wants has mostly come with it, and there is nothing to watch */
+    if (look_at(front, guest, false)) /* most requests arrive with the connection, and need no watching */
         watch(front, guest);
     return true;
 }
@@ -189,7 +190,7 @@ static void *run(void *user)
             else
                 look_at(front, events[i].data.ptr, events[i].events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR));
         }
-        for (int i = 0; more && i < BATCH; i++) /* last: it may send away guests that have events */
+        for (int i = 0; more && i < BATCH; i++) /* after the events, because it may close guests that have events */
             more = accept_one(front);
     }
 }

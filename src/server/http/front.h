@@ -13,14 +13,14 @@
 struct kd_front;
 
 struct kd_front_params {
-    int listener; /* non-blocking; the front closes it, also when it cannot be created */
+    int listener; /* listening socket, non-blocking; the front closes it, even if creation fails */
     struct kd_connections *connections;
     const struct kd_base_path *base;    /* outlives the front */
     struct MHD_Daemon *health, *others; /* without listening sockets; they outlive the front */
 };
 
 enum kd_status kd_front_create(const struct kd_front_params *params, struct kd_front **out, struct kd_error *error);
-/* Stop listening, and close the connections that have not said anything yet. Accepts NULL. */
+/* Stops listening and closes the connections that are not handed on yet. Accepts NULL. */
 void kd_front_destroy(struct kd_front *front);
 
 #endif

@@ -35,13 +35,13 @@ static bool is_token(const char *text, size_t size)
     return size > 0;
 }
 
-/* Blanks at the end are no part of a value (RFC 9110 5.5), and libmicrohttpd leaves them there (0.9.75). */
+/* Length without trailing blanks, which are not part of a value (RFC 9110 5.5) and which libmicrohttpd 0.9.75 keeps. */
 static size_t trim(const char *value, size_t size)
 {
     union {
         const char *in;
         char *out;
-    } text = { value }; /* the library's own copy, which it ended with a zero itself */
+    } text = { value }; /* the library's own copy, ended by a zero byte */
     const size_t given = size;
     while (size && (value[size - 1] == ' ' || value[size - 1] == '\t'))
         size--;
@@ -50,7 +50,7 @@ static size_t trim(const char *value, size_t size)
     return size;
 }
 
-/* A longer one is no name of ours. */
+/* A truncated Host is longer than any name served, so it is refused. */
 static void keep_host(struct kd_header *header, const char *value, size_t n)
 {
     snprintf(header->host_text, sizeof header->host_text, "%.*s",

@@ -10,16 +10,17 @@
 #include <stdint.h>
 
 struct kd_header {
-    char wrong_host[280]; /* what is wrong with it, for the answer */
-    char host_text[280];  /* Host without the blanks behind it */
+    char wrong_host[280]; /* detail of the answer if Host is malformed or not served */
+    char host_text[280];  /* Host without trailing blanks */
     const char *host, *content_type;
     uint64_t content_length;
     bool has_length, chunked;
 };
 
-/* authority: the host of a target in absolute form, which counts in the place of Host (RFC 9112 3.2.2); NULL: the
- * target has none. hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers
- * ask for health. True when sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
+/* authority: host of a target in absolute form, which takes precedence over Host (RFC 9112 3.2.2); NULL if the target
+ * has none. hosts: NULL-terminated list of the names served. hostless: admits HTTP/1.0 without Host, as load balancers
+ * send it to the health routes. Returns true with *header filled, or false with *problem, which closes the connection.
+ * HTTP threads. */
 bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *authority,
                     const char *const *hosts, bool hostless, struct kd_header *header, struct kd_problem *problem);
 

@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REMEMBERED 16u /* wrong tokens of an address */
+#define REMEMBERED 16u /* wrong tokens remembered for an address */
 
 struct place {
     char client[KD_CLIENT];
-    double tries, at_ms; /* how many were left, and when; at_ms 0: the place is free */
+    double tries, at_ms; /* tries left at the time at_ms; at_ms 0: unused */
     uint64_t wrong[REMEMBERED];
     const void *right[KD_GUESSES_NAMES];
-    unsigned n_wrong, n_right; /* that have been written, the latest over the oldest */
+    unsigned n_wrong, n_right; /* totals written; the arrays are ring buffers */
 };
 
 struct kd_guesses {
@@ -42,14 +42,14 @@ static double tries_now(const struct place *p, double now_ms)
                         : KD_GUESSES_MOST;
 }
 
-/* Whether a place is the better one to give to another address. */
+/* Whether p is to be evicted rather than `than`. */
 static bool gives_way(const struct place *p, const struct place *than, double now_ms)
 {
     const double a = tries_now(p, now_ms), b = tries_now(than, now_ms);
     return a > b || (!(a < b) && p->at_ms < than->at_ms);
 }
 
-/* The place of an address, as it is now; it may have been another's. */
+/* Finds the place of an address, or evicts one for it, and brings it up to date. */
 static struct place *place_of(struct kd_guesses *guesses, const char *client, double now_ms)
 {
     struct place *best = &guesses->places[0];

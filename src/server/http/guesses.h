@@ -9,22 +9,24 @@
 
 #include <stdint.h>
 
-#define KD_GUESSES_MOST 20u  /* wrong tokens of an address at once */
-#define KD_GUESSES_EACH_S 3u /* after which one more is taken */
-#define KD_GUESSES_NAMES 64u /* that have been right from an address, and stay in: the latest ones */
-#define KD_GUESSES_CLIENTS \
-    256u /* addresses told apart; one more has the place of one that has tried least, and of these the one that was \
-            heard of longest ago */
+#define KD_GUESSES_MOST 20u  /* wrong tokens that an address may present in a burst */
+#define KD_GUESSES_EACH_S 3u /* seconds after which it may present one more */
+#define KD_GUESSES_NAMES 64u /* accepted token owners remembered for each address, the latest ones */
+#define KD_GUESSES_CLIENTS
+/* addresses tracked; when full, the address with the fewest recent failures is evicted, of equals the least
+ * recently seen */
+256u
 
-struct kd_guesses;
+    struct kd_guesses;
 
 struct kd_guesses *kd_guesses_create(void);          /* NULL: out of memory */
 void kd_guesses_destroy(struct kd_guesses *guesses); /* accepts NULL */
 
-/* A right token has come: whose, by an address that stays. 0: it is taken. Else in how many seconds one will be. */
+/* Reports a right token. whose: a pointer that identifies its owner. Returns 0 if it is accepted, else the seconds
+ * until this address may present a new token. */
 unsigned kd_guesses_right(struct kd_guesses *guesses, const char *client, const void *whose, double now_ms);
-/* A wrong one has come, of this hash. 0: it is counted, and told so. Else in how many seconds another one will be
- * looked at. */
+/* Reports a wrong token by its hash. Returns 0 if it is counted (or known already) and the client may be answered, else
+ * the seconds until this address may present another. */
 unsigned kd_guesses_wrong(struct kd_guesses *guesses, const char *client, uint64_t hash, double now_ms);
 
 #endif

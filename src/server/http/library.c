@@ -8,15 +8,15 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define SAYS_STATUS "HTTP response code is " /* 0.9.75 and 1.0.1 */
+#define SAYS_STATUS "HTTP response code is " /* text in libmicrohttpd 0.9.75 and 1.0.1 */
 
 static _Thread_local int current = -1;
 
 void kd_library_works_on(int socket) { current = socket; }
 
-/* This is the C library's recv for the whole program, shared libraries included: nothing else tells whose bytes a
- * thread of libmicrohttpd has before it. By its name as a symbol, because headers may make the plain one an inline
- * function. */
+/* Replaces the C library's recv in the whole program, shared libraries included. Nothing else reveals which
+ * connection's bytes a thread of libmicrohttpd is parsing. It is declared by its symbol, because headers may define
+ * recv as an inline function. */
 ssize_t kd_recv(int socket, void *data, size_t size, int flags) __asm__("recv");
 ssize_t kd_recv(int socket, void *data, size_t size, int flags)
 {
@@ -40,7 +40,7 @@ static const struct refusal {
     { 505, KD_PROBLEM_HTTP_VERSION, "the request line names another version of HTTP" },
 };
 
-/* Finds the refusal that a line of the log tells of; NULL: it tells of none. */
+/* Finds the refusal that a log line reports; NULL if it reports none. */
 static const struct refusal *refusal_of(const char *line)
 {
     const char *says = strstr(line, SAYS_STATUS);

@@ -11,7 +11,7 @@
 /* The calling thread now works on the connection of this socket. Called in each callback of the library. */
 void kd_library_works_on(int socket);
 
-/* The function for MHD_OPTION_EXTERNAL_LOGGER. connections: the struct kd_connections that the sockets are found in. */
+/* Callback for MHD_OPTION_EXTERNAL_LOGGER. connections: the struct kd_connections of the server. */
 void kd_library_log(void *connections, const char *format, va_list args);
 
 #endif

@@ -7,9 +7,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* address: "127.0.0.1", "::1" or "[::1]"; *port 0 is replaced by the one chosen. The caller closes *out. */
-/* Whether other machines reach what listens there; false, too, of what is no numeric address. */
+/* Whether a socket that listens on the address can be reached from other machines. False if it is no numeric
+ * address. */
 bool kd_listen_reaches_out(const char *address);
+/* Opens the socket. address: "127.0.0.1", "::1" or "[::1]". *port 0 is replaced by the port that the system chose. The
+ * caller closes *out. */
 enum kd_status kd_listen_open(const char *address, uint16_t *port, int *out, struct kd_error *error);
 
 #endif

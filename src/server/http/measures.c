@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CLASSES 6 /* 0: cut off before there was a status */
+#define CLASSES 6 /* the first: cut before a status */
 
 struct kd_measures {
-    size_t n;                                  /* routes, and one more */
-    struct kd_histogram histograms[][CLASSES]; /* by route; those without one come last */
+    size_t n;                                  /* routes and one for requests without a route */
+    struct kd_histogram histograms[][CLASSES]; /* by route; last: without a route */
 };
 
 struct kd_measures *kd_measures_create(void)

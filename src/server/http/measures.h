@@ -11,12 +11,13 @@ struct kd_measures;
 struct kd_measures *kd_measures_create(void);           /* NULL: no memory */
 void kd_measures_destroy(struct kd_measures *measures); /* accepts NULL */
 
-/* A request has been answered, or cut off before that: status 0. route NULL: its path leads nowhere. */
+/* Adds the duration of a finished request. status 0: the connection was cut before an answer. route NULL: no route has
+ * the path. */
 void kd_measures_add(struct kd_measures *measures, const struct kd_route *route, unsigned status, double ms);
-/* kerrd_request_seconds: those that have happened. */
+/* Writes the metric kerrd_request_seconds. Combinations without a request are left out. */
 enum kd_status kd_measures_write(const struct kd_measures *measures, struct kd_buffer *out);
 
-/* A route's path, and "none" for NULL: what /metrics and the log call it. */
+/* Label of a route in /metrics and the log: its path, or "none" for NULL. */
 const char *kd_measures_route(const struct kd_route *route);
 
 #endif

@@ -11,7 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define MOST 64 /* names; a machine with more addresses can name the others with --host */
+#define MOST 64 /* names; a machine with more addresses can add the others by --host */
 
 bool kd_names_any(const char *listen)
 {
@@ -25,8 +25,7 @@ void kd_names_free(char **names)
     free(names);
 }
 
-/* Writes an address as a URL has it; "" for what no URL holds: another family, an address that means something on one
- * interface only. */
+/* Writes an address as a URL has it; "" for other families and for addresses that are valid on one interface only. */
 static void text_of(const struct sockaddr *address, int family, char out[80])
 {
     char text[INET6_ADDRSTRLEN] = "";
@@ -53,7 +52,7 @@ static bool add(char **names, size_t *n, const char *name)
     return names[(*n)++];
 }
 
-/* Debian lets a host name lead to 127.0.1.1, which is this machine too. */
+/* Whether the address is this machine's. Loopback counts, because Debian resolves the host name to 127.0.1.1. */
 static bool is_own(const char *text, char **names, size_t n)
 {
     for (size_t i = 0; i < n; i++)

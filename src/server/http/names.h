@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
-/* Whether a numeric address stands for every one of its family: 0.0.0.0, ::, [::]. */
+/* Whether listen is a wildcard address: 0.0.0.0, :: or [::]. */
 bool kd_names_any(const char *listen);
 
-/* The machine's own addresses of that family, as a URL has them ("192.168.1.7", "[2001:db8::7]"), and its host name
- * where that leads to one of them. NULL-terminated, one malloc'd block each; NULL when out of memory. It may ask the
- * resolver. */
+/* Returns the machine's own addresses of that family as URLs have them ("192.168.1.7", "[2001:db8::7]"), and its host
+ * name if that resolves to one of them. NULL-terminated; list and names are malloc'd. NULL when out of memory. May
+ * query the resolver. */
 char **kd_names_own(const char *listen);
 void kd_names_free(char **names); /* accepts NULL */
 

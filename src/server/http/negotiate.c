@@ -26,7 +26,7 @@ static bool equals(struct span s, const char *text)
     return s.size == strlen(text) && !strncasecmp(s.at, text, s.size);
 }
 
-/* What comes before the separator; *rest moves behind it, to NULL at the end. Quoted text is passed over. */
+/* Returns the text before the separator and moves *rest behind it, or sets it to NULL at the end. Skips quoted text. */
 static struct span take(const char **rest, char separator)
 {
     const char *start = *rest, *p = start;
@@ -42,7 +42,7 @@ static struct span take(const char **rest, char separator)
     return trim((struct span) { start, (size_t)(p - start) });
 }
 
-/* The weight in thousandths, -1 when it is none: 0, 0.5, 1.000 (RFC 9110, 12.4.2). */
+/* Parses a weight (RFC 9110 12.4.2), such as 0, 0.5 or 1.000, to thousandths; -1 if malformed. */
 static int weight(struct span s)
 {
     if (!s.size || s.size > 5 || (s.at[0] != '0' && s.at[0] != '1') || (s.size > 1 && s.at[1] != '.'))
@@ -56,7 +56,7 @@ static int weight(struct span s)
     return value <= 1000 ? value : -1;
 }
 
-/* How closely a media range fits: 3 the type itself, 2 its family, 1 anything, 0 not. */
+/* How closely a media range matches: 3 same type, 2 same type before the slash, 1 any, 0 no match. */
 static int fit(struct span range, const char *type)
 {
     size_t family = strcspn(type, "/") + 1;
@@ -78,14 +78,14 @@ static int entry_weight(const char *parameters)
     return q;
 }
 
-/* An entry of a weighted list: its name, which lies in its text, and its weight, -1 where that is malformed. */
+/* An entry of a weighted list. `name` points into `text`; weight is -1 if it is malformed. */
 struct entry {
     char text[256];
     struct span name;
     int weight;
 };
 
-/* The next entry that is there and no longer than there is room for; *list moves behind it. False at the end. */
+/* Reads the next entry that is not empty and not too long; moves *list behind it. False at the end. */
 static bool next_entry(const char **list, struct entry *out)
 {
     while (*list) {
@@ -102,7 +102,7 @@ static bool next_entry(const char **list, struct entry *out)
     return false;
 }
 
-/* In thousandths; 0: it is not admitted. */
+/* Weight of a type in thousandths; 0: not acceptable. */
 static int type_weight(const char *accept, const char *type)
 {
     struct entry entry;
@@ -203,7 +203,7 @@ bool kd_host_listed(const char *host, const char *const *names)
         return false;
     const size_t plain =
         size - (size > 1 && host[size - 1] == '.' &&
-                !isdigit((unsigned char)host[size - 2])); /* "localhost." is the same name (RFC 1034, 3.1) */
+                !isdigit((unsigned char)host[size - 2])); /* "localhost." is the same name (RFC 1034 3.1) */
     for (; *names; names++)
         if (equals((struct span) { host, size }, *names) || equals((struct span) { host, plain }, *names))
             return true;

@@ -6,29 +6,30 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* How much an Accept value (RFC 9110, 12.5.1) wants a type is said by the most specific range that matches it.
- * Malformed entries match nothing; NULL or a blank value admits all. Which of n types, named by type(i, list), it
- * wants most: of several the first; n: none. */
+/* Chooses the media type that an Accept value (RFC 9110 12.5.1) prefers among n types, named by type(i, list); of
+ * equals the first. The most specific matching range gives a type's weight. Malformed entries match nothing; NULL or a
+ * blank value accepts all. Returns n if none is acceptable. */
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
-const char *kd_accept_string(size_t i, const void *list); /* where list is of strings, const char *[] */
+const char *kd_accept_string(size_t i, const void *list); /* `type` for a list that is an array of const char * */
 
-/* Whether an Accept-Encoding value (RFC 9110, 12.5.3) names the coding, or "*", by a weight above zero. NULL: no. */
+/* Whether an Accept-Encoding value (RFC 9110 12.5.3) has the coding, or "*", with a weight above zero. False for
+ * NULL. */
 bool kd_accepts_coding(const char *accept_encoding, const char *coding);
 
-/* Whether an If-None-Match value names the entity tag (with its quotes), compared weakly, or is "*". */
+/* Whether an If-None-Match value is "*" or contains the entity tag (with its quotes), by weak comparison. */
 bool kd_etag_listed(const char *if_none_match, const char *etag);
 
-/* Whether an If-Match value names the entity tag, compared strongly, or is "*". etag NULL: there is none to be
- * named. */
+/* Whether an If-Match value is "*" or contains the entity tag, by strong comparison. etag NULL: the resource has
+ * none. */
 bool kd_etag_matches(const char *if_match, const char *etag);
 
-/* Whether a Content-Type value is this media type, whatever its parameters. */
+/* Whether a Content-Type value is this media type; parameters are ignored. */
 bool kd_media_type_is(const char *content_type, const char *type);
 
-/* Whether a Host value is a host and perhaps a port at all (RFC 3986 3.2.2), and not empty. */
+/* Whether a Host value is well formed: a non-empty host and optionally a port (RFC 3986 3.2.2). */
 bool kd_host_is_sound(const char *host);
-/* Whether a Host value, without its port and a dot behind its last letter, is one of the NULL-terminated names. IPv6
- * literals in brackets. */
+/* Whether the host of a Host value is one of the NULL-terminated names. The port and a final dot are ignored. IPv6
+ * literals have brackets. */
 bool kd_host_listed(const char *host, const char *const *names);
 
 #endif

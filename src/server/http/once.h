@@ -17,21 +17,23 @@ enum { KD_ONCE_TEXT = 300 };
 
 struct kd_request;
 
-/* SHA-256s; "": there is no key. */
+/* SHA-256 in hexadecimal; "" if the request has no key. */
 struct kd_once {
-    char key[65];     /* of the client, the route and the key */
-    char request[65]; /* of the target and the body */
+    char key[65];     /* hash of the client, the route and the key */
+    char request[65]; /* hash of the target and the body */
 };
 
-/* Reads the header, before the body comes; a request without it has no key. False: it is no key, which text says. */
+/* Reads the header before the body arrives; without the header the request has no key. Returns false if the key is
+ * malformed; text then holds the detail of *problem. */
 bool kd_once_read(struct kd_request *request, struct kd_problem *problem, char text[KD_ONCE_TEXT]);
-/* Takes the next part of the body into account. */
+/* Adds the next part of the body to the hash. */
 void kd_once_take(struct kd_request *request, const void *data, size_t size);
 
-/* What was made earlier with this key; NULL: nothing is there. KD_ONCE_REFUSED: the answer is *refused, 409 while the
- * earlier request is under way, and 422 where it was another one. */
+/* Decides about a request. earlier: the key of an object made before; NULL if there is none. KD_ONCE_FIRST: create the
+ * object. KD_ONCE_AGAIN: answer with the earlier object. KD_ONCE_REFUSED: return *refused, which is 409 while a request
+ * with the same key is under way, and 422 if the earlier request was a different one. */
 enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
-void kd_once_end(struct kd_request *request); /* it is under way no more */
+void kd_once_end(struct kd_request *request); /* the request has been answered */
 
 #endif

@@ -50,7 +50,7 @@ void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, 
         problem->retry_after = error->retry_s ? error->retry_s : otherwise_s;
 }
 
-/* A message may echo bytes of the request, or end in the middle of a character: JSON must not. */
+/* A message may contain bytes of the request or end within a character, which JSON must not. */
 static void add_text(struct kd_json *json, const char *key, const char *text)
 {
     char copy[512];
@@ -97,7 +97,7 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
             table[type].status, later ? "Retry-After: 1\r\n" : "", named ? KD_REQUEST_ID_HEADER ": " : "",
             named ? request_id : "", named ? "\r\n" : "", body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
-            /* The peer is gone or does not read: it is about to be cut off in any case. */
+            /* The peer is gone or does not read; the connection is about to be closed anyway. */
         }
     kd_buffer_finish(&body);
     kd_buffer_finish(&reply);

@@ -1,4 +1,4 @@
-/* Error answers are RFC 9457 problem documents; these are their types. */
+/* Problem documents (RFC 9457), the bodies of all error answers, and their types. */
 #ifndef KD_SERVER_HTTP_PROBLEM_H
 #define KD_SERVER_HTTP_PROBLEM_H
 
@@ -60,32 +60,33 @@ enum kd_problem_type {
 struct kd_problem {
     enum kd_problem_type type;
     const char *detail;        /* one sentence for this occurrence */
-    const char *pointer;       /* RFC 6901, into the scene; NULL or "" for none */
-    const char *offered;       /* 406, 415: the media types that would do */
-    const char *allow;         /* 405: the methods that would do */
-    const char *content_range; /* 416: how many bytes there are */
+    const char *pointer;       /* RFC 6901 pointer into the scene; NULL or "" for none */
+    const char *offered;       /* 406, 415: the media types that are accepted */
+    const char *allow;         /* 405: the methods that are accepted */
+    const char *content_range; /* 416: the value of Content-Range, which has the length */
     const char *request_id;    /* NULL or "" for none */
-    unsigned retry_after;      /* seconds; 0: no such header */
-    bool close;                /* the rest of what this client sends cannot be trusted or is not wanted */
+    unsigned retry_after;      /* Retry-After in seconds; 0: no such header */
+    /* close the connection: the rest of what this client sends is not wanted, or cannot be parsed safely */
+    bool close;
 };
 
-/* How a library status becomes a problem. pointer and detail point into *error. */
+/* Makes the problem of a status. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes what kd_problem_from has made where a limit may be what refuses. quota: it is one client's own, 429.
- * With KD_EBUSY it says in how many seconds to try again: as the error knows, else otherwise_s. */
+/* Completes a result of kd_problem_from where a limit may be the reason. quota: the limit is that of one client, so the
+ * status is 429. For KD_EBUSY it sets Retry-After to the seconds in the error, else to otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);
 const char *kd_problem_title(enum kd_problem_type type);
-/* "urn:kerrd:problem:...", which is the document's type; NULL behind the last. */
+/* The document's type, "urn:kerrd:problem:..."; NULL beyond the last. */
 const char *kd_problem_uri(size_t type);
 
-/* The document, application/problem+json. */
+/* Writes the document, application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);
 
-/* A whole HTTP answer straight to a socket, for where libmicrohttpd can send none. request_id: NULL or "" where
- * there is none yet. Never blocks. */
+/* Writes a complete HTTP answer to a socket, where libmicrohttpd cannot. request_id: NULL or "" if there is none yet.
+ * Never blocks. */
 void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail, const char *request_id);
 
 #endif

@@ -9,9 +9,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-struct process { double cpu_s, start_s, virtual_bytes, resident_bytes; /* NAN: not told */ };
+struct process { double cpu_s, start_s, virtual_bytes, resident_bytes; /* NAN: unknown */ };
 
-/* A file of /proc has no size before it is read, so kd_read_file has no use here. */
+/* Files of /proc report size 0, so kd_read_file cannot read them. */
 static bool read_text(const char *path, char *out, size_t size)
 {
     FILE *file = fopen(path, "re");
@@ -35,8 +35,8 @@ static double boot_time_s(void)
     return s;
 }
 
-/* proc(5): behind the name, which may hold anything, come state and numbers; those used here are the 14th, 15th and
- * 22nd to 24th of all. */
+/* proc(5): the process name may contain anything and is skipped; the fields used are the 14th, 15th and 22nd to
+ * 24th. */
 static struct process look(void)
 {
     struct process p = { NAN, NAN, NAN, NAN };

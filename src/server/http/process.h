@@ -5,7 +5,7 @@
 
 #include "base/buffer.h"
 
-/* What /proc does not tell is left out. */
+/* Values that /proc does not have are left out. */
 enum kd_status kd_process_write(struct kd_buffer *out);
 
 #endif

@@ -6,9 +6,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#define SLICE_NS 100000 /* the least there is */
+#define SLICE_NS 100000 /* the smallest that the kernel accepts */
 
-/* struct sched_attr of linux/sched/types.h, version 0: older C libraries have none, newer ones one of this name. */
+/* struct sched_attr of linux/sched/types.h, version 0. Older C libraries lack it, newer ones declare it themselves. */
 struct attributes {
     uint32_t size, policy;
     uint64_t flags;
@@ -20,11 +20,11 @@ struct attributes {
 void kd_prompt_thread(void)
 {
     static _Thread_local int asked;
-    if (asked || sched_getscheduler(0) != SCHED_OTHER) /* what the whole process was given stays */
+    if (asked || sched_getscheduler(0) != SCHED_OTHER) /* a policy set for the whole process is kept */
         return;
     asked = 1;
     struct attributes a = {
         .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS
     };
-    syscall(SYS_sched_setattr, 0, &a, 0); /* a nicety: where it is refused, all goes on without */
+    syscall(SYS_sched_setattr, 0, &a, 0); /* an optimisation: failure is ignored */
 }

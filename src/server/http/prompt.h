@@ -3,9 +3,9 @@
 #ifndef KD_SERVER_HTTP_PROMPT_H
 #define KD_SERVER_HTTP_PROMPT_H
 
-/* The calling thread is one of these. It asks for short slices of time, which takes no privilege and no time off
- * others: of two that have had as little, the scheduler prefers the one whose slice ends first (EEVDF, Linux 6.12
- * on; older ones are asked in vain). */
+/* Requests short time slices for the calling thread. That needs no privilege and takes no time from others: of two
+ * threads that have had equally little, the scheduler prefers the one whose slice ends first (EEVDF, Linux 6.12 and
+ * later; older kernels ignore it). */
 void kd_prompt_thread(void);
 
 #endif

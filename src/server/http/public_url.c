@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HOST_MOST 255 /* bytes, with the port */
+#define HOST_MOST 255 /* bytes, including the port */
 
-/* What stands behind "https://" or "http://"; NULL: text begins with neither. */
+/* Returns the text behind "https://" or "http://"; NULL if there is neither. */
 static const char *behind_scheme(const char *text)
 {
     static const char *const schemes[] = { "https://", "http://" };

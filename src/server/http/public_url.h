@@ -5,13 +5,13 @@
 
 #include "server/http/request.h"
 
-/* Makes the address out of text, "https://HOST", "https://HOST:PORT" or one of these and a path, in *out (malloc'd;
- * NULL where text is), and its host in *host, as a Host header is compared. Without a path the base path follows.
- * KD_EINVAL: a sentence says what it must be. */
+/* Parses text: "https://HOST" or "https://HOST:PORT", optionally with a path. *out (malloc'd, NULL if text is NULL) is
+ * the address; without a path the base path is appended. *host is its host as Host headers are compared. KD_EINVAL with
+ * a message if text is malformed. */
 enum kd_status kd_public_url_make(const char *text, const struct kd_base_path *base, char **out, char **host,
                                   struct kd_error *error);
 
-/* Appends the address of the page without the slash behind it: "https://example.org/black-holes". HTTP threads. */
+/* Appends the address of the page without a slash at its end: "https://example.org/black-holes". HTTP threads. */
 enum kd_status kd_public_url_write(const struct kd_request *request, struct kd_buffer *out);
 
 #endif

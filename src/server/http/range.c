@@ -7,7 +7,7 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads digits up to *at, at least one; what is too large for 64 bits becomes the largest number. */
+/* Reads at least one digit and moves *at behind the number; saturates beyond 64 bits. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);
@@ -48,7 +48,7 @@ enum kd_range kd_range_read(const char *value, uint64_t size, uint64_t *first, u
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    if (spec.suffix && spec.last && !size) /* satisfied by nothing, of which no Content-Range can tell */
+    if (spec.suffix && spec.last && !size) /* an empty file has no Content-Range that could describe the failure */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

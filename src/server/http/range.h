@@ -5,13 +5,13 @@
 #include <stdint.h>
 
 enum kd_range {
-    KD_RANGE_WHOLE,  /* there is none, or none that is taken: the answer is the whole */
+    KD_RANGE_WHOLE,  /* send the whole: there is no Range, or one that is ignored */
     KD_RANGE_PART,   /* `count` bytes from `first` on */
-    KD_RANGE_BEYOND, /* none of its bytes is there: 416 */
+    KD_RANGE_BEYOND, /* no byte of the range exists: 416 */
 };
 
-/* Which bytes of `size` a Range value asks for; NULL: all. What is malformed, what is of another unit than bytes and
- * a list of several ranges ask for the whole, as RFC 9110 14.2 lets a server have it. */
+/* Which of `size` bytes a Range value asks for. NULL, malformed values, other units than bytes and lists of several
+ * ranges select the whole, as RFC 9110 14.2 permits. */
 enum kd_range kd_range_read(const char *value, uint64_t size, uint64_t *first, uint64_t *count);
 
 #endif

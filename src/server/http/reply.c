@@ -21,7 +21,8 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     return response;
 }
 
-/* Below, a header costs what is saved; above, the HTTP thread would be held up for more than some 20 ms. */
+/* Below, the header of gzip outweighs the gain; above, compression would block the HTTP thread for more than some 20
+ * ms. */
 enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
@@ -59,8 +60,9 @@ static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
 struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
-    /* Else libmicrohttpd announces chunks and sends the last one, "0", which belongs to no body and which a client
-     * that keeps the connection takes for the beginning of the next answer. Without chunks it closes the connection. */
+    /* Otherwise libmicrohttpd announces chunks and sends the final chunk "0", although there is no body; a client that
+     * keeps the connection would take it for the beginning of the next answer. This option makes it close the
+     * connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     if (response && type)
@@ -87,7 +89,7 @@ void kd_reply_location(const struct kd_request *request, struct MHD_Response *re
         MHD_add_response_header(response, "Location", to);
 }
 
-/* Takes no memory of ours. */
+/* Allocates nothing. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
 {
     static const char text[] =
@@ -130,7 +132,7 @@ static bool only_asks(const struct kd_request *request)
     return request->head || !strcmp(request->method, "GET") || (request->route && request->route->question);
 }
 
-/* What this client has of its quota, as draft-ietf-httpapi-ratelimit-headers-11 has it. */
+/* Adds the client's quota by draft-ietf-httpapi-ratelimit-headers-11. */
 static void add_quota(const struct kd_request *request, struct MHD_Response *response)
 {
     char text[80];
@@ -155,14 +157,14 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         return kd_reply_unmatched(request);
     }
     const char *type = MHD_get_response_header(response, "Content-Type");
-    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* no body that it could be of */
+    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* these have no body */
         MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy",
                             server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    if (server->access) /* what a cache keeps is for the same token alone */
+    if (server->access) /* a cached answer is for the same token only */
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
     add_quota(request, response);
@@ -170,7 +172,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         MHD_add_response_header(response, "Content-Disposition", request->file);
     if (*request->id)
         MHD_add_response_header(response, KD_REQUEST_ID_HEADER, request->id);
-    /* On the way down a kept-alive client should look for another server. */
+    /* During shutdown a client with a persistent connection should look for another server. */
     if (request->close || atomic_load(&server->phase) != KD_SERVING)
         MHD_add_response_header(response, "Connection", "close");
     kd_connections_stage(server->connections, request->connection, KD_STAGE_REPLY, request->reply_bytes);
@@ -228,7 +230,7 @@ enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error
 enum MHD_Result kd_reply_cancelled(struct kd_request *request)
 {
     if (!atomic_load(&request->server->ended))
-        return MHD_NO; /* nobody listens */
+        return MHD_NO; /* the client has disconnected */
     return kd_reply_problem(request,
                             &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
                                                    .retry_after = 1,

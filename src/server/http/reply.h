@@ -9,60 +9,60 @@
 #include "server/http/problem.h"
 #include "server/http/request.h"
 
-/* A response with the buffer's bytes, which it takes over (the buffer is empty afterwards, also on failure);
+/* Makes a response of the buffer's bytes and takes them over: the buffer is empty afterwards, also on failure. Returns
  * NULL on failure. */
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
-/* The same for text, which goes as gzip where the client takes that and it pays. */
+/* The same for text. It is compressed by gzip if the client accepts that and the text is long enough. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* A response with bytes that outlive it; type NULL: there are none. */
+/* Makes a response of bytes that outlive it. type NULL: no content, so no Content-Type. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
-/* A response for HEAD and 304, where the length of what a GET would give is not known. Closes the connection. */
+/* Makes a response without a body for HEAD and 304 where the length of GET's answer is unknown. Closes the
+ * connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 
-/* The name under which this request's answer is saved. A browser shows what is inline and saves what is an
- * attachment. */
+/* Sets the file name (Content-Disposition) of this request's answer. Browsers show KD_INLINE and save KD_ATTACHMENT. */
 enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
 void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Adds Location: the address of what this request has made. It is relative to the request's own, "sessions/ID" to
- * /v1/sessions, so that it holds whatever a proxy puts before or takes away. NULL is accepted. */
+/* Adds Location, the address of the object that this request has made. It is relative to the request's address, such as
+ * "sessions/ID" for /v1/sessions, so that it is valid behind a proxy that changes the prefix. response may be NULL. */
 void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id);
 
-/* Queue the response and give up the reference; NULL: kd_reply_no_memory. */
+/* Queues the response and drops the reference. response NULL: sends kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 
-/* Sends 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first function
- * needs not even a request. */
+/* Send 503 when memory has run out, without allocating. Both close the connection. kd_reply_bare works without a
+ * request. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
-/* Sends the problem's status and headers with a body of one's own. */
+/* Sends the problem's status and headers with another body. */
 enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
                                 struct MHD_Response *response);
-/* Whether the request's If-Match, if it has one, holds for what has this ETag; NULL: it has none (RFC 9110 13.1.1).
- * What changes something asks before it does; answers of all else are checked when they are sent. */
+/* Evaluates If-Match against the ETag of the resource (RFC 9110 13.1.1); NULL: the resource has none. True without
+ * If-Match. Handlers that change something call it before they do; for all others kd_reply_send checks it. */
 bool kd_reply_matches(struct kd_request *request, const char *etag);
 enum MHD_Result kd_reply_unmatched(struct kd_request *request);
-/* Answers OPTIONS: 204, with these methods as Allow. */
+/* Answers OPTIONS with 204 and these methods as Allow. */
 enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow);
-/* Sends what kd_problem_from makes of the error. */
+/* Sends the problem that kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
-/* Of work that was cancelled (KD_ECANCELLED): 503 where the way down has ended it; else its client has gone, and
- * nothing is sent. */
+/* Ends a request whose work was cancelled (KD_ECANCELLED): sends 503 if the server is stopping; else the client has
+ * disconnected, and nothing is sent. */
 enum MHD_Result kd_reply_cancelled(struct kd_request *request);
-/* Whether kd_target_only holds; if not *refused is the answer. */
+/* Whether kd_target_only accepts the query; else *refused is the answer. */
 bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused);
 
-/* All values of a request header that is a list, joined by commas; empty when it is absent or memory ran out. */
+/* Joins all values of a list-valued request header by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
-/* kd_accept_best of what the request accepts. */
+/* kd_accept_best with the request's Accept. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
                          const void *list);
-/* Append a name to a header that is a List of Tokens (RFC 9651). */
+/* Appends a name to the value of a header that is a List of Tokens (RFC 9651). */
 enum kd_status kd_reply_item(struct kd_buffer *out, const char *name);
 
-/* A generated document, or the problem of not having generated it. Empties the buffer. */
+/* Sends a generated document, or the problem if status is an error. Empties the buffer. */
 enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
                               const char *type);
 

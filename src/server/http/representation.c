@@ -12,15 +12,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PIECE ((size_t)256 << 10) /* bytes that are read at once */
+#define PIECE ((size_t)256 << 10) /* bytes read at once */
 
-/* What is sent of a representation. */
+/* The bytes to send, and the status. */
 struct part {
     unsigned status;
     uint64_t first, count;
 };
 
-/* A part that is read piece by piece. */
+/* State of a part that is read piece by piece. */
 struct reading {
     struct part part;
     MHD_ContentReaderCallback read;
@@ -64,7 +64,7 @@ static struct MHD_Response *read_from(const struct kd_representation *r, struct 
     return response;
 }
 
-/* Has what the representation reads from; NULL: no memory, and that is given up. */
+/* Makes the response, which takes over the source. Returns NULL when out of memory; the source is then released. */
 static struct MHD_Response *respond(const struct kd_representation *r, struct part part)
 {
     struct MHD_Response *response = r->fd >= 0 ? MHD_create_response_from_fd_at_offset64(part.count, r->fd, part.first)
@@ -84,14 +84,15 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* If-Range is compared strongly, and a date with nothing: what is sent has none (RFC 9110 13.1.5). */
+/* Whether If-Range holds: strong comparison; dates never match, since we send no Last-Modified (RFC 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {
     const char *tag = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "If-Range");
     return !tag || !strcmp(tag, etag);
 }
 
-/* In the order of RFC 9110 13.2.2. What If-Match does not hold for is refused when it is sent (reply.c). */
+/* Evaluates preconditions in the order of RFC 9110 13.2.2. A failed If-Match is refused when the answer is sent
+ * (reply.c). */
 static struct part choose(struct kd_request *request, const struct kd_representation *r)
 {
     struct part part = { MHD_HTTP_OK, 0, r->size };
@@ -124,8 +125,8 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
                             &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
 }
 
-/* As RFC 9530 has them: of the whole, and of what is sent where that is the whole. They are sent whether
- * Want-Content-Digest and Want-Repr-Digest ask for them or not. */
+/* Adds digests (RFC 9530): Repr-Digest of all bytes, and Content-Digest where all are sent. They are sent whatever
+ * Want-Content-Digest and Want-Repr-Digest say. */
 static void add_digests(struct MHD_Response *response, const struct kd_request *request,
                         const struct kd_representation *r, struct part part)
 {
@@ -189,7 +190,7 @@ enum MHD_Result kd_reply_served(struct kd_request *request, const struct kd_serv
         request, &(struct kd_representation) { .type = file->type,
                                                .etag = form->etag,
                                                .hashed = true,
-                                               /* A browser may ask for a page's icon whenever its address changes. */
+                                               /* Browsers may fetch a page's icon whenever its address changes. */
                                                .cache_control = picture ? "private, max-age=86400" : "no-cache",
                                                .coding = gzip ? "gzip" : NULL,
                                                .negotiated = true,

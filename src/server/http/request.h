@@ -21,45 +21,46 @@ struct kd_request {
     struct kd_server *server;
     struct MHD_Connection *mhd;
     struct kd_connection *connection;
-    char client[KD_CLIENT];         /* who it is from */
-    char id[KD_REQUEST_ID_MAX + 1]; /* once its header is there */
-    struct kd_traceparent trace;    /* that it is part of */
-    char *raw;                      /* the target as received; of one in absolute form what stands behind its host */
-    char *authority;                /* that host; NULL: the target is in another form */
+    char client[KD_CLIENT];         /* identity for shares and limits (client.h) */
+    char id[KD_REQUEST_ID_MAX + 1]; /* X-Request-Id; set when the header has arrived */
+    struct kd_traceparent trace;    /* trace that the request belongs to */
+    char *raw;                      /* the target as received, without scheme and host if it came in absolute form */
+    char *authority;                /* host of a target in absolute form; NULL: it has another form */
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;
-    const struct kd_route *matched;   /* where its path leads, also if it is refused; NULL: nowhere */
-    const struct kd_visitor *visitor; /* whose access token came with it; NULL: none was needed */
-    bool spent;                       /* its Authorization holds that token, and so no other */
-    const char *method, *rest;        /* rest: the rest of the path, behind a route that ends in "/" */
+    /* route of its path, set also if the request is refused; NULL: no route has the path */
+    const struct kd_route *matched;
+    const struct kd_visitor *visitor; /* owner of the access token; NULL: none was needed */
+    bool spent;                       /* Authorization holds the access token, so it holds no other token */
+    const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;
-    struct kd_once once;          /* its Idempotency-Key */
-    struct sha256_ctx taken;      /* of what it asks for, while that comes, if it has one */
-    struct kd_request *once_next; /* that has one and is under way */
+    struct kd_once once;          /* hashes of its Idempotency-Key and content */
+    struct sha256_ctx taken;      /* running hash of target and body, if it has a key */
+    struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
-    size_t body_mark;                /* bytes of it when its deadline was last set */
-    const struct kd_format *format;  /* that the picture asked for has; NULL: none is asked for, or it may have any */
-    struct kd_render_job *job;       /* a render under way; owned */
-    struct kd_request *also_waiting; /* for the same thumbnail; */
-    bool waited;                     /* it has waited for one */
-    struct kd_orbits_job *orbits;    /* orbits under way; held */
-    struct kd_particles_job *particles; /* particles being listed; owned */
-    struct kd_task *task;               /* what workers compute; owned */
-    struct kd_viewer *viewer;           /* the wait for a session's next frame; owned */
-    struct kd_play_watcher *watcher;    /* the wait for a playground's next tick; owned */
+    size_t body_mark;                   /* size of body when its deadline was last extended */
+    const struct kd_format *format;     /* requested format of the picture; NULL: any, or no picture */
+    struct kd_render_job *job;          /* render under way; owned */
+    struct kd_request *also_waiting;    /* next request waiting for the same thumbnail */
+    bool waited;                        /* it has waited for a thumbnail */
+    struct kd_orbits_job *orbits;       /* orbits being computed; holds a reference */
+    struct kd_particles_job *particles; /* list of particles being made; owned */
+    struct kd_task *task;               /* work of the task scheduler; owned */
+    struct kd_viewer *viewer;           /* wait for a session's next frame; owned */
+    struct kd_play_watcher *watcher;    /* wait for a playground's next tick; owned */
     char etag[120];
-    char file[96];      /* Content-Disposition of an answer of 200, by kd_reply_file */
-    size_t reply_bytes; /* of a large reply, for its deadline */
+    char file[96];      /* Content-Disposition if the answer is 200 (kd_reply_file) */
+    size_t reply_bytes; /* size of a large reply, which extends its deadline */
     double start_ms;
-    double bytes_before; /* that its connection has had, for the log */
+    double bytes_before; /* bytes written to the connection before this request, for the log */
     unsigned status;     /* of the reply, for the log */
 };
 
-/* The token in its Authorization; NULL: none. reply.c */
+/* Token in Authorization; NULL if there is none. Defined in reply.c. */
 const char *kd_bearer_of(struct kd_request *request);
-/* The token of a session, playground, job or asset that comes with a request, in its Authorization or query; NULL:
- * none. reply.c */
+/* Token of a session, playground, job or asset, from Authorization or the query; NULL if there is none. Defined in
+ * reply.c. */
 const char *kd_token_of(struct kd_request *request);
 
 #endif

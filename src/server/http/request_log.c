@@ -11,9 +11,9 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define SECRET \
-    16          /* hexadecimal digits in a row: an id or a token, and whoever has it may read or change what it names */
-#define SHOWN 4 /* of them in the log */
+/* this many hexadecimal digits in a row are an id or a token: whoever has it may read or change the object */
+#define SECRET 16
+#define SHOWN 4 /* digits of these that are logged */
 
 static void target_for_log(const char *raw, char *out, size_t size)
 {
@@ -24,7 +24,7 @@ static void target_for_log(const char *raw, char *out, size_t size)
         bool secret = digits >= SECRET;
         size_t take = token ? token : secret ? SHOWN : 1;
         for (size_t i = 0; i < take; i++)
-            out[n++] = (char)(raw[i] > ' ' && raw[i] < 0x7f ? raw[i] : '?'); /* no second line in the log */
+            out[n++] = (char)(raw[i] > ' ' && raw[i] < 0x7f ? raw[i] : '?'); /* prevents line breaks */
         raw += token ? token + strcspn(raw + token, "&") : secret ? digits : 1;
         for (int i = 0; i < 3 && (token || secret); i++)
             out[n++] = '.';
@@ -32,8 +32,7 @@ static void target_for_log(const char *raw, char *out, size_t size)
     out[n] = 0;
 }
 
-/* Bytes that have been written to the request's connection since it was opened; none: NAN. They may be more than it
- * has taken yet. */
+/* Bytes written to the request's connection since it was opened, NAN if unknown. The client may have received fewer. */
 static double bytes_written(const struct kd_request *request)
 {
     const size_t needed =

@@ -4,11 +4,11 @@
 
 #include "server/http/request.h"
 
-/* Called when the request begins: where its bytes are counted from. */
+/* Call it when the request begins: it records the connection's byte count. */
 void kd_request_log_begin(struct kd_request *request);
-/* As text: method, target, status, time, who. As JSON: id, method, route, status, ms, bytes (those that went to the
- * socket, header and all, where the system counts them), client, visitor, cut_off. What a target names is told by
- * its route: ids of sessions and jobs are capabilities. */
+/* Writes the line. As text: method, target, status, time, client. As JSON: id, method, route, status, ms, bytes
+ * (written to the socket with the header, where the system counts them), client, visitor, cut_off. JSON has the route
+ * in place of the target, because ids of sessions and jobs are capabilities. */
 void kd_request_log_end(const struct kd_request *request, double ms, bool cut_off);
 
 #endif

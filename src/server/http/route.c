@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* *rest is cut out of the path, which is ours to change once it matches. */
+/* Cuts *rest out of the path, which is modified if it matches. */
 static bool matches(const struct kd_route *route, char *path, const char **rest)
 {
     const char *brace = strchr(route->path, '{');
@@ -106,8 +106,8 @@ bool kd_route_is_health(const struct kd_base_path *base, const char *raw)
     return is_health(raw, strcspn(raw, "?")) || (behind && is_health(behind, strcspn(behind, "?")));
 }
 
-/* Whether the bytes begin with the texts, one behind the other (1), do not (0), or end before that is clear (-1).
- * *end is where they would end. */
+/* Whether the bytes begin with the concatenated texts: 1 yes, 0 no, -1 more bytes are needed. *end is the position
+ * behind them. */
 static int begins_with(const char *bytes, size_t n, const char *const texts[3], size_t *end)
 {
     *end = 0;

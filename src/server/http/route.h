@@ -12,9 +12,9 @@
 
 struct kd_request;
 
-enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD goes with GET */
+enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD is served wherever GET is */
 
-/* These five, for whoever lists them. */
+/* All methods, for iteration. */
 struct kd_method {
     const char *name, *lower; /* "GET", "get" */
     unsigned bit;
@@ -25,83 +25,81 @@ extern const struct kd_method kd_methods[KD_METHODS];
 enum kd_takes {
     KD_TAKES_NOTHING,
     KD_TAKES_SCENE, /* in the body, or with GET in the query */
-    KD_TAKES_PLAN,  /* a scene, or one with axes, in the body */
+    KD_TAKES_PLAN,  /* a scene, or a scene with axes of a sweep, in the body */
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
     KD_TAKES_ORBITS,
-    KD_TAKES_INTEGRAL, /* what the path names */
+    KD_TAKES_INTEGRAL, /* the integral that the path names */
     KD_TAKES_JOB,
     KD_TAKES_ASSET,
-    KD_TAKES_STRIKE, /* in the body, or none */
+    KD_TAKES_STRIKE, /* a ringdown in the body, or no body */
     KD_TAKES_PATH,
-    KD_TAKES_PARTICLES,  /* which and what of them, in the query */
-    KD_TAKES_PLAYGROUND, /* a document, or what changes one */
+    KD_TAKES_PARTICLES,  /* selection of particles and quantities, in the query */
+    KD_TAKES_PLAYGROUND, /* a playground's document, or changes of one */
     KD_TAKES_STEP,
-    KD_TAKES_TICK,     /* which and how many of its things, in the query */
-    KD_TAKES_LINK,     /* a scene by the code of a link, in the path */
+    KD_TAKES_TICK,     /* which lists and how many entries, in the query */
+    KD_TAKES_LINK,     /* a scene as the code of a link, in the path */
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
-/* Media types of an answer. */
+/* Where an answer's media types are listed. */
 enum kd_gives {
-    KD_GIVES_ITS_ANSWER, /* what `answer` and `also` say */
-    KD_GIVES_PICTURE,    /* a frame in each format that there is: render/output/format.h */
-    KD_GIVES_RESULT,     /* of a job: job/formats.h */
+    KD_GIVES_ITS_ANSWER, /* in `answer` and `also` */
+    KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */
+    KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };
 
 struct kd_route {
-    const char *path; /* a segment in braces, at most one, stands for any: request->rest */
+    const char *path; /* at most one segment in braces, which matches any text: request->rest */
     unsigned methods;
-    /* Called when the whole body is there, and again when the render it has asked for is done. */
+    /* Called when the body is complete, and again when the work that the handler started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
-    const char *answer, *summary; /* media type, NULL where `gives` says them; and a sentence for openapi.json */
+    const char *answer, *summary; /* media type (NULL: see `gives`) and a sentence for openapi.json */
     enum kd_takes takes;
     enum kd_gives gives;
-    const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
-    bool question;      /* its POST leaves nothing at the server, so that the role view may send it (access.h) */
-    bool open;          /* answered without an access token, too */
-    bool once;          /* its POST takes Idempotency-Key (once.h) */
-    bool parts;         /* its GET may answer with a part, 206 (representation.h) */
-    unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
-    const char
-        *own[2]; /* parameters of the query that are no fields of the scene, beside which they stand; NULL: none */
+    const char *also;   /* further media types of answers, "a/b c/d"; NULL: none */
+    bool question;      /* POST creates nothing on the server, so that the role view may send it (access.h) */
+    bool open;          /* needs no access token */
+    bool once;          /* POST takes Idempotency-Key (once.h) */
+    bool parts;         /* GET may answer with a range, 206 (representation.h) */
+    unsigned status[2]; /* success statuses; { 0 }: 200; DELETE answers 204 */
+    const char *own[2]; /* query parameters that are not fields of the scene; NULL: none */
 };
 
-/* The table: server/routes.c. */
+/* All routes, in server/routes.c. */
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Sets request->route, ->matched, and ->rest, which points into the target's path; takes the base path from that.
- * The base path alone is the page's, too, with an empty path. False with *problem filled (404; 405, where
- * request->route is set too). */
+/* Finds the route of the request's path. Sets request->route, ->matched and ->rest, which points into the target's
+ * path, and removes the base path from that. The base path alone, without a slash, leads to the page. Returns false
+ * with *problem filled: 404, or 405 with request->route set. */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
-/* The methods that a route takes, with OPTIONS, which each does, as the Allow header has them; until the next call
- * on this thread. NULL: those of all routes. */
+/* Value of Allow: the route's methods and OPTIONS; NULL: methods of all routes. Valid until the next call on this
+ * thread. */
 const char *kd_route_allow(const struct kd_route *route);
 /* The same without OPTIONS, for preflights. */
 const char *kd_route_methods(const struct kd_route *route);
-/* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */
+/* Bit of a method's name, such as KD_GET; 0: unknown. */
 unsigned kd_route_method(const char *method);
-/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the
- * base path and without it. */
+/* Whether a raw target is /healthz, /readyz or /metrics, with or without the base path. These are always answered. */
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
-/* Says the same of the first n bytes of a connection, which may end too early to tell; KD_BEGINS_BYTES of them tell
- * in any case. */
+/* The same decision by the first n bytes of a connection. KD_BEGINS_UNCLEAR: more bytes are needed; KD_BEGINS_BYTES
+ * always suffice. */
 enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
 #define KD_BEGINS_BYTES (KD_BASE_PATH_MOST + 32)
 enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n);
 
-/* Whether a browser that is refused wants a page that asks for its access token, and that page: answers/sign_in.c */
+/* Whether a refused browser gets a page that asks for the access token; and that page (answers/sign_in.c). */
 struct kd_problem;
 bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem);
 enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem);
 
-/* handlers, by file */
+/* Handlers, by file. */
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */
 enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports.c */
 enum MHD_Result kd_handle_ready(struct kd_request *request);
 enum MHD_Result kd_handle_metrics(struct kd_request *request); /* answers/metrics.c */
 enum MHD_Result kd_handle_device(struct kd_request *request);
-enum MHD_Result kd_handle_kept(struct kd_request *request);   /* what openapi/kept.h has */
+enum MHD_Result kd_handle_kept(struct kd_request *request);   /* cached documents: openapi/kept.h */
 enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
 enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
 enum MHD_Result kd_handle_pixel(struct kd_request *request);

@@ -5,13 +5,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define KD_SECRET_ID 17    /* hexadecimal digits and NUL: who knows it may watch */
-#define KD_SECRET_TOKEN 33 /* who knows it may change and end */
+#define KD_SECRET_ID 17    /* 16 hexadecimal digits and NUL; whoever knows an id may watch */
+#define KD_SECRET_TOKEN 33 /* 32 hexadecimal digits and NUL; whoever knows a token may change and delete */
 
-/* size - 1 hexadecimal digits and NUL; an even number of them, at most KD_SECRET_TOKEN - 1. False: there are no
- * random numbers. */
+/* Writes size - 1 hexadecimal digits and NUL; size - 1 is even and at most KD_SECRET_TOKEN - 1. Returns false if there
+ * are no random numbers. */
 bool kd_secret_make(char *out, size_t size);
-/* In constant time; given may be NULL. */
+/* Compares in constant time. given may be NULL. */
 bool kd_secret_equal(const char token[KD_SECRET_TOKEN], const char *given);
 
 #endif

@@ -8,10 +8,10 @@
 struct kd_served {
     const char *name, *type; /* path below clients/web; media type */
     struct kd_served_form {
-        const char *etag; /* the SHA-256 of the bytes, with its quotes */
+        const char *etag; /* SHA-256 of the bytes, with its quotes */
         const unsigned char *data;
         size_t size;
-    } plain, gzip; /* gzip of nothing: it would be no shorter */
+    } plain, gzip; /* gzip.data NULL: compression would not make it shorter */
 };
 extern const struct kd_served kd_page_files[];
 extern const size_t kd_n_page_files;

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A client that cannot be served for a while, for want of memory say, falls behind. It then catches up, by this much of
- * the device's time at most; so does each of its flows. */
+/* A client that cannot be served for a while, such as for lack of memory, falls behind. It then catches up by at most
+ * this much device time; so does each of its flows. */
 #define CREDIT_MS 200.0
 
 static const double weights[] = {
@@ -22,8 +22,8 @@ static unsigned hash(const char *name)
     return h;
 }
 
-/* Finds the client's own place; else that of a client that has nothing here, the one whose payments are longest
- * forgotten; else, where there are too many clients, a place that it shares with others. */
+/* Finds the client's own place; else the idle place with the least virtual time; else, with too many clients, a place
+ * shared with others by hash. */
 static struct kd_share_client *place_of(struct kd_shares *shares, const char *name)
 {
     struct kd_share_client *free = NULL;
@@ -70,7 +70,7 @@ void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
     claim->owner->claims--;
 }
 
-/* What counts as paid by a client or a flow that may have fallen behind the one that was served last. */
+/* Virtual time of a client or flow, raised so that it is at most CREDIT_MS behind the one served last. */
 static double standing(double paid, double now, double weight) { return fmax(paid, now - CREDIT_MS / weight); }
 
 static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *),
@@ -115,7 +115,7 @@ struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const stru
     return best;
 }
 
-/* Makes the standing of the one that is served that of newcomers; then it pays. */
+/* Charges a client or flow, and sets the virtual time at which newcomers start to its own. */
 static void pay(double *paid, double *now, double ms, double weight)
 {
     *paid = standing(*paid, *now, weight);

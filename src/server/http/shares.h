@@ -23,11 +23,11 @@
 #include <stdbool.h>
 
 #define KD_CLIENT 48         /* room for the name of a client */
-#define KD_SHARE_CLIENTS 64u /* told apart at once; more of them share places */
+#define KD_SHARE_CLIENTS 64u /* clients tracked at once; beyond that, clients share an entry */
 
-/* The classes of work with their weights inside a client. A pixel that is told is next as soon as it comes: somebody
- * points at it. A view that is moved by hand leaves a job a fifth; one that goes on by itself (idle) or is refined
- * gives way to the job, which was asked for, and has a twentieth: enough to be seen to go on. */
+/* Classes of work and their weights within a client. PIXEL is next as soon as it arrives, because somebody points at
+ * the picture. LIVE, a view moved by hand, leaves a job (JOB) a fifth. IDLE (a view that animates by itself) and
+ * REFINEMENT give way to a job, which somebody requested: they get a twentieth, so that they still visibly advance. */
 #define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.1) X(IDLE, 0.1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
@@ -36,30 +36,30 @@ enum kd_class {
         KD_N_CLASSES
 };
 
-/* A work that waits, or is being served; embedded in its struct. */
+/* A piece of work that waits or runs; embedded in its owner's struct. */
 struct kd_claim {
     /* set before kd_shares_add */
     char client[KD_CLIENT];
     enum kd_class class;
-    double left_ms; /* estimated, of what is left; kd_shares_charge takes off what has gone by */
-    /* the scheduler's own */
-    double paid; /* the flow's `now` when it came, and what it has had since */
+    double left_ms; /* estimated time left; kd_shares_charge subtracts what has run */
+    /* private to the scheduler */
+    double paid; /* virtual time: the flow's `now` when the work was added, plus what it was charged */
     struct kd_share_client *owner;
     struct kd_claim *next;
 };
 
-struct kd_share_flow { /* the works of one class of one client */
-    double paid, now;  /* now: what each of its works would have had, if they had gone on side by side */
+struct kd_share_flow { /* work of one class of one client */
+    double paid, now;  /* now: virtual time that each of its works would have received if they ran side by side */
     unsigned claims;
-    struct kd_claim *first; /* in the order in which they came */
+    struct kd_claim *first; /* in order of arrival */
 };
 struct kd_share_client {
     char name[KD_CLIENT];
-    double paid, now; /* now: what its flow that is being served had paid */
+    double paid, now; /* now: virtual time of the flow that runs */
     unsigned claims;
     struct kd_share_flow flows[KD_N_CLASSES];
 };
-struct kd_shares { /* all 0 to begin with */
+struct kd_shares { /* initialise to 0 */
     double now;
     struct kd_share_client clients[KD_SHARE_CLIENTS];
 };
@@ -67,12 +67,12 @@ struct kd_shares { /* all 0 to begin with */
 void kd_shares_add(struct kd_shares *shares, struct kd_claim *claim);
 void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim);
 
-/* Finds the next to be served among those that `may`; NULL: there is none. It is only looked up: another call says
- * the same, until something is added, removed or charged. */
+/* Returns the work to run next among those for which `may` is true, or NULL. Changes nothing: repeated calls return the
+ * same until something is added, removed or charged. */
 struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user),
                                 void *user);
 
-/* Says that a claim has been served for so long. */
+/* Charges a claim for `ms` of device time. */
 void kd_shares_charge(struct kd_shares *shares, struct kd_claim *claim, double ms);
 
 #endif

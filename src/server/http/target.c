@@ -17,7 +17,7 @@ static int hex(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* In place: the result is never longer than its source. */
+/* Decodes percent escapes in place: the result is never longer. */
 static enum kd_status decode(char *text, bool plus, struct kd_error *error)
 {
     char *to = text;

@@ -8,35 +8,35 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 384 /* more than the fields of a scene, those of all elements of its lists included */
+#define KD_TARGET_PAIRS 384 /* exceeds the number of fields of a scene with full lists */
 
 struct kd_target {
-    char *text; /* owns what the pointers below point into */
-    char *path; /* behind the base path, once the route is found */
+    char *text; /* buffer that the pointers below point into; owned */
+    char *path; /* without the base path once the route is found */
     struct kd_target_pair { const char *name, *value; } pairs[KD_TARGET_PAIRS];
     size_t n_pairs;
 };
 
-/* raw: "/v1/render?preset=NAME&camera.r=30" as received. KD_EINVAL for a bad escape, for what is not UTF-8,
- * control characters or more than KD_TARGET_PAIRS pairs. "+" is a space in the query, as forms send it.
- * Whatever the result, finish it. */
+/* raw: the target as received, "/v1/render?preset=NAME&camera.r=30". In the query "+" is a space, as forms send it.
+ * Returns KD_EINVAL for a bad escape, invalid UTF-8, control characters or more than KD_TARGET_PAIRS pairs. The caller
+ * calls kd_target_finish whatever the result. */
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
 void kd_target_finish(struct kd_target *target);
 
-/* Takes a target in absolute form apart (RFC 9112 3.2.2): "http://HOST:PORT/v1/presets" becomes "/v1/presets", and
- * its host *authority, for the caller to free. Targets in other forms stay as they are. KD_ENOMEM alone. */
+/* Splits a target in absolute form (RFC 9112 3.2.2): "http://HOST:PORT/v1/presets" becomes "/v1/presets", and
+ * *authority (malloc'd) its host. Targets in other forms are unchanged. Fails with KD_ENOMEM only. */
 enum kd_status kd_target_origin(char *raw, char **authority);
 
-/* Checks that the query gives no parameter twice; else KD_EINVAL. */
+/* Returns KD_EINVAL if a parameter occurs twice. */
 enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
-/* Checks that as well, and that each parameter is among the known, which end with a NULL, or is the token; else
- * KD_EINVAL. */
+/* Returns KD_EINVAL if a parameter occurs twice, or is neither "token" nor in known, which ends with NULL. */
 enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error);
-/* A parameter of the query, NULL: it is not given. */
+/* Value of a query parameter, or NULL. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
-/* Reads a number of decimal digits alone; false: it is not so, or above most. */
+/* Parses decimal digits. False if text is anything else or the number exceeds most. */
 bool kd_target_number(const char *text, uint64_t most, uint64_t *out);
-/* A parameter as such a number, or what holds without it; false: it is not one, or above most. */
+/* Parses a parameter as such a number; otherwise: the value if it is absent. False if it is malformed or exceeds
+ * most. */
 bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most,
                      uint64_t *out);
 

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define HEX "0123456789abcdef" /* in lower case alone */
+#define HEX "0123456789abcdef" /* lower case only, by the standard */
 enum { VERSION = 2, TRACE = 32, PARENT = 16, FLAGS = 2, ALL = VERSION + 1 + TRACE + 1 + PARENT + 1 + FLAGS };
 
-/* n digits, and behind them a hyphen, or of the last ones anything. */
+/* Whether n digits follow, and then a hyphen; after the last field anything may follow. */
 static bool is_field(const char *at, size_t n, bool last) { return strspn(at, HEX) == n && (last || at[n] == '-'); }
 
 static bool is_zero(const char *at, size_t n) { return strspn(at, "0") >= n; }
@@ -22,7 +22,7 @@ bool kd_trace_read(const char *value, struct kd_traceparent *out)
         is_zero(parent, PARENT))
         return false;
     const bool first_version = !strncmp(value, "00", VERSION);
-    if (flags[FLAGS] && (first_version || flags[FLAGS] != '-')) /* later versions may have more behind a hyphen */
+    if (flags[FLAGS] && (first_version || flags[FLAGS] != '-')) /* later versions may append fields after a hyphen */
         return false;
     snprintf(out->trace_id, sizeof out->trace_id, "%.*s", TRACE, trace);
     snprintf(out->parent_id, sizeof out->parent_id, "%.*s", PARENT, parent);

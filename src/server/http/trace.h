@@ -5,9 +5,9 @@
 
 #include <stdbool.h>
 
-struct kd_traceparent { char trace_id[33], parent_id[17]; /* "": the request is part of none */ };
+struct kd_traceparent { char trace_id[33], parent_id[17]; /* "": none */ };
 
-/* Leaves *out empty, and gives false, where the value is not as the standard has it; NULL is none. */
+/* Returns false and empties *out if value is NULL or malformed. */
 bool kd_trace_read(const char *value, struct kd_traceparent *out);
 
 #endif

@@ -11,13 +11,12 @@
 #include <string.h>
 
 #define WORKERS_MAX 16
-#define THREADS_MAX (4 * WORKERS_MAX) /* with those whose turns are paused */
-#define PIECE_MS 15.                  /* of a turn, after which others go first */
+#define THREADS_MAX (4 * WORKERS_MAX) /* with those suspended in a turn */
+#define PIECE_MS 15.                  /* of a turn, after which other jobs run first */
 
-/* A turn that has paused, on the stack of its thread; listed among the jobs, to be gone on with when its time has come.
- */
+/* A suspended turn, on the stack of its thread. It is listed among the jobs and resumed in its place. */
 struct paused {
-    struct kd_turns_job place; /* first; its turn is NULL */
+    struct kd_turns_job place; /* first member; its turn is NULL */
     pthread_cond_t resumed;
 };
 
@@ -27,17 +26,17 @@ struct kd_turns {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
-    struct kd_turns_job *first, **end, *parked; /* in the order of their turns; waiting to be woken */
-    struct kd_turns_job *accepted;              /* all but those that are being handed back */
+    struct kd_turns_job *first, **end, *parked; /* first: in order of their turns; parked: waiting */
+    struct kd_turns_job *accepted;              /* all that are not done */
     unsigned n_accepted, unfinished;
     pthread_t threads[THREADS_MAX];
-    unsigned n_threads, n_workers, busy, idle; /* busy: threads with a turn under way, n_workers at most */
+    unsigned n_threads, n_workers, busy, idle; /* busy: threads that run a turn, at most n_workers */
 };
 
-/* Of the calling thread, if it is one of a queue's. */
+/* Of the calling thread, if it is a worker. */
 static _Thread_local struct kd_turns *mine;
 static _Thread_local struct kd_turns_job *under_way;
-static _Thread_local double piece_ms; /* when the piece of its turn began */
+static _Thread_local double piece_ms; /* start of the current piece */
 
 static void append(struct kd_turns *turns, struct kd_turns_job *job)
 {
@@ -84,10 +83,10 @@ static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
     job->next = turns->parked;
     turns->parked = job;
     if (job->due_ms > 0)
-        pthread_cond_signal(&turns->changed); /* somebody who sleeps must wake earlier */
+        pthread_cond_signal(&turns->changed); /* a sleeping worker must wake earlier */
 }
 
-/* Ends the parks whose time has come. Returns when the next one ends; INFINITY: none does by itself. */
+/* Ends the parks whose time has come. Returns when the next one ends, or INFINITY. */
 static double unpark_due(struct kd_turns *turns)
 {
     double next = INFINITY;
@@ -132,28 +131,28 @@ static void let_go(struct kd_turns *turns, struct kd_turns_job *job)
     turns->n_accepted--;
 }
 
-/* While a turn of a shared job is paused no other begins: each would take a thread. */
+/* While a turn of a shared job is suspended no other turn of it begins: each would occupy a thread. */
 static void list_again(struct kd_turns *turns, struct kd_turns_job *job)
 {
     if (!job->paused && !job->over)
         append(turns, job);
 }
 
-/* Takes a turn of the first job in the list. Locked on entry and exit. */
+/* Runs a turn of the first job in the list. Locked on entry and exit. */
 static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
 {
     take_out(turns, job);
     job->workers++;
     job->woken = false;
     if (job->shared)
-        list_again(turns, job); /* for whoever is free */
+        list_again(turns, job); /* so that other workers can join */
     pthread_mutex_unlock(&turns->lock);
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
     enum kd_turn_end turn = job->turn(job);
     kd_watch_turn_ends();
-    under_way = NULL; /* what ends the job frees it, and does not pause */
+    under_way = NULL; /* done may free the job, and never suspends */
     pthread_mutex_lock(&turns->lock);
     job->workers--;
     if (turn == KD_TURN_LAST)
@@ -175,7 +174,8 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     turns->unfinished--;
 }
 
-/* The first in the list goes on: a thread that has paused by itself, another one here. Locked on entry and exit. */
+/* Runs the first in the list: resumes the thread of a suspended turn, or runs a job's turn on this one. Locked on entry
+ * and exit. */
 static void go_on(struct kd_turns *turns)
 {
     struct kd_turns_job *job = turns->first;
@@ -211,7 +211,7 @@ static void *work(void *user)
     return NULL;
 }
 
-/* Starts a thread more, before there are others or with the lock. */
+/* Starts another thread. Called with the lock, or before other threads exist. */
 static bool start_thread(struct kd_turns *turns)
 {
     if (turns->n_threads == THREADS_MAX || pthread_create(&turns->threads[turns->n_threads], NULL, work, turns))
@@ -220,7 +220,7 @@ static bool start_thread(struct kd_turns *turns)
     return true;
 }
 
-/* Locked on entry and exit. */
+/* Suspends the current turn until its place in the list is reached. Locked on entry and exit. */
 static void pause_turn(struct kd_turns *turns)
 {
     struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
@@ -229,15 +229,15 @@ static void pause_turn(struct kd_turns *turns)
     pthread_cond_signal(&turns->changed);
     while (me.place.listed && !turns->closing)
         pthread_cond_wait(&me.resumed, &turns->lock);
-    if (me.place.listed) { /* nobody gives turns any more */
+    if (me.place.listed) { /* shutdown: no worker resumes it any more */
         take_out(turns, &me.place);
         turns->busy++;
     }
     pthread_cond_destroy(&me.resumed);
 }
 
-/* This thread's turn waits until those of other jobs that are listed have had theirs. Where no thread is left to give
- * them these, it goes on. */
+/* Hook of base/pause.h: suspends this thread's turn until the other listed jobs have had theirs. If no other thread can
+ * run these, it continues. */
 static void let_others_go_first(void)
 {
     struct kd_turns *turns = mine;

@@ -9,44 +9,42 @@
 
 #include <stdbool.h>
 
-/* How a turn of a job ended: what is left to do. */
+/* How a turn of a job ended. */
 enum kd_turn_end {
-    KD_TURN_MORE, /* there is another piece */
-    KD_TURN_PARK, /* there is, but not before kd_turns_wake, kd_turns_cancel or the job's due_ms */
-    KD_TURN_AWAY, /* there is, but not before kd_turns_wake: somebody else has it meanwhile */
+    KD_TURN_MORE, /* there is more to do */
+    KD_TURN_PARK, /* wait for kd_turns_wake, kd_turns_cancel or the job's due_ms, then continue */
+    KD_TURN_AWAY, /* wait for kd_turns_wake alone: another thread uses the job meanwhile */
     KD_TURN_LAST, /* nothing is left to begin */
 };
 
 struct kd_turns_job {
-    enum kd_turn_end (*turn)(struct kd_turns_job *job); /* on a worker */
-    void (*done)(struct kd_turns_job *job); /* on a worker, once, when every turn has returned: may free the job */
-    double
-        due_ms;  /* on kd_clock_ms, of a park that a turn asks for: it ends then at the latest; 0: it has no such end */
-    bool shared; /* several workers at once from the next turn on; a turn may set it */
-    char client[KD_CLIENT]; /* whose it is: what kd_turns_admit was asked for */
-    /* the queue's own */
+    enum kd_turn_end (*turn)(struct kd_turns_job *job); /* runs one slice; on a worker */
+    void (*done)(struct kd_turns_job *job); /* called once on a worker when every turn has returned; may free the job */
+    double due_ms;                          /* end of the next park on kd_clock_ms; 0: parked without a time limit */
+    bool shared;            /* several workers may run turns at once, from the next turn on; a turn may set it */
+    char client[KD_CLIENT]; /* the client that kd_turns_admit was asked about */
+    /* private to the scheduler */
     struct kd_turns_job *next, *next_accepted, **accepted_at;
     bool listed, parked, away, woken, over;
-    unsigned workers, paused; /* its turns that have begun, and those of them that let others go first */
+    unsigned workers, paused; /* turns under way, and those of them that are suspended */
 };
 
 struct kd_turns;
 
-/* limit: unfinished jobs; share: of these, those of one client. */
+/* limit: unfinished jobs; share: those of one client. */
 enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns **out, struct kd_error *error);
-/* No job may be unfinished. Accepts NULL. */
+/* All jobs must be finished. Accepts NULL. */
 void kd_turns_destroy(struct kd_turns *turns);
 
-/* Whether one more of this client fits: KD_OK, or KD_EBUSY, with *quota where others would still be let in. The
- * submitting thread. */
+/* Tests whether the client may add a job: KD_OK or KD_EBUSY. *quota: it is the client's share that is used up.
+ * Submitting thread. */
 enum kd_status kd_turns_admit(struct kd_turns *turns, const char *client, bool *quota, struct kd_error *error);
 void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job);
-/* End a park, also one that a turn under way is about to ask for. The job must not be done. Any thread. */
+/* Ends a park, also one that a turn under way is about to request. The job must not be done. Any thread. */
 void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job);
 unsigned kd_turns_unfinished(struct kd_turns *turns);
 
-/* Makes kd_turns_cancelled true, which jobs look at in their turns; nothing stays parked then but what is away. Any
- * thread. */
+/* Makes kd_turns_cancelled true, which jobs poll in their turns, and ends all parks but KD_TURN_AWAY. Any thread. */
 void kd_turns_cancel(struct kd_turns *turns);
 bool kd_turns_cancelled(struct kd_turns *turns);
 

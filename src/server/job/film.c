@@ -1,8 +1,8 @@
-/* A film of a playground is made by turns: while one frame is drawn, the workers move the bodies on to the next.
+/* Films of playgrounds. While one frame is rendered, workers move the bodies on to the next.
  *
- * What a frame shows depends on those before it. So a frame that is to be drawn once more, and a film that goes on
- * after a restart, begin anew from the request: the motion is the same to the bit. One film is made at a time:
- * others wait until it is done, so that as little memory and as few turns are taken as one needs. */
+ * What a frame shows depends on all frames before it. So a frame that is rendered again, and a film that is resumed
+ * after a restart, start from the request; the motion is reproduced to the bit. One film is made at a time, the others
+ * wait, so that memory and slices of the workers are used for one only. */
 #include "server/job/internal.h"
 
 #include "base/clock.h"
@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TURN_MS 10. /* as a playground that somebody watches has */
+#define TURN_MS 10. /* slice, the same as for a playground that is watched */
 
-/* Moves the playground of a film on to a frame. */
+/* A task that moves a film's playground on to a frame. */
 struct stride {
-    struct kd_turns_job turns; /* first */
+    struct kd_turns_job turns; /* first member */
     struct kd_job *job;        /* a reference */
     unsigned to;
     bool under_way; /* `run` has begun */
@@ -28,7 +28,7 @@ void kd_job_film_drop(struct kd_job *job)
     kd_crowd_release(film->crowd);
     film->crowd = NULL;
     if (film->moving)
-        return; /* it is the worker's, who drops it */
+        return; /* a worker owns it and frees it */
     kd_playground_destroy(film->p);
     film->p = NULL;
     if (job->all->filming == job)
@@ -52,7 +52,7 @@ done:
     return status;
 }
 
-/* Goes on until it is time. False: there is more to do. */
+/* Moves the playground until until_ms. Returns false if the frame is not reached. */
 static bool go_on(struct stride *s, double until_ms)
 {
     struct kd_job_film *film = &s->job->film;
@@ -71,7 +71,7 @@ static bool go_on(struct stride *s, double until_ms)
     return film->at == s->to;
 }
 
-/* The job is still to be done, by this server. Locked. */
+/* Whether the job is still to be done by this server. Called with the lock. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
 static enum kd_turn_end turn(struct kd_turns_job *turns)
@@ -118,7 +118,7 @@ static void done(struct kd_turns_job *turns)
     free(s);
 }
 
-/* Sends the workers to a frame. */
+/* Starts a task that moves the playground to a frame. */
 static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_error *error)
 {
     struct kd_turns *turns = job->all->params.turns;
@@ -131,7 +131,7 @@ static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_erro
     job->film.crowd = NULL;
     job->film.to = frame;
     job->film.moving = true;
-    kd_job_strike(job); /* bodies may end a server as a frame may */
+    kd_job_strike(job); /* moving bodies may crash the server as well */
     job->references++;
     kd_turns_push(turns, &s->turns);
     return KD_OK;

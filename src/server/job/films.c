@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Locked. NULL: there is none. */
+/* Returns NULL if there is none. Called with the lock. */
 static struct kd_job_kept_film *find(struct kd_job *job, const char *format, unsigned rate)
 {
     for (unsigned i = 0; i < job->n_films; i++)
@@ -19,7 +19,7 @@ static struct kd_job_kept_film *find(struct kd_job *job, const char *format, uns
     return NULL;
 }
 
-/* Takes one off the list. Locked. */
+/* Removes a film from the list. Called with the lock. */
 static void drop(struct kd_job *job, struct kd_job_kept_film *film)
 {
     job->bytes -= film->bytes;
@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* Counts its bytes, if there may be so many. */
+/* Reserves the film's bytes if the limit permits. */
 static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_error *error)
 {
     struct kd_jobs *all = w->job->all;
@@ -113,7 +113,7 @@ static void give_back(const struct kd_job_film_writer *w)
     pthread_mutex_unlock(&w->job->all->lock);
 }
 
-/* Puts it on the list; *oldest: what has given way to it, "": none. */
+/* Adds the film to the list. *oldest: name of the film that it replaces; "": none. */
 static void enter(const struct kd_job_film_writer *w, char oldest[KD_JOB_FILM_NAME])
 {
     struct kd_job *job = w->job;

@@ -14,14 +14,13 @@
 
 struct kd_job;
 
-enum { KD_JOB_FILMS = 4 }; /* of a job; one more takes the place of the oldest */
+enum { KD_JOB_FILMS = 4 }; /* films of a job; a further one replaces the oldest */
 struct kd_job_kept_film {
     struct kd_job_film_name name;
     uint64_t bytes;
 };
 
-/* Opens the film of a format, by its name, at a rate of frames a second; its mark is its SHA-256. False: there is
- * none. */
+/* Opens a film by its format and frame rate in 1/s; its mark is its SHA-256. Returns false if it does not exist. */
 bool kd_job_film_open(struct kd_job *job, const char *format, unsigned rate, struct kd_job_file *out);
 
 /* A film that is being written. */
@@ -33,15 +32,15 @@ struct kd_job_film_writer {
     struct sha256_ctx hash;
     struct kd_job_kept_film film;
 };
-/* False: it is there, or another one is being written. */
+/* Claims a job for encoding a film. Returns false if the film exists, or another one is being written. */
 bool kd_job_film_claim(struct kd_job_film_writer *w, struct kd_job *job, const char *format, unsigned rate);
 enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data, size_t size, struct kd_error *error);
-/* From now on it can be opened. KD_EFULL: the files of all jobs would be more bytes than may be. */
+/* Publishes the film, so that it can be opened. Returns KD_EFULL if the files of all jobs would exceed their limit. */
 enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
-/* Removes what is not kept, and gives the claim back if there is one. */
+/* Deletes an unpublished film and releases the claim, if any. */
 void kd_job_film_end(struct kd_job_film_writer *w);
 
-/* Finds those of before a restart. Before any other thread has the job. */
+/* Finds films written before a restart. Before any other thread uses the job. */
 void kd_job_films_find(struct kd_job *job);
 
 #endif

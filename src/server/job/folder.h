@@ -9,35 +9,34 @@
 
 #include <stdbool.h>
 
-enum { KD_JOB_NAME = KD_SECRET_ID + 4 }; /* of a job's folder, with ".new" */
+enum { KD_JOB_NAME = KD_SECRET_ID + 4 }; /* size of the name of a job's folder, with ".new" */
 
 bool kd_job_folder_is_id(const char *name);
-bool kd_job_folder_is_new(const char *name); /* ID.new */
+bool kd_job_folder_is_new(const char *name); /* of the form ID.new */
 
 void kd_job_folder_frame(unsigned frame, char name[20]); /* "000000.png" */
 
-/* A film of a job: "film-024-HASH.mp4" with its frames a second and the SHA-256 of its bytes. */
+/* Name of a film: "film-024-HASH.mp4", with its frame rate in 1/s and the SHA-256 of its bytes. */
 enum { KD_JOB_FILM_NAME = 5 + 3 + 1 + 64 + 1 + 4 + 1 };
 struct kd_job_film_name {
     unsigned rate;
     char hash[65], format[5];
 };
 void kd_job_folder_film(const struct kd_job_film_name *film, char name[KD_JOB_FILM_NAME]);
-bool kd_job_folder_read_film(const char *name, struct kd_job_film_name *out); /* false: it is the name of none */
-/* What it is called until its hash is known, "film-024.mp4". */
+bool kd_job_folder_read_film(const char *name, struct kd_job_film_name *out); /* false: not the name of a film */
+/* Name of a film while it is written, before its hash is known: "film-024.mp4". */
 void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_FILM_NAME]);
 
-/* A descriptor; -1 with errno, ELOOP or ENOTDIR where it is no folder. */
+/* Opens a job's folder. Returns a descriptor, or -1 with errno; ELOOP or ENOTDIR if it is no folder. */
 int kd_job_folder_open(int jobs, const char *name);
 
-/* Removes at most so many of a job's files, job.json last: it says whose the rest is; then the folder, unless it
- * holds what is not a job's. True when there is nothing left that may be removed. */
+/* Removes at most `most` of a job's files, job.json last because it identifies the job; then the folder, unless it
+ * holds other files. Returns true when nothing removable is left. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
-/* Removes what a server that was killed has left half written of a job's files; nothing else, whatever its name
- * begins with. */
+/* Removes files of a job that a killed server has left half written, and no others, even if their names begin alike. */
 void kd_job_folder_tidy(int folder);
-/* Removes all jobs in a folder, and then its lock. */
+/* Removes all jobs in a folder, then its lock. */
 void kd_job_folder_empty(int jobs);
 
 #endif

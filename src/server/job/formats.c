@@ -4,7 +4,7 @@
 
 const struct kd_job_format kd_job_as_stream = { "stream", "application/x-kerrd-frames" };
 
-/* These are of one series: its tables; or what its files become together, and these by themselves. */
+/* Entry i of one series: its tables; or its archives, then its single frames and the stream. */
 static bool of_series(const struct kd_series *series, size_t i, struct kd_job_format *out)
 {
     size_t wholes = 0;
@@ -22,7 +22,7 @@ static bool of_series(const struct kd_series *series, size_t i, struct kd_job_fo
     return true;
 }
 
-/* Whether one that comes before these, number i of series k, has its name. */
+/* Whether the name has occurred before entry i of series k. */
 static bool again(size_t k, size_t i, const char *name)
 {
     struct kd_job_format other;

@@ -8,10 +8,10 @@
 
 struct kd_job_format { const char *name, *media_type; };
 
-/* What holds the frames of a job that are files, from any on, as they come. */
+/* The stream of a job's frames, from any frame on, for series whose frames are files. */
 extern const struct kd_job_format kd_job_as_stream;
 
-/* Every format of any job, each once, number i from 0 on; false: there are no more. */
+/* Entry i of the list of all formats without duplicates. Returns false beyond the end. */
 bool kd_job_format(size_t i, struct kd_job_format *out);
 
 #endif

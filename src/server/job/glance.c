@@ -5,9 +5,9 @@
 
 #include <stdio.h>
 
-#define WANTED_MS 10000.0 /* after somebody has asked */
-#define APART_MS 500.0    /* from one to the next, at least; */
-#define SHARE 20.0        /* and so many times as long as one takes */
+#define WANTED_MS 10000.0 /* previews are made for this long after a request */
+#define APART_MS 500.0    /* shortest interval between previews, ... */
+#define SHARE 20.0        /* ... and at least this many times the duration of one */
 
 static bool wanted(void *user)
 {
@@ -20,7 +20,7 @@ static bool wanted(void *user)
     return yes;
 }
 
-/* Keeps an unfinished picture, which says that it is one. */
+/* Stores a preview of an unfinished frame; the PNG says that it is unfinished. */
 static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
     unsigned number;
@@ -39,7 +39,7 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
         .text = &rows_text,
         .n_text = 1,
     };
-    if (kd_png_encode(&params, &png, &error)) /* out of memory: there is none this time */
+    if (kd_png_encode(&params, &png, &error)) /* out of memory: skip this preview */
         kd_buffer_finish(&png);
     double now = kd_clock_ms();
     pthread_mutex_lock(&job->all->lock);

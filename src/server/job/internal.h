@@ -10,34 +10,34 @@
 
 #include <pthread.h>
 
-struct kd_job_render; /* a frame on its way through the render queue */
+struct kd_job_render; /* a frame in the render queue, or being planned */
 
-/* The part of a frame that can be seen so far (glance.c). */
+/* Preview of an unfinished frame (glance.c). */
 struct kd_job_glance {
     struct kd_buffer png;
     unsigned frame;
     uint32_t rows, height;
-    double until_ms; /* until when it is wanted, on kd_clock_ms as the others */
-    double due_ms;   /* before which none is made */
-    double began_ms; /* when the last one was begun */
+    double until_ms; /* previews are made until then; all times on kd_clock_ms */
+    double due_ms;   /* no preview is made before */
+    double began_ms; /* start of the latest preview */
 };
 
-/* Where the playground of a film is (film.c). */
+/* State of the playground of a film (film.c). */
 struct kd_job_film {
-    /* While `moving`: the worker's, who takes no lock for them; else the lock's. */
-    struct kd_playground *p; /* NULL: it has still to be read */
-    unsigned at;             /* the frame that it is at, or on its way from */
+    /* While `moving` owned by the worker, without the lock; else protected by the lock. */
+    struct kd_playground *p; /* NULL: not created yet */
+    unsigned at;             /* frame that the playground has reached or moves on from */
     double begin;            /* its time at frame 0 */
-    double spent_ms;         /* on moving it */
-    /* The lock's, always. */
+    double spent_ms;         /* time spent on moving it */
+    /* Always protected by the lock. */
     bool moving;
-    unsigned to;            /* the frame that it is on its way to, or has come to; */
-    struct kd_crowd *crowd; /* what that shows, held; NULL: it is not there yet */
+    unsigned to;            /* target frame */
+    struct kd_crowd *crowd; /* bodies at the target frame, a reference; NULL: not reached yet */
 };
 
-/* The one exposure of frames that have one, as it is measured before the first of them (job/exposure.h). */
+/* Common exposure of all frames, measured before the first of them (job/exposure.h). */
 struct kd_job_exposure {
-    unsigned n, done; /* pictures that it takes; n 0: it takes none */
+    unsigned n, done; /* pictures needed and measured; n 0: not measured */
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
     double stops[KD_JOB_EXPOSURE_FRAMES];
 };
@@ -46,38 +46,38 @@ struct kd_job {
     struct kd_jobs *all;
     unsigned references;
     struct kd_job_record record;
-    struct kd_job_spec spec; /* empty where this version cannot read the request */
+    struct kd_job_spec spec; /* empty if this version cannot parse the request */
     struct kd_sweep_order order;
     struct kd_job_film film;
     struct kd_job_exposure exposure;
-    bool unordered; /* it is still being made, after a restart (watch.c), before which no frame is begun */
+    bool unordered; /* the order of frames is being computed again after a restart (watch.c); no frame begins before */
     const struct kd_series *series;
-    unsigned frames, next, finished; /* next: a place in the order, none before which has still to be begun */
-    unsigned char *have;             /* which are in their files */
-    double fraction;                 /* of the frame being rendered */
-    double estimate_ms;              /* of all frames, by their plans */
-    double began_ms;                 /* by this server; 0: not yet */
-    double due_ms;                   /* not before; on kd_clock_ms */
-    double delay_ms;                 /* before the next try, once something has run out; 0: nothing has */
-    double counted_ms;               /* when lens maps were last written to its record */
-    double ended_ms;                 /* on kd_clock_ms, whatever happens to the clock on the wall */
+    unsigned frames, next, finished; /* next: all places before it are done or under way */
+    unsigned char *have;             /* one flag for each frame: its file exists */
+    double fraction;                 /* progress of the frame being rendered */
+    double estimate_ms;              /* of all frames, from their plans */
+    double began_ms;                 /* by this server; 0: not begun */
+    double due_ms;                   /* no frame begins before; on kd_clock_ms */
+    double delay_ms;                 /* delay of the next retry after a shortage; 0: no shortage */
+    double counted_ms;               /* when the number of lens maps was last written to the record */
+    double ended_ms;                 /* on kd_clock_ms, so that changes of the system clock have no effect */
     char delayed[160];               /* why it waits until due_ms */
-    bool begun_here;                 /* this server has begun a frame of it, or moved its bodies, */
-    bool struck;                     /* and one attempt of the record is for that */
+    bool begun_here;                 /* this server has begun a frame, or moved its bodies */
+    bool struck;                     /* and has counted an attempt for that in the record */
     unsigned finished_here;
     struct kd_job_kept_film films[KD_JOB_FILMS]; /* oldest first */
     unsigned n_films;
-    bool filming;           /* one is being encoded (films.c) */
-    unsigned encoding;      /* frames that are drawn, and not yet in their files */
-    uint64_t bytes;         /* of frames and films */
-    unsigned revision;      /* of what its status says */
-    char client[KD_CLIENT]; /* "": nobody knows any more */
+    bool filming;           /* a film is being encoded (films.c) */
+    unsigned encoding;      /* frames rendered and not yet in files */
+    uint64_t bytes;         /* of its frames and films */
+    unsigned revision;      /* incremented when its status changes */
+    char client[KD_CLIENT]; /* "": unknown, after a restart */
     bool listed;
-    bool creating;  /* its files are still being made: no frame of it is begun */
-    bool unwritten; /* its record has changed since it was last written, */
-    bool keeping;   /* and no frame is begun before it is written */
-    bool measured;  /* the exposure in it is what keeps the frames waiting */
-    bool forgotten; /* its request is off the disk */
+    bool creating;  /* its files are being created; no frame begins */
+    bool unwritten; /* its record has changed since it was written */
+    bool keeping;   /* no frame begins before the record is written */
+    bool measured;  /* `keeping` is because of the measured exposure */
+    bool forgotten; /* its request is deleted from disk */
     struct kd_job_glance glance;
     struct kd_job_watcher *watchers;
     struct kd_job *link;
@@ -86,72 +86,73 @@ struct kd_job {
 struct kd_jobs {
     struct kd_jobs_params params;
     struct kd_job_store *store;
-    bool temporary;          /* the store is opened when there is something to keep */
-    pthread_mutex_t opening; /* held while that is done */
-    pthread_mutex_t
-        lock; /* for what follows; never held while a file is written or removed: the HTTP thread takes it */
-    struct kd_turns_job writer;      /* of records (records.c) */
-    bool writes, begun;              /* it is under way; other threads have the jobs */
+    bool temporary;          /* the store is created with the first job and deleted at the end */
+    pthread_mutex_t opening; /* held while that store is created */
+    /* for all members below. Never held while a file is written or removed, because the HTTP thread takes it */
+    pthread_mutex_t lock;
+    struct kd_turns_job writer;      /* scheduler job that writes records (records.c) */
+    bool writes, begun;              /* writes: the writer is under way; begun: other threads use the jobs */
     struct kd_job *first;            /* oldest first */
-    struct kd_job *gone;             /* whose files are to be removed */
-    struct kd_job_render *rendering; /* or being planned */
-    struct kd_job *filming;          /* whose bodies are moved; NULL: no film's */
+    struct kd_job *gone;             /* jobs whose files are to be removed */
+    struct kd_job_render *rendering; /* in the render queue, or being planned */
+    struct kd_job *filming;          /* job whose playground is moved; NULL: none */
     unsigned behind;
     uint64_t bytes;
-    uint64_t frames; /* finished here, of all */
+    uint64_t frames; /* finished by this server, of all jobs */
     bool closed;
 };
 
-/* These are called with all->lock held where nothing else is said. */
+/* Called with all->lock unless a comment says otherwise. */
 
-double kd_job_now_s(void); /* since 1970 */
+double kd_job_now_s(void); /* system time in s since 1970 */
 
-/* Whether a job is being rendered, or waits for it. */
+/* Whether a job is being rendered or waits to be. */
 static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;
 }
-/* records.c: lets a worker write a job's record; what fails is logged. */
+/* records.c: has a worker write the job's record; failures are logged. */
 void kd_job_write(struct kd_job *job);
-void kd_jobs_begin_writing(struct kd_jobs *all); /* if there is anything to write */
-/* Likewise, and no frame of it is begun before that. */
+void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if a record is to be written */
+/* The same, and no frame of the job begins before it is written. */
 void kd_job_keep(struct kd_job *job);
-/* Writes what is left to be written. When nobody else has the jobs any more. */
+/* Writes all changed records. When no other thread uses the jobs. */
 void kd_jobs_write_all(struct kd_jobs *all);
-void kd_job_strike(struct kd_job *job); /* counts, once a server, that work on it may be what ends the server */
+/* counts an attempt, once in a server's run, because the work may crash the server */
+void kd_job_strike(struct kd_job *job);
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
-/* Makes a job wait, each time for longer, because something has run out that may be there again later. */
+/* Delays a job after a shortage that may pass; each delay is longer than the last. */
 void kd_job_delay(struct kd_job *job, const char *why);
-/* Takes the job off the list, whose reference is then the caller's; its files go with the last one, the request
- * first (kd_jobs_bury). */
+/* Removes the job from the list; the caller gets the list's reference. Its files are deleted with the last reference,
+ * the request first (kd_jobs_bury). */
 void kd_job_unlist(struct kd_job *job);
-void kd_job_wake(struct kd_job *job, double now); /* those whose wait is over */
+void kd_job_wake(struct kd_job *job, double now); /* resumes watchers that have news */
 
-/* A job of a spec, which it empties; not on the list yet. NULL: out of memory. Unlocked. */
+/* Makes a job of a spec and empties the spec; the job is not listed yet. Returns NULL when out of memory. Called
+ * without the lock. */
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec);
-void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* to the list, as the youngest */
-/* resume.c, for kd_job_store_load: goes on with a job that the store knows; user: the jobs. Before any other thread
- * has them. */
+void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* adds it to the list as the youngest */
+/* resume.c, callback of kd_job_store_load: resumes a stored job; user: the jobs. Before any other thread uses them. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request);
 
-/* Remove files of jobs that are gone, at most so many. Unlocked, on one thread. */
+/* Removes at most `files` files of deleted jobs. Called without the lock, by one thread. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
-/* run.c: begin with the next frame if it is time for one. A worker plans it and hands it to the render queue. */
+/* run.c: begins the next frame if possible. A worker plans it and pushes it to the render queue. */
 void kd_jobs_pump(struct kd_jobs *all);
-/* The frame that no worker will plan any more. When nobody else has the jobs. */
+/* Frees the frame that waits to be planned. When no other thread uses the jobs. */
 void kd_jobs_drop_unplanned(struct kd_jobs *all);
-/* Finds the job of a frame by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
+/* Finds the job of a frame from the user pointer of kd_job_glance; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_glance kd_job_glance;
-/* A frame, or what it shows, has failed: for good, or until there is memory and room on the disk again. */
+/* Handles the failure of a frame or its scene: delays the job if memory or disk space is short, else ends it. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
-/* film.c: what a frame of a film shows, the job's; NULL: it is on its way, or another film is, and kd_jobs_pump is
- * called when it is there. KD_ENOMEM. */
+/* film.c: bodies that a frame of a film shows; owned by the job. NULL: not reached yet, or another film is being made;
+ * kd_jobs_pump is called when they are. KD_ENOMEM. */
 enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_crowd **out, struct kd_error *error);
-/* Frees what is there of it, but for what a worker has, and lets another film be made. */
+/* Frees the playground, except while a worker owns it, and lets another film begin. */
 void kd_job_film_drop(struct kd_job *job);
-/* Drops the frame of this job that is being rendered, if there is one; job NULL: of any job. */
+/* Cancels the frame of this job that is being rendered, if any; job NULL: of any job. */
 void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
 
 #endif

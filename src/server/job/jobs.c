@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#define COUNTS_MS 20. /* that who only wants to know may wait for the lock */
+#define COUNTS_MS 20. /* how long a reader of counts waits for the lock */
 
 double kd_job_now_s(void)
 {
@@ -19,7 +19,7 @@ double kd_job_now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Gives every job a new revision, since their places have changed. */
+/* Gives every job a new revision, because their places have changed. */
 static void move_up(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)
@@ -40,7 +40,7 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
            state == KD_JOB_DONE ? "is done" : "has failed: ", why);
 }
 
-#define DELAY_MS 1e3 /* once; then twice as long each time, to ... */
+#define DELAY_MS 1e3 /* first delay, doubled each time up to ... */
 #define DELAY_MAX_MS 60e3
 
 void kd_job_delay(struct kd_job *job, const char *why)
@@ -72,7 +72,7 @@ static void let_go(struct kd_job *job)
     job->all->gone = job;
 }
 
-/* Unlocked, on one thread. */
+/* Called without the lock, by one thread. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files)
 {
     pthread_mutex_lock(&all->lock);
@@ -85,7 +85,7 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files)
     if (!job || !kd_job_store_remove(all->store, job->record.id, files))
         return;
     pthread_mutex_lock(&all->lock);
-    struct kd_job **link = &all->gone; /* others may have come before it */
+    struct kd_job **link = &all->gone; /* others may have been added before it */
     while (*link != job)
         link = &(*link)->link;
     *link = job->link;
@@ -117,7 +117,7 @@ void kd_job_unlist(struct kd_job *job)
     kd_job_wake(job, kd_clock_ms());
 }
 
-/* Unlocked from here on. */
+/* Functions from here on are called without the lock. */
 
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
 {
@@ -129,9 +129,9 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
         return NULL;
     }
     job->all = all;
-    job->references = 1; /* the list's */
+    job->references = 1; /* for the list */
     job->have = have;
-    kd_crowd_release(spec->first); /* whoever planned by it has done so */
+    kd_crowd_release(spec->first); /* planning is done, so the bodies of the first frame are not needed any more */
     spec->first = NULL;
     job->spec = *spec;
     job->frames = spec->frames;
@@ -193,7 +193,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* Whether there is room for one more, if need be in the place of a finished one. Locked. */
+/* Whether another job is accepted, possibly by deleting a finished one. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, kept = 0, own = 0;
@@ -216,7 +216,7 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
     return KD_OK;
 }
 
-/* Opens the temporary store with the first job. Unlocked. */
+/* Creates the temporary store for the first job. Called without the lock. */
 static enum kd_status open_store(struct kd_jobs *all, struct kd_error *error)
 {
     struct kd_job_store *store = NULL;
@@ -231,7 +231,7 @@ static enum kd_status open_store(struct kd_jobs *all, struct kd_error *error)
     return status;
 }
 
-/* Takes a job that could not be created off the list again. Locked. */
+/* Removes a job whose files could not be created from the list. Called with the lock. */
 static void take_back(struct kd_job *job)
 {
     struct kd_job **link = &job->all->first;
@@ -241,7 +241,7 @@ static void take_back(struct kd_job *job)
     move_up(job->all);
 }
 
-/* Where more are kept than may be, the oldest finished one that nobody reads goes. Locked. */
+/* Deletes the oldest finished job that nobody reads if too many are stored. Called with the lock. */
 static void make_room(struct kd_jobs *all)
 {
     unsigned kept = 0;
@@ -257,7 +257,7 @@ static void make_room(struct kd_jobs *all)
     let_go(oldest);
 }
 
-/* The job has its place before it has its files, so that no lock is held while these are made. */
+/* Adds the job to the list before its files are created, so that the lock is not held meanwhile. */
 static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota,
                             struct kd_error *error)
 {
@@ -393,15 +393,15 @@ static bool is_next(const struct kd_job *job)
     return other == job;
 }
 
-/* Frames that are drawn, those that are still being encoded and the drawn part of one among them. Called locked. */
+/* Frames rendered, including those being encoded and the rendered part of the present one. Called with the lock. */
 static double drawn(const struct kd_job *job)
 {
     return fmin(job->finished + job->encoding + job->fraction, job->frames);
 }
 
-#define SURE 0.02 /* frames, of which time tells more than a plan */
+#define SURE 0.02 /* frames after which elapsed time estimates better than the plan */
 
-/* Estimates what is left of a job; NAN: it cannot be said. Called locked. */
+/* Estimates the time left; NAN: unknown. Called with the lock. */
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - drawn(job);
@@ -409,8 +409,8 @@ static double remaining_s(const struct kd_job *job)
         return NAN;
     const double planned_ms = job->estimate_ms / job->frames, done = job->finished_here + job->encoding + job->fraction;
     const double passed_ms = job->began_ms > 0 ? kd_clock_ms() - job->began_ms : 0;
-    /* What is left takes as long as what is done has taken, waiting for others included; before that as the plan
-     * says, and at least as long as has passed. */
+    /* Later frames take the mean of those so far, waiting included. Before the first progress a frame takes the planned
+     * time, or the time elapsed if that is longer. */
     const double frame_ms = done > SURE ? passed_ms / done : fmax(planned_ms, passed_ms);
     return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
 }
@@ -462,7 +462,7 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
         out->done += job->record.state == KD_JOB_DONE;
         out->failed += job->record.state == KD_JOB_FAILED;
     }
-    out->running = out->waiting > 0; /* the oldest */
+    out->running = out->waiting > 0; /* the oldest is running */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
     return true;

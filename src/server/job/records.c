@@ -1,4 +1,4 @@
-/* Records of jobs are written by a worker, a record each turn: whoever changes one holds the lock, and waits for no
+/* Writes records of jobs on a worker, one in each slice, so that threads that change a record never wait for the
  * disk. */
 #include "server/job/internal.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* What was waiting for the record goes on. Locked. */
+/* Continues what waited for the record. Called with the lock. */
 static void written(struct kd_job *job, enum kd_status status, const struct kd_error *error)
 {
     if (status && job->listed)
@@ -22,13 +22,13 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         return;
     }
     job->record.exposure =
-        NAN; /* a restart that found frames and no exposure would give those that are missing another one */
+        NAN; /* otherwise a restart would find frames without an exposure and give the missing frames another */
     job->exposure.done = 0;
     if (kd_job_is_active(job))
         kd_job_delay(job, error->message);
 }
 
-/* Locked. */
+/* Called with the lock. */
 static struct kd_job *first_unwritten(const struct kd_jobs *all)
 {
     struct kd_job *job = all->first;
@@ -60,7 +60,7 @@ static enum kd_turn_end turn(struct kd_turns_job *writer)
     return KD_TURN_MORE;
 }
 
-/* The queue is through with the writer, which may begin anew. */
+/* The scheduler has finished the writer, which may be pushed again. */
 static void done(struct kd_turns_job *writer)
 {
     struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));
@@ -72,7 +72,8 @@ static void done(struct kd_turns_job *writer)
 
 void kd_jobs_begin_writing(struct kd_jobs *all)
 {
-    if (all->writes || !all->begun || all->closed || !first_unwritten(all)) /* the end writes what is left */
+    /* kd_jobs_write_all writes the rest at shutdown */
+    if (all->writes || !all->begun || all->closed || !first_unwritten(all))
         return;
     all->writes = true;
     all->writer = (struct kd_turns_job) { .turn = turn, .done = done };

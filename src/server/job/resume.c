@@ -1,4 +1,4 @@
-/* A start goes on with the jobs that its state folder holds. */
+/* Resumes the jobs in the state folder at a start. */
 #include "server/job/internal.h"
 
 #include "base/clock.h"
@@ -16,8 +16,8 @@ static bool stands_at(int fd, uint64_t at, const char *text)
     return n <= sizeof found && pread(fd, found, n, (off_t)at) == (ssize_t)n && !memcmp(found, text, n);
 }
 
-/* Says whether a frame has the size, the beginning and the end that its format gives it. It was written whole: a
- * file system that was not stopped in order may have cut it off. */
+/* Whether a frame's file has the size, beginning and end of its format. It was written completely, but a file system
+ * that was not unmounted may have truncated it. */
 static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
 {
     const struct kd_format *format = series->frame;
@@ -28,7 +28,7 @@ static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
            (!end || stands_at(fd, size - end, format->end));
 }
 
-/* Frames that are damaged are as those that are missing. */
+/* Damaged frames count as missing. */
 static void find_frames(struct kd_job *job)
 {
     for (unsigned i = 0; i < job->frames; i++) {
@@ -46,7 +46,7 @@ static void find_frames(struct kd_job *job)
     job->all->bytes += job->bytes;
 }
 
-/* A job that was done and has lost frames goes on, if this version knows what they show. */
+/* Resumes a finished job that has lost frames, if this version can parse its request. */
 static void reopen(struct kd_job *job)
 {
     if (job->record.state != KD_JOB_DONE || job->finished == job->frames)
@@ -57,16 +57,15 @@ static void reopen(struct kd_job *job)
     job->record.ended = 0;
 }
 
-/* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to
- * fetch what is done. */
+/* Time since the job ended. If the system clock was set back, it is 0; if the clock was set forward, an hour remains to
+ * download the result. */
 static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
 {
     double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
     return 1e3 * fmin(fmax(s, 0), most);
 }
 
-/* Makes a job wait that may be what has ended the servers; others go first (kd_job_store_load). It is never given up
- * for that. */
+/* Delays a job that may have crashed servers; others go first (kd_job_store_load). Such a job is never given up. */
 static void wait_after_strikes(struct kd_job *job)
 {
     unsigned n = job->record.attempts;
@@ -79,7 +78,7 @@ static void wait_after_strikes(struct kd_job *job)
     kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
 }
 
-/* Goes on with a job that the store knows. */
+/* Resumes a job of the store. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request)
 {
     struct kd_jobs *all = user;
@@ -95,7 +94,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     }
     if (status)
         snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
-    if (*why) { /* what is done is there for who reads it, whatever the request says to this version */
+    if (*why) { /* its results stay readable although this version cannot parse the request */
         spec.frames = known->frames;
         spec.series = known->series;
     }
@@ -114,8 +113,8 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     if (!*why)
         reopen(job);
     job->spec.exposure = known->exposure;
-    if (!isnan(known->exposure) ||
-        job->finished) /* frames without one that was measured are of a version that gave each its own */
+    /* frames without a measured exposure were made by an older version, each with its own exposure */
+    if (!isnan(known->exposure) || job->finished)
         job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
     kd_job_append(all, job);
@@ -124,7 +123,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         return;
     }
     wait_after_strikes(job);
-    if (*why) { /* another version can: until then it waits */
+    if (*why) { /* another version may be able to; until then it waits */
         job->due_ms = INFINITY;
         snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
         kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);

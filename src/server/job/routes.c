@@ -1,4 +1,4 @@
-/* These routes take POST /v1/jobs, tell how far a job is, by asking and as events, and end it. */
+/* Handlers of /v1/jobs: create, list, status, events, delete. */
 #include "base/json.h"
 #include "base/clock.h"
 #include "server/asset/store.h"
@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define JSON_TYPE "application/json"
-#define HEARTBEAT_MS 15000.0 /* of an event stream */
+#define HEARTBEAT_MS 15000.0 /* interval of comments in an event stream */
 
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -41,7 +41,7 @@ static const char *state_word(const struct kd_job_status *s)
                                               : RUNNING];
 }
 
-/* "axes": {"spacetime.spin": 3, ...} */
+/* Writes "axes": {"spacetime.spin": 3, ...}. */
 static void write_axes(struct kd_json *json, const struct kd_sweep *sweep)
 {
     kd_json_object(json, "axes");
@@ -63,7 +63,7 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "frames", s->frames);
     kd_json_number(&json, "finished", s->finished);
     kd_json_number(&json, "fraction", s->fraction);
-    kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN: null */
+    kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN is written as null */
     kd_json_number(&json, "bytes", (double)s->bytes);
     kd_json_number(&json, "lens_maps_traced", s->traced);
     if (!isnan(s->exposure))
@@ -105,9 +105,9 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_problem(request, &problem);
 }
 
-/* A job being read and checked. */
+/* A request for a job that is parsed and checked by workers. */
 struct draft {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_job_draft draft;
     bool read;
     struct kd_job *job; /* a reference */
@@ -151,12 +151,13 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (d->task.status)
         return refuse(request, &d->task.error, d->task.quota);
     enum MHD_Result result = answer(request, d->job, true);
-    if (request->status != MHD_HTTP_ACCEPTED && !*request->once.key) /* nobody has been told of it, nor asks again */
+    /* the client does not know it and cannot ask again */
+    if (request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;
 }
 
-/* Whether the answer is that to an earlier request with this key, or why there is none. */
+/* Handles Idempotency-Key: true if *result answers the request, by the earlier job or a refusal. */
 static bool made_before(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_job *job = kd_jobs_find_once(request->server->jobs, request->once.key);
@@ -188,9 +189,9 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     return kd_task_submit(&d->task);
 }
 
-/* A request that deletes one, on a worker: it is off the disk when it is answered. */
+/* A deletion, which runs on a worker: when it is answered the job is off the disk. */
 struct removing {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_job *job;  /* a reference */
 };
 
@@ -222,7 +223,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
 }
 
-/* Takes the reference over. */
+/* Takes over the reference. */
 static enum MHD_Result begin_removal(struct kd_request *request, struct kd_job *job)
 {
     enum MHD_Result refused = MHD_NO;
@@ -259,7 +260,7 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
 }
 
 struct events {
-    struct kd_job_watcher watcher; /* first */
+    struct kd_job_watcher watcher; /* first member */
     struct kd_buffer text;         /* of one event */
     size_t at;
     bool over;
@@ -290,9 +291,9 @@ static enum kd_status next_event(struct events *e, ssize_t *instead)
     case KD_JOB_NEWS: return write_event(e);
     case KD_JOB_OVER:
         *instead = MHD_CONTENT_READER_END_OF_STREAM;
-        return KD_OK; /* the server stops; the job may go on later */
+        return KD_OK; /* the server stops, and the job may continue after a restart */
     case KD_JOB_LATER: *instead = 0; return KD_OK;
-    case KD_JOB_LATE: /* a sign of life, which also finds out who has left without a word */
+    case KD_JOB_LATE: /* a heartbeat, which also detects clients that have vanished */
         e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         return kd_buffer_printf(&e->text, ":\n\n");
     }
@@ -327,9 +328,9 @@ enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_
         return kd_reply_no_memory(request);
     }
     MHD_add_response_header(response, "Content-Type", type);
-    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* It may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
+    /* A stream has no deadline; libmicrohttpd's timeout ends readers that stall. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }

@@ -1,4 +1,4 @@
-/* The frames of jobs go through the render queue. */
+/* Renders jobs' frames through the render queue. */
 #include "server/job/internal.h"
 
 #include "base/clock.h"
@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BEHIND_MAX 2 /* frames rendered and not yet in their files: one is rendered while one is encoded */
+#define BEHIND_MAX 2 /* frames rendered and not yet in files, so that one is rendered while another is encoded */
 struct kd_job_render {
-    struct kd_render_job render;  /* first: the queue's pointer is ours */
-    struct kd_turns_job planning; /* before it is pushed */
+    struct kd_render_job render;  /* first member: the queue stores a pointer to it */
+    struct kd_turns_job planning; /* scheduler job, before the frame is pushed */
     struct kd_job *job;           /* a reference */
-    unsigned number, place;       /* in the order */
-    struct kd_crowd *crowd;       /* of a film: that its scene shows, held */
+    unsigned number, place;       /* place in the order of rendering */
+    struct kd_crowd *crowd;       /* bodies of a film's scene; a reference */
     bool rendered;
-    bool measures; /* the exposure of all: a small picture, of which no file is kept */
+    bool measures; /* a small picture that measures the common exposure and is not stored */
 };
 
 static void rendered(struct kd_render_job *render);
@@ -34,7 +34,7 @@ void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
-/* The exposure of all its frames is still measured. Locked. */
+/* Whether the common exposure is still being measured. Called with the lock. */
 static bool still_measures(const struct kd_job *job) { return job->exposure.done < job->exposure.n; }
 
 static unsigned at_place(const struct kd_job *job, unsigned place)
@@ -51,7 +51,7 @@ void kd_job_strike(struct kd_job *job)
     kd_job_keep(job);
 }
 
-/* The frame to be rendered next; the number of frames: none. Locked. */
+/* Frame to be rendered next; the number of frames if there is none. Called with the lock. */
 static unsigned next_frame(struct kd_job *job)
 {
     while (job->next < job->frames && job->have[at_place(job, job->next)])
@@ -61,8 +61,9 @@ static unsigned next_frame(struct kd_job *job)
     return still_measures(job) ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
 }
 
-/* A worker plans a frame, without the lock: the critical curve of a camera alone takes milliseconds. Nobody writes what
- * it reads of the job: its exposure comes while it has no frame, its order before the first. */
+/* Plans a frame on a worker, without the lock, because the critical curve of a camera alone takes milliseconds. What it
+ * reads of the job does not change meanwhile: the exposure is set while no frame is under way, the order before the
+ * first. */
 static enum kd_turn_end plan(struct kd_turns_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -86,14 +87,14 @@ static void finish(struct kd_job_render *frame)
     free(frame);
 }
 
-/* It can be begun once more. Locked. */
+/* Makes the frame pending again. Called with the lock. */
 static void take_back(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
     job->next = frame->place < job->next ? frame->place : job->next;
 }
 
-/* Hands a planned frame over. Locked. */
+/* Pushes a planned frame to the render queue. Called with the lock. */
 static void push(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
@@ -104,13 +105,14 @@ static void push(struct kd_job_render *frame)
         job->began_ms = kd_clock_ms();
     job->fraction = 0;
     job->revision++;
-    const bool films = frame->crowd; /* the queue's from here on */
+    const bool films = frame->crowd; /* read before the push, after which the queue owns the frame */
     kd_render_queue_push(job->all->params.renders, &frame->render);
-    if (films && job->next < job->frames) /* meanwhile, and what fails is found out when it is wanted */
+    /* the bodies move on meanwhile; an error is reported when the next frame begins */
+    if (films && job->next < job->frames)
         kd_job_film_at(job, at_place(job, job->next), &next, &error);
 }
 
-/* The job may have been deleted, or have failed, and the server may have begun to end, while the frame was planned. */
+/* Planning is done. Meanwhile the job may have been deleted or have failed, or the server may be stopping. */
 static void planned(struct kd_turns_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -133,7 +135,7 @@ static void planned(struct kd_turns_job *planning)
     finish(frame);
 }
 
-/* The next frame of a job, which is still to be planned. */
+/* Makes the next frame of a job, to be planned. */
 static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_crowd *crowd)
 {
     struct kd_job_render *frame = calloc(1, sizeof *frame);
@@ -162,7 +164,7 @@ static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, str
     return frame;
 }
 
-/* Begins with the next frame of a job. False: there is none that can be begun now. Locked. */
+/* Begins the next frame of a job. Returns false if none can begin now. Called with the lock. */
 static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
@@ -172,7 +174,7 @@ static bool begin(struct kd_job *job)
     if (number == job->frames)
         return false;
     kd_job_strike(job);
-    if (job->keeping) /* the strike is on the disk before what it is for begins */
+    if (job->keeping) /* the attempt must be on disk before the work begins */
         return true;
     enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
     if (!status && job->spec.every > 0 && !crowd)
@@ -223,9 +225,9 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
         atomic_store(&all->rendering->render.drop, true);
 }
 
-#define COUNTED_MS 500.0 /* from one writing of the lens maps of a sweep to the next, at least */
+#define COUNTED_MS 500.0 /* shortest interval between two records of a sweep's number of lens maps */
 
-/* Counts the lens map of a frame. Of a sweep that is kept, now and then, for who asks after a restart. */
+/* Counts a frame's lens map. Stored sweeps write the number now and then, so that it survives a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
@@ -241,7 +243,7 @@ static void count_map(struct kd_job *job, const struct kd_render_job *render)
 
 static void finished(struct kd_job *job, unsigned number, uint64_t size)
 {
-    if (job->have[number]) /* begun once more after the one before it had failed, while it was being encoded */
+    if (job->have[number]) /* rendered twice: the frame before it failed while this one was being encoded */
         return;
     job->have[number] = 1;
     if (job->glance.frame == number)
@@ -266,7 +268,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
         kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs are more bytes than this server keeps");
 }
 
-/* The three below are called by the render queue, unlocked. */
+/* The three functions below are called by the render queue, without the lock. */
 
 static void progress(struct kd_render_job *render, double fraction)
 {
@@ -277,8 +279,8 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* What the small picture says; after the last of them all frames have their exposure, once that is kept (records.c).
- * Locked. */
+/* Stores the exposure of a small picture. After the last one all frames have the exposure, once it is on disk
+ * (records.c). Called with the lock. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
@@ -301,7 +303,7 @@ static void rendered(struct kd_render_job *render)
     frame->job->encoding += !frame->measures;
     if (frame->measures)
         measured(frame->job, render->frame.exposure);
-    frame->job->fraction = 0; /* of the next */
+    frame->job->fraction = 0; /* of the next frame */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -315,8 +317,9 @@ static void done(struct kd_render_job *render)
     bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
+    /* a failure to write, whatever the cause: the frame can be rendered again later */
     if (stored && status)
-        render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
+        render->error.status = KD_EFULL;
     pthread_mutex_lock(&all->lock);
     if (frame->rendered) {
         all->behind--;
@@ -324,14 +327,14 @@ static void done(struct kd_render_job *render)
     } else
         all->rendering = NULL;
     if (frame->measures && frame->rendered)
-        status = KD_OK; /* it has been taken, whatever became of its file */
+        status = KD_OK; /* measured already; its file is not needed */
     else
         count_map(job, render);
     if (!status && !frame->measures)
         finished(job, frame->number, render->file.size);
     else if (status && status != KD_ECANCELLED &&
              !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) &&
-             kd_job_is_active(job)) { /* those two go on after a restart */
+             kd_job_is_active(job)) { /* cancelled frames and those of a lost device are rendered after a restart */
         take_back(frame);
         kd_job_give_up(job, &render->error);
     }
@@ -347,14 +350,13 @@ void kd_job_draft_finish(struct kd_job_draft *draft)
     kd_cost_finish(&draft->cost);
 }
 
-/* Not the number of frames is limited, but what they cost. */
+/* Limits the cost of the frames, not their number. */
 static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draft *draft, struct kd_error *error)
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    const double not_spent = cost->frames < frames
-                                 ? cost->trace_ms
-                                 : cost->shared_ms; /* until all are known, every lens map may be shared */
+    /* until all frames are checked, any lens map may turn out to be shared */
+    const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)
         return kd_error_set(error, KD_ETOOBIG,

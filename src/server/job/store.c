@@ -21,7 +21,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define RECORD_MAX ((size_t)64 << 10) /* bytes of job.json: ours have some 500 */
+#define RECORD_MAX ((size_t)64 << 10) /* bytes of job.json, which normally has some 500 */
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
@@ -31,7 +31,7 @@ struct kd_job_store {
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* The log has the path. Failures that may go away by themselves are KD_EFULL and KD_ENOMEM, not KD_EIO. */
+/* Logs the path. Failures that may pass are KD_EFULL and KD_ENOMEM, others KD_EIO. */
 enum kd_status kd_job_store_failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
@@ -45,7 +45,7 @@ static enum kd_status failed_at(struct kd_error *error, const char *what, const 
     return kd_error_set(error, KD_EIO, "%s in %.300s: %s", what, where, strerror(errno));
 }
 
-/* The lock file of a folder, locked; -1 with errno, EWOULDBLOCK: somebody else has it. */
+/* Opens and locks a folder's lock file. Returns -1 with errno; EWOULDBLOCK: another process holds it. */
 static int take_lock(int folder, int flags)
 {
     int fd = openat(folder, "lock", O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | flags, 0600);
@@ -56,7 +56,7 @@ static int take_lock(int folder, int flags)
     if (!fstat(fd, &about) && S_ISREG(about.st_mode) && !flock(fd, LOCK_EX | LOCK_NB) && !fstat(fd, &about)) {
         if (about.st_nlink)
             return fd;
-        errno = EWOULDBLOCK; /* somebody has taken it away between the two */
+        errno = EWOULDBLOCK; /* the file was deleted between open and lock */
     }
     int cause = errno;
     close(fd);
@@ -80,7 +80,7 @@ void kd_job_store_tidy(void)
             continue;
         int folder = kd_job_folder_open(parent, entry->d_name);
         int lock = folder >= 0 && !fstat(folder, &about) && about.st_uid == geteuid() ? take_lock(folder, 0) : -1;
-        if (lock >= 0) { /* nobody has: whoever made it is dead */
+        if (lock >= 0) { /* the lock was free: the server that made the folder is dead */
             kd_job_folder_empty(folder);
             if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
                 kd_log(KD_LOG_INFO, "%s, which a dead server has left, is removed", entry->d_name);
@@ -116,7 +116,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        if (cause != EWOULDBLOCK && cause != ENOENT) /* else another start has just tidied it away */
+        if (cause != EWOULDBLOCK && cause != ENOENT) /* otherwise another server has just tidied it away: try again */
             return kd_job_store_failed(error, "a folder for jobs cannot be made");
     }
     store->parent = strdup(parent);
@@ -126,8 +126,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
     return KD_OK;
 }
 
-/* Two servers that went on with the same jobs would do everything twice. The path may go through links; what is in
- * the folder not. */
+/* Locks the folder, because two servers with the same jobs would do all work twice. The path to it may contain links,
+ * the folder may not. */
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
@@ -227,11 +227,11 @@ static bool read_state(const cJSON *o, enum kd_job_state *out)
     return false;
 }
 
-/* NULL: it is of a version that knows more of them. */
+/* Returns NULL for a kind that only newer versions have. */
 static const struct kd_series *series_of(const cJSON *o)
 {
     const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "output"));
-    if (!name) /* versions without it knew two */
+    if (!name) /* older records lack it; those versions had two kinds */
         name = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve")) ? "light-curve" : "pictures";
     return kd_series_named(name);
 }
@@ -245,7 +245,7 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
         !copy_text(o, "token", out->token, sizeof out->token) || strlen(out->token) != KD_SECRET_TOKEN - 1 ||
         !copy_text(o, "error", out->error, sizeof out->error) || !read_state(o, &out->state))
         return false;
-    if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* jobs of versions without have none */
+    if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* absent in records of older versions */
         *out->preset = 0;
     if (!copy_text(o, "idempotency_key", out->once.key, sizeof out->once.key) ||
         !copy_text(o, "idempotency_request", out->once.request, sizeof out->once.request))
@@ -265,7 +265,7 @@ struct found {
 
 enum fate { KEPT, GONE, ASIDE };
 
-/* Reads a record of this version; false, with the reason in why, if it is none. */
+/* Parses a record of this version. Returns false with the reason in *why. */
 static bool parse_record(const struct kd_buffer *text, const char *id, struct kd_job_record *out, const char **why)
 {
     bool starved;
@@ -281,7 +281,7 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     return good;
 }
 
-/* What cannot be read may be readable tomorrow, or by another version: only a job that has been deleted is GONE. */
+/* An unreadable job may be readable later, or by another version. Only a deleted job is GONE. */
 static enum fate look(int folder, const char *id, struct found *out, const char **why)
 {
     struct kd_buffer text = { 0 };
@@ -306,7 +306,7 @@ static enum fate look(int folder, const char *id, struct found *out, const char 
 static bool load(struct kd_job_store *store, const char *name, struct found *out)
 {
     const char *why = "";
-    if (kd_job_folder_is_new(name)) { /* killed before it was accepted */
+    if (kd_job_folder_is_new(name)) { /* the server was killed before the job was accepted */
         kd_job_folder_remove(store->folder, name, UINT_MAX);
         return false;
     }
@@ -329,7 +329,7 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
     return fate == KEPT;
 }
 
-/* Orders records: those with which servers have ended go last. */
+/* Orders records by attempts, then by age. */
 static int by_age(const void *a, const void *b)
 {
     const struct kd_job_record *x = &((const struct found *)a)->record, *y = &((const struct found *)b)->record;
@@ -432,7 +432,7 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
     return status;
 }
 
-/* Under another name until both documents are there: a job is accepted or has never been. */
+/* Uses another name until both documents are written, so that a job is stored completely or not at all. */
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
                                    size_t size, struct kd_error *error)
 {
@@ -498,7 +498,7 @@ bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *ou
         return false;
     }
     out->size = (uint64_t)about.st_size;
-    /* It is written whole, as another file each time. */
+    /* A file is never modified; each write replaces it by a new file. */
     snprintf(out->mark, sizeof out->mark, "%llx-%llx-%llx", (unsigned long long)about.st_ino,
              (unsigned long long)about.st_size,
              1000000000ull * (unsigned long long)about.st_mtim.tv_sec + (unsigned long long)about.st_mtim.tv_nsec);

@@ -11,12 +11,12 @@
 #include <unistd.h>
 
 struct table {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     struct kd_job *job;  /* a reference */
     struct kd_job_status status;
     const struct kd_table_format *format;
     char *rows;
-    unsigned there; /* rows that have been read */
+    unsigned there; /* rows read so far */
     struct kd_buffer text;
 };
 
@@ -75,7 +75,7 @@ static enum MHD_Result answer(struct kd_request *request)
     return kd_reply_json(request, KD_OK, &t->text, t->format->media_type);
 }
 
-/* The job is done; its reference is taken over. */
+/* Starts the task for a finished job. Takes over the reference. */
 static enum MHD_Result write_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                    const struct kd_table_format *format)
 {
@@ -99,14 +99,14 @@ static const char *type_of(size_t i, const void *tables)
     return ((const struct kd_table_format *)tables)[i].media_type;
 }
 
-/* What Accept would rather have, the first if it does not care; NULL: none. */
+/* Format preferred by Accept, the first if there is no preference; NULL: none is acceptable. */
 static const struct kd_table_format *accepted(struct kd_request *request, const struct kd_series *series)
 {
     size_t best = kd_reply_accepted(request, series->n_tables, type_of, series->tables);
     return best < series->n_tables ? &series->tables[best] : NULL;
 }
 
-/* "application/json, text/csv", or "json or csv" */
+/* Lists media types, "application/json, text/csv", or names, "json or csv". */
 static const char *list_tables(const struct kd_series *series, bool types, char *out, size_t size)
 {
     for (size_t i = 0, n = 0; i < series->n_tables && n < size; i++)

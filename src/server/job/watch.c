@@ -1,9 +1,10 @@
-/* Clients that follow a job, and what happens to jobs as time goes by. */
+/* Watchers of jobs, and the periodic sweep. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/job/internal.h"
 
-#define FILES_A_SWEEP 200 /* removed: some milliseconds, so that the sweeper is not late for others */
+/* files removed in one sweep: some milliseconds, so that the sweeper is not late for others */
+#define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)
 {
@@ -30,7 +31,7 @@ void kd_job_unwatch(struct kd_job_watcher *watcher)
     kd_job_release(job);
 }
 
-/* Says what has become of what a watcher waits for. Called locked. */
+/* What a watcher waits for. Called with the lock. */
 static enum kd_job_news news(const struct kd_job_watcher *w, double now)
 {
     const struct kd_job *job = w->job;
@@ -48,7 +49,7 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* before anybody can wake it: that takes the lock */
+        MHD_suspend_connection(w->mhd); /* before a wake-up can happen, which needs the lock */
     }
     pthread_mutex_unlock(&w->job->all->lock);
     return what;
@@ -63,8 +64,8 @@ void kd_job_wake(struct kd_job *job, double now)
         }
 }
 
-/* Finished jobs that nobody reads and that have been kept long enough, off the list: their references are the
- * caller's. Locked. */
+/* Removes an expired finished job that nobody reads from the list; the caller gets its reference. Called with the
+ * lock. */
 static struct kd_job *take_old(struct kd_jobs *all)
 {
     double now = kd_clock_ms();
@@ -77,9 +78,9 @@ static struct kd_job *take_old(struct kd_jobs *all)
     return NULL;
 }
 
-#define ORDER_MS 20.0 /* a sweep of the jobs */
+#define ORDER_MS 20.0 /* time spent in one sweep of the jobs */
 
-/* Goes on with the order of a sweep's frames after a restart. Unlocked. */
+/* Continues to compute the order of a sweep's frames after a restart. Called without the lock. */
 static void put_in_order(struct kd_jobs *all)
 {
     pthread_mutex_lock(&all->lock);
@@ -110,7 +111,7 @@ void kd_jobs_sweep(struct kd_jobs *all)
     pthread_mutex_lock(&all->lock);
     for (struct kd_job *job = all->first; job; job = job->link)
         kd_job_wake(job, now);
-    kd_jobs_pump(all); /* one may have waited long enough */
+    kd_jobs_pump(all); /* a delay may have ended */
     struct kd_job *old = take_old(all);
     pthread_mutex_unlock(&all->lock);
     if (old)
@@ -118,7 +119,7 @@ void kd_jobs_sweep(struct kd_jobs *all)
     kd_jobs_bury(all, FILES_A_SWEEP);
 }
 
-/* The server ends because it was told to: that says nothing against the job that is being rendered. */
+/* At a shutdown by request, the attempts counted for jobs under way are taken back: they have crashed nothing. */
 static void take_back_strikes(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)

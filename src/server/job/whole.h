@@ -1,13 +1,13 @@
-/* Answers with all files of a finished job in one (render/output/gather.h), piece by piece. Before the first byte,
- * workers read through the files of a cube, or wait until ffmpeg has encoded a film. HTTP thread. */
+/* Answers with all files of a finished job in one archive (render/output/gather.h), piece by piece. Before the first
+ * byte, workers read the files of a cube, or wait until ffmpeg has encoded a film. HTTP thread. */
 #ifndef KD_SERVER_JOB_WHOLE_H
 #define KD_SERVER_JOB_WHOLE_H
 
 #include "server/http/request.h"
 #include "server/job/jobs.h"
 
-/* rate: frames a second, of a film. Takes the reference over. The handler is called again where request->task is
- * there then, and answers with its `answer`. */
+/* Sends the archive. rate: frame rate of a film in 1/s. Takes over the reference. The handler is called again with
+ * request->task set, and then calls that task's `answer`. */
 enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                   const struct kd_gather_format *format, unsigned rate);
 

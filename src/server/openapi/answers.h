@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* The schema, as JSON, of what a route answers a method (KD_GET, …) as application/json; NULL: it is in no table. */
+/* Schema, as JSON text, of a route's application/json answer to a method such as KD_GET; NULL: not in the table. */
 const char *kd_openapi_answer(const char *path, unsigned method);
 
 #endif

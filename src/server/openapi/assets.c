@@ -13,8 +13,8 @@ static const char *type(size_t i)
     return i < sizeof types / sizeof *types ? types[i] : NULL;
 }
 
-/* Pictures have what is of pictures, grids of matter nodes and spin, observations the last two; who has put it there
- * first is told its token. */
+/* Pictures have size and depth, grids of matter nodes and spin, observations visibilities and stations. The token is
+ * sent to the client that uploads it first. */
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {

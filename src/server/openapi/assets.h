@@ -1,13 +1,13 @@
-/* This is what openapi.json says of /v1/assets. */
+/* /v1/assets in openapi.json. */
 #ifndef KD_SERVER_OPENAPI_ASSETS_H
 #define KD_SERVER_OPENAPI_ASSETS_H
 
 #include "base/json.h"
 
-/* Asset, a member of components.schemas. */
+/* Writes Asset, a member of components.schemas. */
 void kd_openapi_asset_schema(struct kd_json *json);
 void kd_openapi_asset_body(struct kd_json *json);
-/* Members of a "content"; method: KD_GET or KD_PUT. */
+/* Writes the members of "content". method: KD_GET or KD_PUT. */
 void kd_openapi_asset_answer(struct kd_json *json, unsigned method);
 
 #endif

@@ -4,12 +4,12 @@
 
 #include <string.h>
 
-/* What is written of a field, by its path. */
+/* Writes something for a field, given its path. */
 typedef void writer(struct kd_json *json, const char *path, const cJSON *property);
 
 static void each(struct kd_json *json, const cJSON *schema, const char *prefix, writer *write);
 
-/* The elements of a list by their index. */
+/* Visits the elements of a list by index. */
 static void each_element(struct kd_json *json, const cJSON *list, const char *prefix, writer *write)
 {
     const cJSON *most = cJSON_GetObjectItemCaseSensitive(list, "maxItems");
@@ -56,7 +56,7 @@ static void add_parameter(struct kd_json *json, const char *path, const cJSON *p
     kd_json_object(json, NULL);
     kd_json_string(json, "name", path);
     kd_json_string(json, "in", "query");
-    if (type && !strcmp(type, "array")) { /* one text, with commas between */
+    if (type && !strcmp(type, "array")) { /* one text with commas between */
         kd_json_string(json, "style", "form");
         kd_json_bool(json, "explode", false);
     }

@@ -11,7 +11,7 @@
 #define COUNT KD_SCHEMA_COUNT
 #define TEXT KD_SCHEMA_TEXT
 
-/* required: every answer has it where it is named. */
+/* required: present in every answer for which it is listed. */
 static const struct {
     const char *name, *schema, *help;
     bool required;
@@ -78,7 +78,7 @@ static const struct {
 #define SAME "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock"
 #define PICTURE SAME " Content-Disposition"
 
-/* Names with blanks between them; methods 0: any. */
+/* Names of headers, separated by blanks; methods 0: any. */
 static const struct {
     const char *path;
     unsigned methods, status;
@@ -138,7 +138,7 @@ static bool may_say_little(const struct kd_route *route, unsigned method)
     return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}");
 }
 
-/* Headers of requests that say more than what HTTP itself says of them. */
+/* Request headers whose use here goes beyond their general meaning in HTTP. */
 static const struct {
     const char *name, *help;
     bool (*of)(const struct kd_route *route, unsigned method);

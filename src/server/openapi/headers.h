@@ -1,19 +1,18 @@
-/* Headers of answers in openapi.json, except those that HTTP, caches and browsers know anyway. */
+/* Headers of answers in openapi.json, except those with a general meaning in HTTP, caches and browsers. */
 #ifndef KD_SERVER_OPENAPI_HEADERS_H
 #define KD_SERVER_OPENAPI_HEADERS_H
 
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* The member "headers" of an answer that is no problem, where it has any. */
+/* Writes the member "headers" of a success answer, if it has any. */
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status);
-/* The same of a problem. */
+/* Writes the same for a problem. */
 void kd_openapi_problem_headers(struct kd_json *json, unsigned status);
-/* The member "headers" of the components, which both refer to. */
+/* Writes the member "headers" of the components, to which both refer. */
 void kd_openapi_header_components(struct kd_json *json);
 
-/* Parameters of the operation that stand in the header of a request: into its list of parameters, which is there if
- * there are any. */
+/* asked_headers: writes an operation's request headers into its list of parameters. is_asked: whether it has any. */
 bool kd_openapi_is_asked_by_header(const struct kd_route *route, unsigned method);
 void kd_openapi_asked_headers(struct kd_json *json, const struct kd_route *route, unsigned method);
 

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* By integral; the spectrum of a disk and that of a volume are one request. */
+/* Request schema of each integral; spectra of disks and of volumes share a request. */
 static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest",
                                                     NULL,          "VisibilityRequest",       "CompareRequest" };
 

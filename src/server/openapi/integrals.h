@@ -1,10 +1,10 @@
-/* This is what openapi.json says of POST /v1/line and its like. */
+/* POST /v1/line and other integrals in openapi.json. */
 #ifndef KD_SERVER_OPENAPI_INTEGRALS_H
 #define KD_SERVER_OPENAPI_INTEGRALS_H
 
 #include "base/json.h"
 
-/* The requestBody of the operation at a path, and the components of all. */
+/* Write the requestBody of the operation at a path, and the components of all. */
 void kd_openapi_integral_body(struct kd_json *json, const char *path);
 void kd_openapi_integral_schemas(struct kd_json *json);
 

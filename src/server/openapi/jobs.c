@@ -14,24 +14,24 @@
 
 #define FRAME "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}"
 
-/* What a job makes of its frames: a list of names. */
+/* The member "output": what a job makes of its frames, a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
-/* What is of pictures does not go with an output of numbers: a list of names. */
+/* Excludes exposure and motion blur from outputs that are not pictures, a list of names. */
 #define PICTURES_ALONE \
     "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"]," \
     "\"properties\":{\"output\":{\"enum\":[%s]}}},"
-/* What leads from keyframe to keyframe takes some. */
+/* Members that require keyframes. */
 #define TAKES_KEYFRAMES \
     "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{" \
     "\"required\":[\"interpolation\"]}," \
     "{\"required\":[\"distances\"]},{\"required\":[\"angles\"]},{\"required\":[\"ease\"]},{\"required\":[\"look_at\"]" \
     "},{\"required\":[\"motion_blur\"]}]}},"
 
-/* Whether pictures whose exposure is "auto" have the same one. */
+/* Whether pictures whose exposure is "auto" share one exposure. */
 #define EXPOSURE(words) "\"exposure\":{\"enum\":[" words "]}"
 #define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
 
-/* Fields with their values; a field has its own schema in Scene. */
+/* Axes: fields with their values; Scene has each field's own schema. */
 static const char axes[] =
     "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":{\"allOf\":[" KD_SCHEMA_REF(
         "FieldPath") "],\"not\":{\"const\":\"version\"}},\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\","
@@ -41,8 +41,8 @@ static const char axes[] =
                      "\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL
                      "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
-/* Ways to ask for a job: each is a format that takes the outputs of numbers and those that there are. A scene with
- * axes. */
+/* Variants of a request for a job; each is a format string for the outputs that are not pictures and for all outputs.
+ * First: a scene with axes. */
 static const char sweep[] =
     OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE
                           ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";
@@ -83,7 +83,7 @@ static bool any(const struct kd_series *one) { return (void)one, true; }
 static bool of_any_job(const struct kd_series *one) { return !one->swept; }
 static bool of_numbers(const struct kd_series *one) { return !(one->frame->carries & KD_CARRIES_PICTURE); }
 
-/* Those of a kind: "pictures","light-curve". */
+/* Names of the series of a kind, such as "pictures","light-curve". */
 struct names { char text[200]; };
 static struct names names_of(is_series *is)
 {

@@ -18,7 +18,7 @@
 enum { TAG = 64 + 2 + 1 };
 
 struct document {
-    struct kd_served served; /* points into what follows */
+    struct kd_served served; /* points into the members below */
     char path[80], etags[2][TAG];
     struct kd_buffer plain, gzip;
 };
@@ -49,7 +49,7 @@ static const struct {
     const char *path, *type;
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
-    { "/openapi.json", "application/json", NULL /* kd_openapi_json, which takes more */ },
+    { "/openapi.json", "application/json", NULL /* kd_openapi_json, which has other parameters */ },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", "application/json", presets_json },
     { "/v1/physics", "application/json", kd_quantity_list_json },

@@ -5,7 +5,7 @@
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* The member "links" of an answer, where it has made something (201, 202). */
+/* Writes the member "links" of an answer that has created an object (201, 202). */
 void kd_openapi_links(struct kd_json *json, const struct kd_route *route, unsigned status);
 
 #endif

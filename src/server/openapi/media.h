@@ -1,4 +1,4 @@
-/* These are media types with the schemas of what they carry, for openapi.json. */
+/* Media types and their schemas in openapi.json. */
 #ifndef KD_SERVER_OPENAPI_MEDIA_H
 #define KD_SERVER_OPENAPI_MEDIA_H
 
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Gives the schema of a body that is known by its media type alone. */
+/* Default schema of a media type. */
 static inline const char *kd_openapi_schema_of(const char *type)
 {
     if (strstr(type, "json") && !strstr(type, "ndjson"))
@@ -16,7 +16,7 @@ static inline const char *kd_openapi_schema_of(const char *type)
     return text ? "{\"type\":\"string\"}" : "{\"type\":\"string\",\"format\":\"binary\"}";
 }
 
-/* Writes a member of a "content". schema is JSON text; with size 0 the media type alone says what it is. */
+/* Writes a member of "content". schema: JSON text; with size 0 the media type's default is used. */
 static inline void kd_openapi_media(struct kd_json *json, const char *type, const char *schema, size_t size)
 {
     const char *plain = kd_openapi_schema_of(type);
@@ -25,7 +25,8 @@ static inline void kd_openapi_media(struct kd_json *json, const char *type, cons
     kd_json_end(json);
 }
 
-/* "get_sessions_id_frame_png" of GET /v1/sessions/{id}/frame.png: an identifier in any language. */
+/* Writes an operationId that is an identifier in most languages, such as "get_sessions_id_frame_png" for GET
+ * /v1/sessions/{id}/frame.png. */
 static inline void kd_openapi_operation_id(char *out, size_t size, const char *method, const char *path)
 {
     size_t n = strlen(strncpy(out, method, size - 1));
@@ -36,7 +37,7 @@ static inline void kd_openapi_operation_id(char *out, size_t size, const char *m
     out[n] = 0;
 }
 
-/* A requestBody that must be there; between the two, its media types. */
+/* Write a required requestBody, with media types written in between. */
 static inline void kd_openapi_body_begin(struct kd_json *json)
 {
     kd_json_object(json, "requestBody");
@@ -49,7 +50,7 @@ static inline void kd_openapi_body_end(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* One as JSON of this schema; other: a second media type, NULL for none. */
+/* Writes a requestBody with a JSON schema; other: a second media type, or NULL. */
 static inline void kd_openapi_body(struct kd_json *json, const char *schema, size_t size, const char *other)
 {
     kd_openapi_body_begin(json);

@@ -1,4 +1,4 @@
-/* The service describes itself here: OpenAPI 3.1 from the route table, the scene's schema and the problem table. */
+/* Writes the OpenAPI 3.1 document from the route table, the scene's schema and the problem table. */
 #include "server/openapi/openapi.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
@@ -29,7 +29,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What the document is of. */
+/* Parameters of the document. */
 struct subject {
     const char *base_path;
     const cJSON *schema; /* of a scene */
@@ -43,7 +43,7 @@ static void add_reference(struct kd_json *json, const char *name, const char *to
     kd_json_end(json);
 }
 
-/* {"TYPE": {"schema": {"$ref": TO}}} */
+/* Writes {"TYPE": {"schema": {"$ref": TO}}}. */
 static void add_content(struct kd_json *json, const char *type, const char *to)
 {
     kd_json_object(json, type);
@@ -76,7 +76,7 @@ static void add_preset_parameter(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* Files below the folder that the route names. */
+/* Writes the schema of a file's name below the folder in the route. */
 static void add_file_schema(struct kd_json *json, const char *path)
 {
     size_t skip = strlen("/web/"), n = strcspn(path, "{") - skip;
@@ -112,7 +112,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     kd_json_end(json);
 }
 
-#define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* what kd_target_number reads */
+#define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* of kd_target_number */
 #define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
 #define PACE_MS \
     "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
@@ -130,10 +130,10 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 #define ROOM(least, most) \
     "{\"type\":\"integer\",\"minimum\":" KD_SCHEMA_DIGITS(least) ",\"maximum\":" KD_SCHEMA_DIGITS(most) "}"
 
-/* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
+/* Query parameters besides the fields of a scene; schema NULL: the formats of jobs. */
 static const struct {
     const char *path, *name, *schema, *help;
-    unsigned methods; /* that take it; 0: all of the route's */
+    unsigned methods; /* methods that accept it; 0: all of the route's */
     bool required;
 } queries[] = {
     { "/v1/sessions", LEAST },

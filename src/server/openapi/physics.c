@@ -36,7 +36,7 @@ static void add_number(struct kd_json *json, const struct kd_parameter *p)
     kd_json_end(json);
 }
 
-/* A number, a range of them as text, or a word. */
+/* Writes the schema of a parameter: a number, a range as text, or a word. */
 static void add_schema(struct kd_json *json, const struct kd_parameter *p)
 {
     kd_json_object(json, "schema");
@@ -44,8 +44,9 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
         add_words(json, p->words);
     } else {
         kd_json_array(json, "anyOf");
-        if (p->word) /* first: generators of clients take the first type that a default fits, and "infinity" reads as a
-                        number */
+        /* first, because generators of clients take the first type that fits the default, and "infinity" parses as a
+         * number */
+        if (p->word)
             kd_schema_word(json, NULL, p->word);
         add_number(json, p);
         kd_json_object(json, NULL);
@@ -95,7 +96,7 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
     kd_json_end(json);
 }
 
-/* What a parameter was: a word, or a number, and along a range a list of them. */
+/* Writes the parameters in an answer: a word, or a number, or for a range a list of numbers. */
 static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS];
@@ -131,7 +132,7 @@ static void add_values(struct kd_json *json, const struct kd_quantity *quantity)
     kd_schema_end_strict(json, names, quantity->n_outputs);
 }
 
-/* Of all that has one: numbers, that is. A parameter and an output may have the same name. */
+/* Writes the units of all numbers. A parameter and an output may have the same name. */
 static void add_units(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS + KD_QUANTITY_OUTPUTS];
@@ -159,7 +160,7 @@ static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
     kd_json_string(json, "const", quantity->name);
     kd_json_end(json);
     add_asked(json, quantity);
-    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT)); /* of several: how they are nested */
+    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT)); /* order in which several ranges are nested */
     kd_schema_text(json, "shape", KD_SCHEMA_LIST(KD_SCHEMA_COUNT));
     add_values(json, quantity);
     add_units(json, quantity);

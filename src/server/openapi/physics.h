@@ -1,11 +1,11 @@
-/* Adds /v1/physics/NAME to openapi.json, a path for each quantity. Private to src/server. */
+/* /v1/physics/NAME in openapi.json, a path for each quantity. Private to src/server. */
 #ifndef KD_SERVER_OPENAPI_PHYSICS_H
 #define KD_SERVER_OPENAPI_PHYSICS_H
 
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* "/v1/physics/kerr" and so on, among the paths. */
+/* Writes "/v1/physics/kerr" and so on into the paths. */
 void kd_openapi_physics_paths(struct kd_json *json, const struct kd_route *route);
 
 #endif

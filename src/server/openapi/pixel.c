@@ -14,9 +14,9 @@
 #define LIST KD_SCHEMA_LIST
 #define REF KD_SCHEMA_REF
 #define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
-/* I, Q and U; and V of volumes. */
+/* I, Q and U; for volumes also V. */
 #define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
-/* docs/pixel.md says what each is. */
+/* docs/pixel.md describes each member. */
 #define UNITS "lengths and times in M, angles in radians; frequencies over those that the observer measures"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
 
@@ -29,7 +29,7 @@ static const char *precision(size_t i)
     return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL;
 }
 
-/* Which way the ray goes. */
+/* Writes the schemas of a ray's motion. */
 static void add_motion(struct kd_json *json)
 {
     static const struct kd_openapi_member constants[] = {
@@ -51,7 +51,7 @@ static void add_motion(struct kd_json *json)
     KD_OPENAPI_TOLD(json, "RayPolar", UNITS, polar);
 }
 
-/* What gives light there, or hides it. */
+/* Writes the schemas of crossings, where light is emitted or blocked. */
 static void add_crossings(struct kd_json *json)
 {
     static const struct kd_openapi_member glow[] = {
@@ -169,7 +169,7 @@ static void add_ends(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PixelAccuracy", accuracy);
 }
 
-/* These are the members of each ray that the pixel is the mean of. */
+/* Members of each ray of which the pixel is the mean. */
 #define RAY \
     { "ray_at", PAIR, false }, { "weight", NUMBER, false }, { "constants", REF("RayConstants"), false }, \
         { "radial", REF("RayRadial"), false }, { "polar", REF("RayPolar"), false }, \

@@ -1,4 +1,4 @@
-/* This is what openapi.json says of a pixel that is explained, and of the stars of a picture. */
+/* Answers about a pixel and about the stars of a picture in openapi.json. */
 #ifndef KD_SERVER_OPENAPI_PIXEL_H
 #define KD_SERVER_OPENAPI_PIXEL_H
 

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* docs/playground.md says what each is. */
+/* docs/playground.md describes each member. */
 #define UNITS \
     "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
@@ -65,7 +65,7 @@ static void add_raw(struct kd_json *json, const char *name, const char *schema)
     kd_json_raw(json, name, schema, strlen(schema));
 }
 
-/* A body; id: one that is there already, which says which. */
+/* Writes the schema of a body; id: of an existing one, identified by its id. */
 static void add_body(struct kd_json *json, const char *name, bool id)
 {
     kd_json_object(json, name);
@@ -140,7 +140,7 @@ static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER,
                                      [KD_SETTING_TRUTH] = KD_SCHEMA_TRUTH,
                                      [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
 
-/* Members by the rows of a table, after those that are there. */
+/* Appends members for the rows of a table. */
 static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_playground_setting *rows,
                           size_t n_rows)
 {
@@ -149,7 +149,7 @@ static size_t add_members(struct kd_openapi_member *to, size_t n, const struct k
     return n;
 }
 
-/* A body as it stands: what has merged or flown away may have more than a document may give it. */
+/* Writes the schema of a body's state. After mergers and escapes values may exceed the limits of a request. */
 static void add_body_state(struct kd_json *json)
 {
     struct kd_openapi_member members[16] = { { "id", "{\"type\":\"integer\",\"minimum\":1}", false },
@@ -274,7 +274,7 @@ static void add_series(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PlaygroundSeries", series);
 }
 
-/* Data of the stream of events, to which its media type gives no place for a schema. */
+/* Writes the schema of data in the event stream, to which OpenAPI cannot attach a schema. */
 static void add_happened(struct kd_json *json)
 {
     static const struct kd_openapi_member happened[] = {

@@ -12,7 +12,7 @@ static bool always(const struct kd_route *route, unsigned method) { return (void
 static bool never(const struct kd_route *route, unsigned method)
 {
     return (void)route, (void)method, false;
-} /* 405 is of no operation: it says that there is none */
+} /* 405 belongs to no operation: it means that there is none */
 static bool closed(const struct kd_route *route, unsigned method) { return (void)method, !route->open; }
 static bool has_body(const struct kd_route *route, unsigned method)
 {
@@ -27,7 +27,7 @@ static bool is_one_of(const struct kd_route *route, const char *const *paths)
     return false;
 }
 
-/* The role, the site that asks, and the token of what is changed. */
+/* 403: wrong role, foreign site, or wrong token of the object. */
 static bool forbids(const struct kd_route *route, unsigned method)
 {
     return !strncmp(route->path, "/v1/", 4) || (!route->open && !kd_role_may(KD_ROLE_VIEW, route, method));
@@ -40,7 +40,7 @@ static bool is_found_by_name(const struct kd_route *route, unsigned method)
            !strcmp(route->path, "/oembed");
 }
 
-/* Answers that a client chooses by Accept. */
+/* Whether the client chooses the format of an answer by Accept. */
 static bool negotiates(const struct kd_route *route, unsigned method)
 {
     static const char *const by_hand[] = { "/v1/playground/{id}/series", "/v1/playground/{id}/fallback", NULL };
@@ -71,7 +71,7 @@ static bool checks_what_it_is_given(const struct kd_route *route, unsigned metho
         NULL,
     };
     if (method == KD_DELETE)
-        return !strcmp(route->path, "/v1/sessions/{id}"); /* its query holds a token and nothing else */
+        return !strcmp(route->path, "/v1/sessions/{id}"); /* its query may only hold a token */
     return has_body(route, method) || route->takes != KD_TAKES_NOTHING || is_one_of(route, strict);
 }
 
@@ -126,7 +126,7 @@ void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, uns
     }
 }
 
-/* The titles of the problems that have this status. */
+/* Writes the titles of the problems with this status. */
 static void describe(struct kd_json *json, unsigned status)
 {
     char text[500] = "";

@@ -1,4 +1,4 @@
-/* This is what openapi.json says of what the service tells of itself: device, presets, quantities, plans, accuracy. */
+/* Answers about the service itself in openapi.json: device, presets, quantities, plans, accuracy. */
 #ifndef KD_SERVER_OPENAPI_REPORTS_H
 #define KD_SERVER_OPENAPI_REPORTS_H
 

@@ -27,10 +27,10 @@ static void begin_response(struct kd_json *json, const struct kd_route *route, u
     kd_openapi_links(json, route, status);
 }
 
-/* Writes those of routes whose media types stand in a table; each once. */
+/* Writes the media types that are listed in a table, each once. */
 static void add_formats(struct kd_json *json, enum kd_gives gives)
 {
-    static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the one format that is JSON */
+    static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the only format that is JSON */
     struct kd_job_format format;
     for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++) {
         const char *known = strstr(kd_formats[i]->media_type, "json") ? stars : "";
@@ -40,7 +40,7 @@ static void add_formats(struct kd_json *json, enum kd_gives gives)
         kd_openapi_media(json, format.media_type, "", 0);
 }
 
-/* A media type of an answer, with the schema that the table of answers has where it is JSON. */
+/* Writes a media type of an answer; for JSON with the schema in the table of answers. */
 static void add_known(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type)
 {
     const char *known = strcmp(type, "application/json") ? NULL : kd_openapi_answer(route->path, method);
@@ -74,7 +74,7 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
     kd_json_end(json);
 }
 
-/* Of the page alone, which takes an access token from its address and leads to the page without it. */
+/* Writes the redirect of the page from an address with an access token to the one without it. */
 static void add_led_on(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     if (strcmp(route->path, "/"))

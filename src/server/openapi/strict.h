@@ -1,10 +1,10 @@
-/* Schemas of the server's own answers, by the names that its tables have: base/schema.h. */
+/* Names of base/schema.h for the schemas of the server's answers. */
 #ifndef KD_SERVER_OPENAPI_STRICT_H
 #define KD_SERVER_OPENAPI_STRICT_H
 
 #include "base/schema.h"
 
-/* A number as it is typed (scene/number.h), in patterns. */
+/* Pattern of a decimal number (scene/number.h). */
 #define KD_OPENAPI_DECIMAL "-?((0|[1-9][0-9]*)([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
 
 #define kd_openapi_member kd_schema_member

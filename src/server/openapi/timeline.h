@@ -1,4 +1,4 @@
-/* What openapi.json says of keyframes (scene/timeline.h): members of a request's object, as text. */
+/* Keyframes (scene/timeline.h) in openapi.json: members of a request's object, as text. */
 #ifndef KD_SERVER_OPENAPI_TIMELINE_H
 #define KD_SERVER_OPENAPI_TIMELINE_H
 
@@ -20,7 +20,7 @@
         "\"theta_deg\":" KD_OPENAPI_NUMBER_("0", "180") "," \
         "\"phi_deg\":" KD_OPENAPI_NUMBER_("-360", "360") "}}]}"
 
-/* place: what a keyframe's place is called, a string constant; schema: of it. */
+/* place: member that holds a keyframe's position, a string constant; schema: its schema. */
 #define KD_OPENAPI_TIMELINE(place, schema) \
     "\"keyframes\":{\"type\":\"array\",\"minItems\":1," \
         "\"maxItems\":" KD_OPENAPI_TEXT_(KD_TIMELINE_KEYS_MAX) "," \

@@ -1,5 +1,4 @@
-/* Sends the bodies and the debris of a playground session, packed: at once, or as soon as they are newer than those
- * that the client has. */
+/* Sends bodies and debris of a playground session in packed form: at once, or when they are newer than the client's. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"
@@ -13,9 +12,9 @@
 
 #define PACKED_TYPE "application/octet-stream"
 
-/* The wait for a tick: it belongs to its request. */
+/* Wait for a tick; owned by its request. */
 struct wait {
-    struct kd_play_watcher watcher; /* first */
+    struct kd_play_watcher watcher; /* first member */
     bool npy;
 };
 
@@ -67,7 +66,7 @@ static enum kd_status pack_bodies(const struct kd_play_tick *tick, bool npy, str
     return status ? status : kd_buffer_append(out, tick->bodies.data, tick->bodies.size);
 }
 
-/* A tick may have more pieces than this client asked for: those that are too many are left out evenly. */
+/* Packs the debris. If the tick has more pieces than this client has requested, it sends evenly spaced ones. */
 static enum kd_status pack_debris(const struct kd_play_tick *tick, uint32_t most, bool npy, struct kd_buffer *out)
 {
     static const char *const names[KD_PLAY_DEBRIS_WORDS] = { "x", "y", "z", "stage_and_source" };

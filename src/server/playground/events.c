@@ -1,4 +1,4 @@
-/* Streams what a play does: a tick whenever there is a newer one, and each event once, by its number. */
+/* Event stream of a playground session: each new tick, and each event once, by its number. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/http/reply.h"
@@ -12,12 +12,12 @@
 
 #define TYPE "text/event-stream"
 #define HEARTBEAT_MS 15000.
-#define UNSENT_BYTES (64 << 10) /* in the kernel: more would be ticks grown old */
+#define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay ticks */
 
 struct stream {
-    struct kd_play_watcher watcher; /* first */
-    struct kd_buffer text;          /* on its way, */
-    size_t at;                      /* as far as this */
+    struct kd_play_watcher watcher; /* first member */
+    struct kd_buffer text;          /* being sent ... */
+    size_t at;                      /* ... up to this position */
     bool over;
 };
 
@@ -38,7 +38,7 @@ static enum kd_status add_tick(struct stream *s, struct kd_play_tick *tick)
     return status;
 }
 
-/* before: the number of the last one that was sent. */
+/* Appends an event, and before it a note of lost ones. before: number of the last event sent. */
 static enum kd_status add_event(struct stream *s, uint64_t before, const struct kd_playground_event *event)
 {
     const uint64_t now = s->watcher.event, lost = event->number ? now - 1 : now;
@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* What comes next, into s->text. False: nothing yet, or *end says that the stream is over. */
+/* Writes the next part of the stream into s->text. Returns false if there is none yet, or with *end at the end. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
     struct kd_play_tick *tick = NULL;
@@ -73,7 +73,7 @@ static bool fetch(struct stream *s, ssize_t *end)
         s->over = true;
         status = kd_buffer_printf(&s->text, "event: end\ndata: {\"why\":\"%s\"}\n\n", why);
         break;
-    case KD_PLAY_LATE: /* a sign of life, which also finds out who has left without a word */
+    case KD_PLAY_LATE: /* a heartbeat, which also detects clients that have vanished */
         s->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         status = kd_buffer_printf(&s->text, ":\n\n");
         break;
@@ -105,7 +105,7 @@ static void release(void *cls)
     free(s);
 }
 
-/* The number of the event behind which it goes on. False: it is no number. */
+/* Reads the number of the last event that the client has. Returns false if it is malformed. */
 static bool begins_at(struct kd_request *request, uint64_t *number)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -149,9 +149,8 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     }
     setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
     MHD_add_response_header(response, "Content-Type", TYPE);
-    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     const enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK,
-                         0); /* it may take as long as it likes */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0); /* no deadline */
     return result;
 }

@@ -1,18 +1,18 @@
-/* A play is shown by a session (server/session), which is opened when somebody asks for the first frame, and given a
- * crowd of what there is to see whenever that has changed and somebody looks (run.c). Locks are taken in the order
- * all->lock, the sessions' lock. */
+/* Pictures of playground sessions. A session (server/session) renders it; the first request for a frame opens that.
+ * When the bodies have changed and a viewer waits, it gets a new crowd (run.c). Lock order: all->lock, then the
+ * sessions' lock. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
 #include "server/render/queue.h"
 
-/* Memory of what a picture shows: up to three crowds at once, on the way, shown and being made. */
+/* Memory of a picture: up to three crowds at once, waiting, shown and being made. */
 #define CROWD_BYTES \
     (3 * \
      ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
-#define ASKED_MS 1000. /* for which who asked for a frame may be on the way back for another */
+#define ASKED_MS 1000. /* after a request for a frame, the next one is expected within this time */
 
-/* These run with the lock. */
+/* Functions from here on are called with the lock. */
 
 bool kd_play_looked_at(const struct kd_play *play) { return play->picture && kd_session_watched(play->picture); }
 
@@ -45,7 +45,7 @@ static enum kd_status take_bytes(struct kd_play *play, bool *quota, struct kd_er
     return KD_OK;
 }
 
-/* These take the lock themselves. */
+/* Functions from here on take the lock. */
 
 void kd_play_scene(struct kd_play *play, struct kd_scene *out)
 {
@@ -62,7 +62,7 @@ static enum kd_status make_plan(struct kd_plays *all, const struct kd_scene *sce
     return kd_plan_make(scene, &capacity, out, error);
 }
 
-/* Likewise, and a session shows it. */
+/* The same, checked against the limits of sessions. */
 static enum kd_status make_shown(struct kd_plays *all, const struct kd_scene *scene, struct kd_plan *out,
                                  struct kd_error *error)
 {
@@ -110,7 +110,7 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
     *quota = false;
     pthread_mutex_lock(&play->all->lock);
     const bool there = play->picture && !kd_session_over(play->picture);
-    pthread_mutex_unlock(&play->all->lock); /* only the HTTP thread opens one */
+    pthread_mutex_unlock(&play->all->lock); /* only the HTTP thread opens a picture */
     if (!there)
         status = open_picture(play, quota, &fresh, error);
     if (status)
@@ -119,7 +119,7 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
     if (fresh && !play->crowd_bytes)
         status = take_bytes(play, quota, error);
     if (fresh && !status) {
-        const size_t held = play->crowd_bytes; /* the new one's from now on */
+        const size_t held = play->crowd_bytes; /* now reserved for the new one */
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
         play->crowd_bytes = 0;

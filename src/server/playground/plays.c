@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNTS_MS 20.   /* that who only wants to know may wait for the lock */
-#define SLOWED_MS 1000. /* for which it is told */
-/* Memory of a play with so many pieces: twice the pieces, which a change copies, and the rest of it twice. */
+#define COUNTS_MS 20.   /* how long a reader of counts waits for the lock */
+#define SLOWED_MS 1000. /* how long skipped time is reported */
+/* Memory of a session by its debris capacity: the debris twice, because changes work on a copy, and twice the rest. */
 #define BASE_BYTES ((size_t)6 << 20)
 #define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
 
@@ -44,7 +44,7 @@ void kd_plays_destroy(struct kd_plays *all)
     free(all);
 }
 
-/* From here on functions run with the lock. */
+/* Functions from here on are called with the lock. */
 
 struct kd_play *kd_play_let_go(struct kd_play *play)
 {
@@ -69,7 +69,7 @@ void kd_play_unlist(struct kd_play *play, const char *why)
     while (*link != play)
         link = &(*link)->next;
     *link = play->next;
-    kd_turns_wake(play->all->turns, &play->turns); /* for its last turn */
+    kd_turns_wake(play->all->turns, &play->turns); /* so that it runs its last turn */
     play->listed = false;
     play->why = why;
     kd_play_hide(play);
@@ -90,7 +90,7 @@ static unsigned watchers_of(const struct kd_play *play)
     return n + kd_play_viewers(play);
 }
 
-/* From here on functions take the lock themselves. */
+/* Functions from here on take the lock. */
 
 void kd_play_destroy(struct kd_play *play)
 {
@@ -101,7 +101,7 @@ void kd_play_destroy(struct kd_play *play)
     free(play);
 }
 
-/* The job's reference. */
+/* Drops the job's reference. */
 static void done(struct kd_turns_job *job) { kd_play_release((struct kd_play *)job); }
 
 static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pace, const char *client)
@@ -114,7 +114,7 @@ static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pac
     play->turns = (struct kd_turns_job) { .turn = kd_play_turn, .done = done };
     snprintf(play->turns.client, sizeof play->turns.client, "%s", client);
     play->all = all;
-    play->references = 2; /* the job's and the caller's */
+    play->references = 2; /* for the job and the caller */
     play->pace = *pace;
     play->used_ms = kd_clock_ms();
     play->generation = 1;
@@ -123,7 +123,7 @@ static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pac
     return play;
 }
 
-/* Locked. */
+/* Called with the lock. */
 static enum kd_status admit(struct kd_plays *all, const char *client, size_t bytes, bool *quota, struct kd_error *error)
 {
     unsigned own = 0;

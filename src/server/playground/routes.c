@@ -1,5 +1,5 @@
-/* These routes open, tell, change, step and end a play, and give its files. All that needs the playground itself is
- * a task of the workers. */
+/* Handlers of playground sessions: open, read, change, step, end, and downloads. Work on the playground itself is a
+ * task of the workers. */
 #include "server/playground/routes.h"
 
 #include "base/clock.h"
@@ -22,13 +22,13 @@
 enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 
 struct play_task {
-    struct kd_task task; /* first */
+    struct kd_task task; /* first member */
     enum what what;
-    const char *type;     /* of the answer */
-    struct kd_play *play; /* a reference; of OPEN what has been opened */
+    const char *type;     /* media type of the answer */
+    struct kd_play *play; /* a reference; for OPEN the opened session */
     struct kd_play_waiter waiter;
     struct kd_buffer out;
-    bool conflict, steps, begun, told; /* steps: the play is stepped by this; told: who has opened it knows */
+    bool conflict, steps, begun, told; /* steps: this task steps the session; told: the client has received the token */
     double by;
     struct kd_playground_run run;
 };
@@ -60,7 +60,7 @@ static void finish(struct kd_task *task)
     kd_buffer_finish(&t->out);
 }
 
-/* These run on a worker. */
+/* Functions from here on run on a worker. */
 
 static const char *body_of(const struct kd_task *task)
 {
@@ -110,13 +110,13 @@ done:
     return status;
 }
 
-/* Counts the debris that the patch makes room for. */
+/* Reserves the memory of a patch's debris capacity. */
 static enum kd_status make_room(struct play_task *t, const struct kd_playground *p, const cJSON *tree,
                                 struct kd_error *error)
 {
     const cJSON *capacity = cJSON_GetObjectItemCaseSensitive(tree, "debris_capacity");
     if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
-        return KD_OK; /* the reader of settings refuses it */
+        return KD_OK; /* refused when the settings are parsed */
     return capacity->valuedouble > p->params.debris_capacity
                ? kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error)
                : KD_OK;
@@ -140,7 +140,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_play_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
     kd_play_scene(t->play, &old);
-    if (look) { /* first: it can fail, and can be put back */
+    if (look) { /* first, because it can fail, and can be reverted */
         KD_TRY(kd_play_set_scene(t->play, &scene, error));
         kd_play_moved(t->play);
     }
@@ -150,7 +150,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
         if (status && look)
             kd_play_set_scene(t->play, &old, &(struct kd_error) { 0 });
         kd_play_room(t->play, (*p)->params.debris_capacity, &quota,
-                     &(struct kd_error) { 0 }); /* as it has come out: what is too much is given back */
+                     &(struct kd_error) { 0 }); /* reserve the capacity that resulted; the rest is released */
         KD_TRY(status);
         kd_play_moved(t->play);
     }
@@ -246,7 +246,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     return end;
 }
 
-/* These run on the HTTP thread. */
+/* Functions from here on run on the HTTP thread. */
 
 static enum MHD_Result refuse(struct kd_request *request, const struct play_task *t)
 {
@@ -282,7 +282,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return result;
 }
 
-/* play: a reference, which it takes over. */
+/* Takes over the reference `play`. */
 static enum MHD_Result begin(struct kd_request *request, struct kd_play *play, enum what what, const char *type)
 {
     static const struct kd_task_kind kind = { "playgrounds", sizeof(struct play_task), work, finish };
@@ -335,7 +335,7 @@ static enum MHD_Result end(struct kd_request *request, struct kd_play *play)
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
 }
 
-/* One that is changed by its owner alone. */
+/* The same for requests of the session's owner only. */
 static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
 {
     enum MHD_Result refused;
@@ -404,7 +404,7 @@ enum MHD_Result kd_handle_play_fallback(struct kd_request *request)
     return table(request, FALLBACK, types, 2);
 }
 
-/* The session that shows the play: a reference, or NULL after a refusal. */
+/* Finds the session that renders the picture. Returns a reference, or NULL with *refused. */
 static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result *refused)
 {
     struct kd_session *picture = NULL;

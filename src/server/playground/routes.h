@@ -5,10 +5,10 @@
 #include "server/http/request.h"
 #include "server/playground/plays.h"
 
-/* The play that the path names: a reference, or NULL after a refusal. */
+/* Finds the session that the path names. Returns a reference, or NULL with *refused. */
 struct kd_play *kd_play_of(struct kd_request *request, enum MHD_Result *refused);
 enum MHD_Result kd_play_ended(struct kd_request *request);
-/* Nobody waits for a tick any more. */
+/* Stops waiting for a tick. */
 void kd_play_abandon(struct kd_request *request);
 
 #endif

@@ -1,8 +1,8 @@
-/* A play goes on in turns.
+/* Runs a playground session in slices.
  *
- * Its goal goes on with the clock, at the rate that is asked, and the bodies follow in sub-steps until they are past
- * it. They may be behind by LAG_S of the rate, which a crowded machine makes up for later; what is more is let go. A
- * beat, a thirtieth of a second, has room for as many sub-steps as the setting `budget` says. */
+ * Its goal time advances with the clock, at the requested rate, and the bodies follow in sub-steps until they have
+ * passed it. They may lag by LAG_S times the rate, which a busy machine catches up later; a larger lag is dropped. A
+ * beat, a thirtieth of a second, permits as many sub-steps as the setting `budget`. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
@@ -10,24 +10,24 @@
 #include <math.h>
 
 #define TURN_MS 10.
-#define TICK_MS 33. /* from one tick to the next */
-#define LEAST_MS 8. /* from one turn to the next */
+#define TICK_MS 33. /* interval of ticks */
+#define LEAST_MS 8. /* shortest interval of slices */
 #define MOST_MS 100.
 #define LAG_S 0.1
-#define BEATS 30.    /* a second */
-#define RATE_MS 500. /* over which the rate that is reached is measured */
-#define FEW 64       /* bodies, whose sub-step takes a microsecond or two */
-#define PIECES 16    /* of them at once, between two looks at the clock */
+#define BEATS 30.    /* beats in a second */
+#define RATE_MS 500. /* period over which the achieved rate is measured */
+#define FEW 64       /* number of bodies up to which a sub-step takes a microsecond or two */
+#define PIECES 16    /* sub-steps between two checks of the clock, with few bodies */
 
-/* What a turn is to do, as of its begin. */
+/* What a slice has to do, read at its start. */
 struct order {
     bool over, goes, anew, awaited;
     double rate;
-    uint32_t debris;          /* pieces that somebody wants */
-    struct kd_session *shown; /* a picture of it that somebody looks at, a reference; NULL: none */
+    uint32_t debris;          /* debris pieces requested */
+    struct kd_session *shown; /* its picture if it has viewers, a reference; NULL: none */
 };
 
-/* The most pieces that anybody waits for, or has asked for of late. Locked. */
+/* Largest number of debris pieces awaited, or requested lately. Called with the lock. */
 static uint32_t wanted_debris(const struct kd_play *play, double now)
 {
     uint32_t most = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0;
@@ -60,7 +60,7 @@ static struct order look(struct kd_play *play, double now)
 void kd_play_log(struct kd_play *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
-    if (p->events.last == log->last) /* only who holds the playground changes either */
+    if (p->events.last == log->last) /* only the owner of the playground changes either */
         return;
     pthread_mutex_lock(&play->all->lock);
     play->all->events += p->events.last - log->last;
@@ -84,7 +84,7 @@ static void start_clock(struct kd_play *play, double now)
     play->allowance = play->p->params.budget;
 }
 
-/* Sub-steps until the goal is reached, the allowance spent, or the turn over. */
+/* Computes sub-steps until the goal is reached, the allowance is spent, or the slice is over. */
 static void follow(struct kd_play *play, double until)
 {
     struct kd_playground *p = play->p;
@@ -103,7 +103,7 @@ static void follow(struct kd_play *play, double until)
         play->allowance = 0;
 }
 
-/* Moves the playground on. Returns true if it is behind. */
+/* Moves the playground on. Returns true if it lags. */
 static bool advance(struct kd_play *play, double rate, double now)
 {
     struct kd_playground *p = play->p;
@@ -136,8 +136,8 @@ static bool has_debris(const struct kd_play_tick *tick, uint32_t wanted)
     return !wanted || (tick->has_debris && tick->most >= wanted);
 }
 
-/* Publishes how it stands, if anybody waits for it. Returns when that is to be done instead, at the latest; 0: it is
- * done. */
+/* Publishes a tick if a client waits for one and it is due. Returns when it must be called again at the latest; 0: no
+ * need. */
 static double publish(struct kd_play *play, const struct order *order, double now)
 {
     const struct kd_play_state state = kd_play_state(play);
@@ -152,7 +152,7 @@ static double publish(struct kd_play *play, const struct order *order, double no
         return play->ticked_ms + TICK_MS;
     struct kd_play_tick *tick = kd_play_tick_make(play->p, &state, order->debris);
     if (!tick)
-        return now + MOST_MS; /* there may be memory then */
+        return now + MOST_MS; /* out of memory: try again later */
     play->ticked_ms = now;
     pthread_mutex_lock(&play->all->lock);
     kd_play_tick_release(play->tick);
@@ -162,7 +162,7 @@ static double publish(struct kd_play *play, const struct order *order, double no
     return 0;
 }
 
-/* Hands the picture what it is to show now. Returns as publish. */
+/* Gives the picture its new bodies. Returns as publish. */
 static double show(struct kd_play *play, const struct order *order, double now)
 {
     struct kd_crowd *crowd = NULL;
@@ -172,9 +172,9 @@ static double show(struct kd_play *play, const struct order *order, double now)
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
-        return now + TICK_MS; /* a crowd for each frame: more would be time that nobody sees */
+        return now + TICK_MS; /* one crowd for each frame; more would never be seen */
     if (kd_playground_show(play->p, &crowd, NULL))
-        return now + MOST_MS; /* there may be memory then */
+        return now + MOST_MS; /* out of memory: try again later */
     play->shown = generation;
     play->shown_ms = now;
     kd_session_show(order->shown, crowd);
@@ -187,7 +187,7 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
 {
     struct kd_play *play = (struct kd_play *)job;
     bool behind = false;
-    if (!kd_play_take(play, &play->waiter)) /* first: who has it meanwhile may change what is to be done */
+    if (!kd_play_take(play, &play->waiter)) /* first, because the present owner may change what is to be done */
         return KD_TURN_AWAY;
     double now = kd_clock_ms();
     const struct order order = look(play, now);

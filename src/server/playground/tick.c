@@ -1,4 +1,4 @@
-/* A tick holds what those who watch a play are sent: numbers as JSON, bodies and debris as packed words. */
+/* Makes ticks: numbers as JSON, bodies and debris as packed words. */
 #include "base/json.h"
 #include "server/playground/internal.h"
 
@@ -56,7 +56,7 @@ static enum kd_status pack_bodies(struct kd_play_tick *tick, const struct kd_pla
     return KD_OK;
 }
 
-/* Every k-th piece, so that there are at most tick->most. */
+/* Packs every k-th piece, so that there are at most tick->most. */
 static enum kd_status pack_debris(struct kd_play_tick *tick, const struct kd_playground_debris *debris)
 {
     const size_t all = debris->alive, every = all > tick->most ? (all + tick->most - 1) / tick->most : 1;
@@ -79,7 +79,7 @@ static enum kd_status pack_debris(struct kd_play_tick *tick, const struct kd_pla
     return KD_OK;
 }
 
-/* The mass that came back a M in the last bin that is over, of all sources; NAN: there is none. */
+/* Mass that falls back for each M of time, in the last complete bin, summed over all sources; NAN if there is none. */
 static double fallback_rate(const struct kd_playground_debris *debris)
 {
     double sum = NAN;

@@ -1,4 +1,4 @@
-/* Clients that watch a playground session, and what happens to sessions as time goes by. */
+/* Watchers of playground sessions, and the periodic sweep. */
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/http/connections.h"
@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-#define LOOK_MS 1000. /* how late a client that has hung up may be noticed */
+#define LOOK_MS 1000. /* interval of checks for disconnected clients */
 
-/* These run with the lock. */
+/* Functions from here on are called with the lock. */
 
 static bool has_tick(const struct kd_play_watcher *w)
 {
@@ -26,7 +26,7 @@ static enum kd_play_news news(const struct kd_play_watcher *w, double now)
     if (has_tick(w))
         return KD_PLAY_TICK;
     const bool comes =
-        !w->stream && play->generation >= w->least; /* it is being made, and at once, whatever the deadline */
+        !w->stream && play->generation >= w->least; /* its tick is being made and comes soon, whatever the deadline */
     return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
@@ -51,8 +51,7 @@ bool kd_play_awaited(const struct kd_play *play)
     return false;
 }
 
-/* The event behind the last one that was taken; those that are no longer kept are passed over, and *event says how
- * far. */
+/* Takes the next event after the last one sent. Discarded events are skipped; the number in *event shows how many. */
 static void take_event(struct kd_play_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;
@@ -61,14 +60,14 @@ static void take_event(struct kd_play_watcher *w, struct kd_playground_event *ev
     *event = found ? *found : (struct kd_playground_event) { .number = 0 };
 }
 
-/* These take the lock themselves. */
+/* Functions from here on take the lock. */
 
 void kd_play_watch(struct kd_play_watcher *w, const uint64_t *after)
 {
     struct kd_play *play = w->play;
     pthread_mutex_lock(&play->all->lock);
     w->least = after && *after <= play->generation ? *after + 1 : play->generation;
-    if (w->event > play->log.last || w->event < play->log_begin) /* a number that none has had counts as none */
+    if (w->event > play->log.last || w->event < play->log_begin) /* a number that no event has had counts as none */
         w->event = play->log_begin;
     if (w->debris) {
         const double now = kd_clock_ms();
@@ -122,7 +121,7 @@ enum kd_play_news kd_play_await(struct kd_play_watcher *w, struct kd_play_tick *
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* before anybody can wake it: that takes the lock */
+        MHD_suspend_connection(w->mhd); /* before a wake-up can happen, which needs the lock */
         kd_play_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);
@@ -143,7 +142,7 @@ void kd_plays_sweep(struct kd_plays *all)
         kd_play_wake(play, now);
         for (struct kd_play_watcher *w = look ? play->watchers : NULL; w; w = w->next)
             if (w->waiting && kd_socket_abandoned(w->socket))
-                resume(w); /* kd_play_await finds that out again */
+                resume(w); /* kd_play_await reports it */
         if (now - play->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "playground %.4s... ends: nobody watches", play->id);
             kd_play_unlist(play, "idle");

@@ -1,6 +1,6 @@
-/* Kernels are compiled here while others have the device. A job's are looked for as soon as it waits, by whoever
- * chooses who is next; a thread compiles those that are missing; and whoever chooses next hands them to the renderer.
- * So the renderer's kernels are touched only under the lock while nobody has the device, or by who has it. */
+/* Compiles kernels while others use the device. The scheduler looks for a job's missing kernels as soon as it waits; a
+ * thread compiles them; the scheduler hands them to the renderer. So the renderer's kernels are touched only by the
+ * owner of the device, or under the lock while there is none. */
 #include "base/clock.h"
 #include "base/nice.h"
 #include "server/render/internal.h"
@@ -8,12 +8,12 @@
 #include <stddef.h>
 #include <string.h>
 
-#define COMPILE_MS 2000.0 /* until one has been: some kernels on lavapipe */
-#define NICE 3 /* half the weight of what is live: a picture that is new has its part of the processor, and no more */
+#define COMPILE_MS 2000.0 /* first estimate: some kernels on lavapipe */
+#define NICE 3 /* half the weight of live frames, so that compilations get a share of the processor and no more */
 
-#define BEGINS_ANEW 8 /* times a job does for kernels that it lacks; then they are made in its turn */
+#define BEGINS_ANEW 8 /* times that a job starts again for missing kernels; then they are compiled in its turn */
 
-/* The job waits until the compilation has been run. NULL: it has what it needs. */
+/* Makes the job wait for the compilation. NULL: it has all kernels. */
 static void put_off(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_compilation *compilation)
 {
     job->compilation = compilation;
@@ -83,7 +83,7 @@ bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool aside)
     } else if (aside) {
         put_off(queue, job, compilation);
         kd_render_give_way(queue, job);
-        kd_render_forget_kernels(queue, job); /* it was woken for another reason */
+        kd_render_forget_kernels(queue, job); /* resumed for another reason */
         go_on = !queue->failed;
     } else {
         job->lacks++;
@@ -137,7 +137,7 @@ static bool is_any(const struct kd_claim *claim, void *user)
     return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
 }
 
-/* What it waited for kernels is no time in which others had the device. */
+/* Adds the wait to kernels_ms. It does not count in queue_ms, the time in which others owned the device. */
 static void end_waiting(struct kd_render_job *job)
 {
     const double now = kd_clock_ms();
@@ -146,8 +146,8 @@ static void end_waiting(struct kd_render_job *job)
     job->away_ms = now;
 }
 
-/* The picture that they were compiled for has all that it needs, and its client has had its turn. Others are looked at
- * again, for they may need the same. */
+/* The job for which they were compiled is ready. The kernels of all other waiting jobs are checked again, since they
+ * may have needed the same. */
 static void share_out(struct kd_render_queue *queue, const struct kd_compilation *done, double ms)
 {
     for (struct kd_render_job *job = queue->jobs.first; job; job = job->next) {
@@ -177,7 +177,7 @@ static bool is_wanted(void *user, double fraction)
 
 static void learn(struct kd_render_queue *queue, double ms)
 {
-    const double share = 0.3; /* of what the next one is expected to take */
+    const double share = 0.3; /* weight of the latest compilation in the running mean */
     queue->compile_ms += queue->compile_ms > 0 ? share * (ms - queue->compile_ms) : ms;
 }
 
@@ -196,7 +196,7 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
     return ms;
 }
 
-/* Locked; unlocks while it works. */
+/* Called with the lock; unlocks while it works. */
 static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     struct kd_compilation *c = queue->compiling = job->compilation;

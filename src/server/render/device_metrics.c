@@ -1,10 +1,9 @@
-/* What /metrics tells of the device: which it is, what is held of its memory, whether it is lost; and what the queue
- * in front of it has measured. */
+/* Metrics of the device (name, memory in use, whether it is lost) and of the render queue. */
 #include "render/device/rest.h"
 #include "server/render/internal.h"
 
-/* A label's value: a backslash, a quote and a line feed are escaped; what is no text is not there (vk/physical.c
- * takes names as drivers give them). */
+/* Appends a label's value with backslash, quote and line feed escaped. Control characters were removed when the
+ * driver's name was read (vk/physical.c). */
 static enum kd_status add_label(struct kd_buffer *out, const char *name, const char *value)
 {
     enum kd_status status;

@@ -1,8 +1,8 @@
-/* Frames become files here: the encoders behind the device. */
+/* Encoder threads: turn rendered frames into files. */
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-/* What one encoder at most does at a time: nobody else shall wait for it. */
+/* Whether a frame encodes slowly. Only one encoder at a time takes such frames, so that others do not wait. */
 static bool is_long(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_JOB || kd_render_frame_bytes(job) > KD_LONG_FRAME;
@@ -54,7 +54,7 @@ void *kd_render_encode_main(void *user)
         pthread_mutex_lock(&queue->lock);
         queue->frame_bytes -= bytes;
         queue->encoding_long &= !takes_long;
-        kd_render_next(queue); /* what waited for the bytes */
+        kd_render_next(queue); /* jobs that waited for memory of frames */
         pthread_mutex_unlock(&queue->lock);
         kd_render_finish(queue, job);
         pthread_mutex_lock(&queue->lock);

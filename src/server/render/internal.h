@@ -9,15 +9,15 @@
 
 #include <pthread.h>
 
-#define KD_LONG_FRAME ((size_t)16 << 20) /* bytes: takes an encoder some tenths of a second */
+#define KD_LONG_FRAME ((size_t)16 << 20) /* frames larger than this take an encoder some tenths of a second */
 
 struct kd_render_list { struct kd_render_job *first, **end; };
 
-/* A thread that renders one long picture at a time. */
+/* Lane: a thread that renders long pictures, one at a time. */
 struct kd_lane {
     struct kd_render_queue *queue;
-    struct kd_render_job *job; /* NULL: it is free */
-    uint64_t bytes; /* of the device's memory that count as the job's, by its plan; 0: they are not worth counting */
+    struct kd_render_job *job; /* NULL: free */
+    uint64_t bytes;            /* device memory of the job by its plan; 0: too small to count */
     pthread_t thread;
 };
 
@@ -29,41 +29,43 @@ struct kd_render_queue {
     struct kd_error open_error;
 
     pthread_mutex_t lock;
-    pthread_cond_t changed; /* anything below; few threads wait, so one condition serves all */
+    pthread_cond_t changed; /* signalled when any member below changes; few threads wait, so one condition is enough */
     bool opened, closing;
     struct kd_shares shares;
     struct kd_allowance allowance;
-    struct kd_render_list jobs;   /* all that want the device, in the order in which they came */
-    struct kd_render_job *holder; /* who has the device; NULL: nobody */
+    struct kd_render_list jobs;   /* waiting for the device or using it, in order of arrival */
+    struct kd_render_job *holder; /* owner of the device; NULL: none */
     struct kd_lane lanes[KD_ASIDES];
-    unsigned n_lanes;    /* whose threads run */
-    uint64_t lane_bytes; /* of all of them */
+    unsigned n_lanes;    /* lanes whose threads run */
+    uint64_t lane_bytes; /* sum over lanes */
 
     struct kd_render_list encoding;
-    size_t frame_bytes; /* rendered, and not yet encoded */
+    size_t frame_bytes; /* bytes of frames that are rendered and not yet encoded */
     bool encoding_long;
     unsigned limit, client_limit, unfinished;
     bool lost;
     struct kd_error lost_error;
-    bool hangs;              /* a thread may never come back from it */
-    bool failed, reopening;  /* the device has failed, and is to be opened again when nobody is inside; somebody does */
-    struct kd_error failure; /* why */
-    unsigned inside;         /* jobs that are */
-    unsigned reopenings, reopened;               /* most of them within KD_REOPENINGS_S; so far, ... */
-    unsigned spent;                              /* ... and those that count against it, of ... */
-    double spent_from_ms;                        /* ... the KD_REOPENINGS_S that began then */
-    bool compiles;                               /* the thread below runs */
-    struct kd_shares missing;                    /* who is next to have kernels compiled */
-    struct kd_compilation *compiling, *compiled; /* by it now; and one that is not yet the renderer's */
-    _Atomic bool uncompiled;                     /* nobody wants what is being compiled */
-    double compile_ms;                           /* that one takes, learned; 0: none has been compiled yet */
-    struct kd_pulse pulse, compiler_pulse;       /* of whoever has the device; of who compiles */
+    bool hangs; /* a call into the driver hangs, so threads cannot be joined */
+    /* failed: the device has failed and is reopened once `inside` is 0; reopening: in progress */
+    bool failed, reopening;
+    struct kd_error failure;       /* why it failed */
+    unsigned inside;               /* jobs that are using the renderer */
+    unsigned reopenings, reopened; /* limit of reopenings in KD_REOPENINGS_S; count since the start */
+    unsigned spent;                /* reopenings within the present period, ... */
+    double spent_from_ms;          /* ... which began then */
+    bool compiles;                 /* the compiler thread runs */
+    struct kd_shares missing;      /* fair queueing of compilations */
+    /* compiling: runs now; compiled: done, not yet handed to the renderer */
+    struct kd_compilation *compiling, *compiled;
+    _Atomic bool uncompiled;               /* the compilation under way is not needed any more */
+    double compile_ms;                     /* time of a compilation, a running mean; 0: none yet */
+    struct kd_pulse pulse, compiler_pulse; /* watchdogs of the device's owner and of the compiler */
     _Atomic bool cancel;
     struct kd_render_measures measures;
-    struct kd_render_job rest; /* gives back what is not needed, once nothing has been asked for for rest_ms */
-    double rest_ms, worked_ms, trimmed_ms; /* worked_ms: when something was asked for, or done, last; trimmed_ms: when
-                                              the heap gave back what was free */
-    bool rested;                           /* since then */
+    struct kd_render_job rest; /* job that frees memory after rest_ms without requests */
+    /* worked_ms: last request or end of work; trimmed_ms: when the heap was last trimmed */
+    double rest_ms, worked_ms, trimmed_ms;
+    bool rested; /* memory was freed since worked_ms */
 
     pthread_t render_thread, compiler, encoders[KD_ENCODERS];
     unsigned n_encoders;
@@ -80,7 +82,7 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
-/* Whether a client waits for it who may have to be told that it is too much. */
+/* Whether a client waits for the job and may be refused it. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||
@@ -88,58 +90,59 @@ static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 }
 
 bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job);
-/* As for a job that has not begun: how it waits. */
+/* Puts a job back in its initial waiting stage. */
 void kd_render_stand_in_line(struct kd_render_job *job);
 
-/* As kd_render_queue_push, locked, of a job that renders no scene. */
+/* kd_render_queue_push for a job that renders no scene. Called with the lock. */
 void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job);
 
-/* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked. */
+/* rest.c: frees the renderer's unneeded memory when there is no work. Called with the lock. */
 void kd_render_rest_if_idle(struct kd_render_queue *queue);
-/* rest.c, unlocked: has the heap give back what is free, once in rest_ms while there is work. */
+/* rest.c: trims the heap at most once in rest_ms, while there is work. Called without the lock. */
 void kd_render_trim_if_due(struct kd_render_queue *queue);
 
-/* compile.c, locked. The first two: nobody else has the device. Looks which jobs lack kernels, and hands over what has
- * been compiled. Whether a job has what it needs. Says in its frame what it waited. */
+/* compile.c; called with the lock. The first two only while no other thread owns the device. ask: looks for missing
+ * kernels of waiting jobs. take: hands finished compilations to the renderer. has: whether a job has all its kernels.
+ * tell: records the time it waited for kernels in its frame. */
 void kd_render_ask_kernels(struct kd_render_queue *queue);
 void kd_render_take_kernels(struct kd_render_queue *queue);
 bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job);
 void kd_render_tell_kernels(struct kd_render_job *job);
-/* Unlocked, by who has the device: struct kd_renderer_params.lacks, of the queue. */
+/* struct kd_renderer_params.lacks with the queue as user. Called without the lock by the owner of the device. */
 bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool aside);
-/* After its turn: whether the job begins once more because of that. If so its outcome is taken back. */
+/* After a job's turn: whether it starts again because kernels were missing. If so its outcome is cleared. */
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
-void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job); /* it goes */
-/* A thread, with the queue as argument, that ends when that is closing. */
+void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job); /* the job leaves the queue */
+/* The compiler thread, with the queue as argument. Ends when the queue is closing. */
 void *kd_render_compile_main(void *queue);
 
-/* reopen.c, locked, but for the first. */
-void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error); /* the device has. Unlocked */
-/* After its turn: whether the job begins once more. If so its outcome is taken back. */
+/* reopen.c; called with the lock, except the first. */
+/* the device has failed; called without the lock */
+void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error);
+/* After a job's turn: whether it starts again because the device failed. If so its outcome is cleared. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job);
 void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error); /* a device that cannot be closed */
-/* Opens a device that has failed again, once nobody is inside; else, or if it has not, does nothing. Unlocks
- * meanwhile. */
+/* Reopens a failed device if no job is inside; otherwise does nothing. Unlocks meanwhile. */
 void kd_render_reopen(struct kd_render_queue *queue);
-/* It wants the device no more. Locked. */
+/* Removes a job from those that want the device. Called with the lock. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Calls its done(). The job may be gone when that returns; until `unfinished` falls, its connection counts as ours. */
+/* Calls done(). The job may be freed when that returns; until `unfinished` decreases, its connection must stay open. */
 void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
-/* turns.c: if nobody has the device, whoever is next is given it. Locked. */
+/* turns.c: if nobody owns the device, chooses the next owner. Called with the lock. */
 void kd_render_next(struct kd_render_queue *queue);
-/* Who has the device lets others have it until its turn comes again. Locked. */
+/* The owner of the device releases it until its next turn. Called with the lock. */
 void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Unlocked, by who has the device. */
+/* Updates device_json. Called without the lock by the owner of the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Threads: of short works, with the queue as argument; of long ones, with a lane. They end when the queue is closing
- * and empty. */
+/* Threads: kd_render_short_main runs short work, with the queue as argument; kd_render_lane_main a lane. They end when
+ * the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 
-/* encode.c: a thread, with the queue as argument, that ends when it is closing and nothing is unfinished. */
+/* encode.c: an encoder thread, with the queue as argument. Ends when the queue is closing and nothing is unfinished. */
 void *kd_render_encode_main(void *queue);
-/* Hand a frame over. Locked. */
+/* Queues a rendered frame for encoding. Called with the lock. */
 void kd_render_encode(struct kd_render_queue *queue, struct kd_render_job *job);
 
 #endif

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many times as many rays as others the pixels at the critical curve have along each side. */
+/* Refinement factor along each side of the pixels at the critical curve. */
 static unsigned critical_side(const struct kd_plan *plan)
 {
     return plan->critical ? (unsigned)lround(sqrt(plan->critical)) / plan->side : 1;
@@ -136,7 +136,7 @@ static void add_simulation(struct kd_json *json, const struct kd_scene *scene)
     kd_json_end(json);
 }
 
-/* Where the centre of each spot that is on stands at the frame's time. */
+/* Adds the positions of the spots' centres at the frame's time. */
 static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
 {
     kd_json_array(json, "orbits");
@@ -164,7 +164,7 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     kd_json_number(json, "revision", note->revision);
     kd_json_number(json, "time", job->scene.top.time);
     kd_json_number(json, "azimuth_deg", job->scene.camera.azimuth_deg);
-    kd_json_number(json, "r", job->scene.camera.r); /* infinite: null */
+    kd_json_number(json, "r", job->scene.camera.r); /* infinity is written as null */
     if (kd_scene_clock(&job->scene, &clock))
         kd_fall_clock_json(&clock, json, "clock");
     kd_json_number(json, "exposure", job->frame.exposure);

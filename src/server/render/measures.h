@@ -1,4 +1,4 @@
-/* Queue times of works and durations of render passes, for /metrics. Any thread. */
+/* Waiting times of work and durations of render passes, for /metrics. Any thread. */
 #ifndef KD_SERVER_RENDER_MEASURES_H
 #define KD_SERVER_RENDER_MEASURES_H
 
@@ -6,23 +6,22 @@
 #include "server/http/histogram.h"
 #include "server/http/shares.h"
 
-/* What frames report beside the passes of render/plan/pass.h, what comes after the device, and whatever has another
- * name. */
+/* Timings of frames besides the passes of render/plan/pass.h: other steps, encoding, and "other" for unknown names. */
 #define KD_MEASURED_ALSO(M) M("kernels") M("upload") M("fill") M("total") M("encode") M("other")
 #define KD_MEASURED_ONE(name) +1
 enum { KD_MEASURED_PASSES = KD_PASS_COUNT KD_MEASURED_ALSO(KD_MEASURED_ONE) };
 
-struct kd_render_measures { /* all 0 to begin with */
+struct kd_render_measures { /* initialise to 0 */
     struct kd_histogram passes[KD_MEASURED_PASSES], waits[KD_N_CLASSES];
 };
 
-/* A picture has been rendered, an encoding done, and a work is over that has waited so long while others had the
+/* Record a rendered picture, an encoding, and the time that a finished piece of work has waited while others used the
  * device. */
 void kd_render_measures_frame(struct kd_render_measures *measures, const struct kd_frame *frame);
 void kd_render_measures_encoded(struct kd_render_measures *measures, double ms);
 void kd_render_measures_waited(struct kd_render_measures *measures, enum kd_class class, double ms);
 
-/* kerrd_pass_seconds and kerrd_queue_wait_seconds: those that have happened. */
+/* Writes kerrd_pass_seconds and kerrd_queue_wait_seconds. Empty histograms are left out. */
 enum kd_status kd_render_measures_write(const struct kd_render_measures *measures, struct kd_buffer *out);
 
 #endif

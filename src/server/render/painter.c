@@ -19,8 +19,8 @@
 #include <string.h>
 #include <time.h>
 
-#define NICE 10   /* a tenth of the weight of what is live */
-#define IDLE_S 10 /* after which its device is closed */
+#define NICE 10   /* a tenth of the weight of live frames */
+#define IDLE_S 10 /* closes its device after this time without requests */
 #define FILE_MAX_BYTES ((size_t)1 << 20)
 
 struct kd_painter {
@@ -30,15 +30,15 @@ struct kd_painter {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    struct kd_painting *first, **end; /* that wait */
+    struct kd_painting *first, **end; /* waiting */
     bool ending;
     _Atomic bool cancelled;
-    struct kd_renderer *renderer; /* the thread's own; NULL: not open */
-    _Atomic bool hangs;           /* its device: it cannot be torn down, nor opened again */
-    struct kd_pulse pulse;        /* of a painting */
+    struct kd_renderer *renderer; /* used by its thread only; NULL: not open */
+    _Atomic bool hangs;           /* the device hangs: it can be neither closed nor reopened */
+    struct kd_pulse pulse;        /* watchdog of the present picture */
 };
 
-/* Stands before the picture in its file. */
+/* Header of a cached file, before the picture. */
 struct head {
     char magic[8];
     uint64_t bytes, hash;
@@ -122,7 +122,7 @@ static enum kd_status paint_once(struct kd_painter *painter, struct kd_painting 
     struct kd_frame frame = { 0 };
     struct kd_error *error = &work->error;
     enum kd_status status;
-    kd_buffer_finish(&work->png); /* what an earlier try has left */
+    kd_buffer_finish(&work->png); /* from a failed attempt */
     KD_TRY(open_device(painter, error));
     kd_renderer_capacity(painter->renderer, &capacity);
     KD_TRY(kd_format_plan(kd_formats[0], &work->scene, &capacity, &plan, error));
@@ -135,12 +135,12 @@ done:
     kd_frame_finish(&frame);
     if (status == KD_EDEVICE && painter->renderer) {
         atomic_store(&painter->hangs, kd_renderer_hangs(painter->renderer));
-        close_device(painter); /* it may be opened again */
+        close_device(painter); /* paint may reopen it */
     }
     return status;
 }
 
-/* A device that has failed is opened again, once for each picture. */
+/* Renders a picture; reopens a failed device once. */
 static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work)
 {
     enum kd_status status = paint_once(painter, work);
@@ -165,7 +165,7 @@ static void serve(struct kd_painter *painter, struct kd_painting *work)
     work->done(work);
 }
 
-/* The next one; NULL: none came for a while, or the end. Locked. */
+/* Waits for the next picture. Returns NULL after a while without one, or at the end. Called with the lock. */
 static struct kd_painting *await(struct kd_painter *painter)
 {
     struct timespec until;
@@ -208,7 +208,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the painter of small pictures");
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
-    painter->params.prove = NULL; /* the device is known by then */
+    painter->params.prove = NULL; /* the render queue has tested the device already */
     painter->params.sky_made = NULL;
     painter->params.passing = true;
     if (!params->memory_bytes || params->memory_bytes > KD_PAINTER_BYTES)

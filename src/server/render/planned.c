@@ -8,10 +8,11 @@
 
 #include <stdlib.h>
 
-#define SMALL (64u << 10)     /* bytes that are read in a moment, 2 ms */
-#define FEW_PIXELS (4u << 20) /* whose plan is made in one: the critical curve is followed through the picture */
+#define SMALL (64u << 10) /* bytes that are parsed in 2 ms or less */
+/* pictures that are planned in 2 ms or less: the critical curve is followed across the pixels */
+#define FEW_PIXELS (4u << 20)
 
-/* What a problem says must outlive the call. */
+/* Copies the texts into the task, because the problem outlives the call. */
 static bool fail(struct kd_planned *p, enum kd_status status, const struct kd_error *error, struct kd_problem problem)
 {
     kd_task_fail(&p->task, status ? status : KD_EINVAL, error);
@@ -77,7 +78,7 @@ struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *re
     if (!(p = kd_task_create(request, request->server->turns, &kind, result)))
         return NULL;
     if (request->body.size <= SMALL) {
-        /* Limits before anything is listed: what is too large needs no worker to be refused. */
+        /* Checks the limits first: a scene that is too large is refused without a worker. */
         if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
             return outcome(request, p, result);
     }

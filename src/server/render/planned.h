@@ -8,16 +8,16 @@
 #include "scene/scene.h"
 
 struct kd_planned {
-    struct kd_task task;   /* first */
-    struct kd_scene scene; /* as asked, */
-    struct kd_scene drawn; /* and as the plan is for: kd_format_plan */
-    char hash[65];         /* of `scene`, once an answer is tagged by it */
+    struct kd_task task;   /* first member */
+    struct kd_scene scene; /* as requested */
+    struct kd_scene drawn; /* the scene that the plan is for: kd_format_plan */
+    char hash[65];         /* of `scene`; set when an answer is tagged by it */
     struct kd_plan plan;
-    struct kd_problem problem; /* its texts in the task's error */
+    struct kd_problem problem; /* points to texts in the task's error */
 };
 
-/* NULL: *result is the handler's, which either has refused or is called again when the workers are done. Owned by
- * the request. */
+/* Returns the plan, or NULL: then *result is the handler's result, which has either refused or will be called again
+ * when the workers are done. Owned by the request. */
 struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result);
 
 #endif

@@ -10,19 +10,22 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-#define KD_DEADLINE_MS 60000u /* of a submission, where none is given (vk/vk.h) */
-#define KD_PULSE_DEADLINES \
-    9 /* without a beat, and a thread counts as hanging: what a submission may take on a busy machine, and one more */
+#define KD_DEADLINE_MS 60000u /* of a submission, if none is set (vk/vk.h) */
+/* deadlines without a beat after which a thread counts as hanging: eight for a submission on a busy machine, and one
+ * more */
+#define KD_PULSE_DEADLINES 9
 
 struct kd_pulse {
-    _Atomic int64_t beat_ms;                /* 0: it rests */
-    int64_t seen_ms, looked_ms, missing_ms; /* of who looks: the beat, when, and for how long there was no other */
+    _Atomic int64_t beat_ms; /* 0: the thread is idle */
+    /* the observer's: last beat seen, time of the last check, and how long the beat has not changed */
+    int64_t seen_ms, looked_ms, missing_ms;
 };
 
 static inline void kd_pulse_beat(struct kd_pulse *pulse) { atomic_store(&pulse->beat_ms, (int64_t)kd_clock_ms() + 1); }
 static inline void kd_pulse_rest(struct kd_pulse *pulse) { atomic_store(&pulse->beat_ms, 0); }
 
-/* Seconds since the last beat, once they are too many by the deadline of submissions (0: KD_DEADLINE_MS); else 0. */
+/* Returns the seconds since the last beat if they exceed KD_PULSE_DEADLINES submission deadlines (0: KD_DEADLINE_MS);
+ * else 0. */
 static inline double kd_pulse_missing_s(struct kd_pulse *pulse, uint32_t deadline_ms)
 {
     const int64_t beat = atomic_load(&pulse->beat_ms), now = (int64_t)kd_clock_ms(),

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <stdlib.h>
 
-#define REST_MS 60e3 /* without anything to do before memory is given back */
+#define REST_MS 60e3 /* time without work after which memory is freed */
 
 void kd_render_list_append(struct kd_render_list *list, struct kd_render_job *job)
 {
@@ -90,7 +90,7 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
     return KD_OK;
 }
 
-/* Whoever waited for it may have the device now. */
+/* Jobs that waited for the sky may now own the device. */
 static void sky_made(void *user)
 {
     struct kd_render_queue *queue = user;
@@ -205,7 +205,7 @@ double kd_render_queue_backlog_ms(struct kd_render_queue *queue)
     return ms;
 }
 
-/* Estimated, of what this client waits for. Locked. */
+/* Estimated time of the work that this client waits for. Called with the lock. */
 static double awaited_ms(const struct kd_render_queue *queue, const char *client)
 {
     double ms = 0;
@@ -254,7 +254,7 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
         n += waits;
         own += waits && !strcmp(job->claim.client, client);
     }
-    unsigned next = !queue->holder; /* what an idle device is about to take does not wait */
+    unsigned next = !queue->holder; /* one job is about to start on an idle device and does not count as waiting */
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
         return kd_error_set(error, KD_EBUSY, "%u renders are waiting, as many as may", n);
@@ -266,8 +266,8 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     return kd_error_set(error, KD_EBUSY, "%u of your renders are waiting, as many as one client may have", own);
 }
 
-/* Whether it goes on in slices. A job's picture always does: nobody waits for it. One of a moving view never does:
- * its governor knows better than its plan what it takes, since the lens map may be there already. */
+/* Whether a job runs in slices. A job's picture always does, because nobody waits for it. A live frame never does: its
+ * governor predicts its time better than its plan, since the lens map may be cached. */
 static bool wants_lane(const struct kd_render_job *job)
 {
     switch (job->claim.class) {
@@ -334,11 +334,11 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 {
     struct kd_capacity c;
     kd_render_queue_capacity(queue, &c);
-    if (18ull * width * height <= c.memory_bytes / 4) /* six bytes of the file, and twelve of light */
+    if (18ull * width * height <= c.memory_bytes / 4) /* six bytes of the file and twelve of radiance for each pixel */
         kd_renderer_sky_ahead(queue->renderer, hash);
 }
 
-/* Those that have begun are ended by who has them, at their next turn. */
+/* Cancels jobs that have not begun; those that have begun end at their next turn. */
 void kd_render_queue_sweep(struct kd_render_queue *queue)
 {
     struct kd_render_list gone = { .end = &gone.first };

@@ -1,5 +1,4 @@
-/* Answers /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is
- * told. */
+/* Handlers of /v1/render, and of /v1/pixel, which renders a picture and explains one pixel of it. */
 #include "render/explain/explain.h"
 #include "render/output/notes.h"
 #include "server/http/negotiate.h"
@@ -18,7 +17,7 @@ static const char *type_of(size_t i, const void *formats)
     return ((const struct kd_format *const *)formats)[i]->media_type;
 }
 
-/* The format that Accept would rather have; NULL: none. */
+/* The format preferred by Accept; NULL: none is acceptable. */
 static const struct kd_format *accepted(struct kd_request *request)
 {
     size_t best = kd_reply_accepted(request, kd_n_formats, type_of, kd_formats);
@@ -63,14 +62,14 @@ done:
     kd_buffer_finish(&list);
 }
 
-/* Who shows a link shows its picture to many; on a server with access tokens it is for one of them. */
+/* Pictures of shared links may be cached publicly, unless the server requires access tokens. */
 static const char *caching(const struct kd_request *request)
 {
     const bool shared = request->route->takes == KD_TAKES_LINK && !request->server->access;
     return shared ? "public, max-age=86400" : "private, no-cache";
 }
 
-/* What 200, 304 and HEAD have in common. */
+/* Adds the headers that 200, 304 and HEAD have in common. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
                                      const struct kd_scene *scene, const struct kd_plan *plan)
 {
@@ -174,7 +173,7 @@ static void wake(struct kd_render_job *job)
     MHD_resume_connection(request->mhd);
 }
 
-/* In seconds, until what is accepted now should be done. */
+/* Seconds until the work accepted so far should be done. */
 static unsigned retry_after(struct kd_server *server)
 {
     double s = ceil(kd_render_queue_backlog_ms(server->renders) * 1e-3);
@@ -201,7 +200,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     bool quota;
     enum kd_status status;
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
-    /* How many bytes it will have is known when it has been encoded: fewer than its pixels. */
+    /* The size is known only after encoding; it is smaller than that of the pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
                             quota ? "as many bytes of pictures wait for you to take them as may for one client"
@@ -233,7 +232,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_planne
     job->done = wake;
     job->user = request;
     request->job = job;
-    /* First: a job may be done before push returns. Suspended, the request and its socket outlive the job. */
+    /* Suspend first, because the job may be done before push returns. A suspended request and its socket outlive the
+     * job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(request->server->renders, job);
     return MHD_YES;
@@ -253,7 +253,7 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
     return status;
 }
 
-/* The plan tells of the pixel that the query names. */
+/* Selects the pixel in the query for the plan. */
 static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
 {
     const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");
@@ -263,7 +263,7 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
-/* It may be a picture of that pixel alone. */
+/* Reduces the picture to the pixel, where possible. */
 static enum kd_status narrow(const struct kd_request *request, struct kd_planned *planned, struct kd_error *error)
 {
     struct kd_capacity capacity;

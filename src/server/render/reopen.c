@@ -1,13 +1,13 @@
-/* A device that fails is opened again, and what had begun begins once more; or it is lost. */
+/* Reopens a failed device and restarts interrupted work, or declares the device lost. */
 #include "base/log.h"
 #include "server/render/internal.h"
 
 #include <time.h>
 
-#define TRIES 4      /* a driver that resets its device needs a moment: */
-#define TRY_MS 100.0 /* the first is at once, the next after this, then after twice as long */
+#define TRIES 4      /* attempts, because a driver that resets its device needs a moment */
+#define TRY_MS 100.0 /* pause after the first attempt, doubled after each */
 
-/* Locked. */
+/* Called with the lock. */
 static void lose(struct kd_render_queue *queue, const struct kd_error *error)
 {
     if (queue->lost)
@@ -72,7 +72,8 @@ void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *erro
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* One that was only in the way of another's failure has ended with KD_ECANCELLED, and may fail yet. */
+/* A job that was only interrupted by another job's failure has ended with KD_ECANCELLED; it does not count as having
+ * failed. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     const bool itself = job->status == KD_EDEVICE;
@@ -85,7 +86,7 @@ bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *jo
     return true;
 }
 
-/* Whether it has not been done too often. Locked. */
+/* Whether the limit of reopenings permits one more. Called with the lock. */
 static bool may_reopen(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();
@@ -96,7 +97,7 @@ static bool may_reopen(struct kd_render_queue *queue)
     return queue->spent++ < queue->reopenings;
 }
 
-/* Unlocked. */
+/* Called without the lock. */
 static enum kd_status reopen(struct kd_render_queue *queue, struct kd_error *error)
 {
     enum kd_status status = KD_EDEVICE;

@@ -1,5 +1,4 @@
-/* Memory that the renderer holds is given back when nobody has asked for anything for a while; what the heap has freed,
- * while they ask, too. */
+/* Frees the renderer's cached memory after a time without requests, and trims the heap also under load. */
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
@@ -21,7 +20,7 @@ void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms)
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* Where much is held, a short pause is made use of. */
+/* If much memory is cached, a sixtieth of the time is enough. */
 static bool is_long_enough(const struct kd_render_queue *queue, double pause_ms)
 {
     const double soon_ms = queue->rest_ms / 60.;
@@ -39,8 +38,8 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue)
     kd_render_queue_push_locked(queue, &queue->rest);
 }
 
-/* Under load nobody rests, and drivers free much of what they take to compile a kernel: a sixth of all that was
- * resident after ten minutes (bench/soak.py). */
+/* Under load the renderer's caches stay, but drivers free much of the memory that they use to compile a kernel: a sixth
+ * of the resident memory after ten minutes (bench/soak.py). */
 void kd_render_trim_if_due(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();

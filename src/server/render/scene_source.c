@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The JSON pointer of a parameter: "camera.r" is /camera/r. A name may be anything: ~ and / are escaped. */
+/* JSON pointer of a parameter: "camera.r" becomes /camera/r. ~ and / are escaped, since names can be anything. */
 static void pointer_of(const char *name, char *out, size_t size)
 {
     size_t n = 0;
@@ -23,7 +23,7 @@ static void pointer_of(const char *name, char *out, size_t size)
     out[n] = 0;
 }
 
-/* The route's own parameters are no fields. */
+/* Whether a parameter is one of the route's own, not a field. */
 static bool is_own(const char *name, const char *const own[2])
 {
     return (own[0] && !strcmp(name, own[0])) || (own[1] && !strcmp(name, own[1]));
@@ -62,7 +62,7 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
     return KD_OK;
 }
 
-/* The style first: a query is one document, whatever its order. */
+/* Applies the style first, because the order of a query's parameters must not matter. */
 static enum kd_status apply_fields(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
                                    struct kd_error *error)
 {
@@ -108,7 +108,7 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
         KD_TRY(apply_preset(&request->target, scene, error));
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
                                     request->body.size, error);
-        malformed = status == KD_EINVAL && !*error->pointer; /* what has no place in the document */
+        malformed = status == KD_EINVAL && !*error->pointer; /* an error without a position in the document */
         KD_TRY(status);
     } else {
         KD_TRY(kd_scene_of_query(&request->target, own, scene, error));

@@ -20,7 +20,7 @@ static bool nothing_there(struct kd_problem *problem, const struct kd_error *err
     return false;
 }
 
-/* The text is a query, and read as one. */
+/* Parses the text as a query. */
 static enum kd_status read_text(const char *text, struct kd_scene *scene, struct kd_error *error)
 {
     static const char *const none[2] = { NULL, NULL };

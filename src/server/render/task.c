@@ -109,7 +109,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
 
 enum MHD_Result kd_task_submit(struct kd_task *task)
 {
-    /* First: it may be done before push returns. Suspended, the request and its socket outlive it. */
+    /* Suspend first, because the task may be done before push returns. A suspended request and its socket outlive
+     * it. */
     MHD_suspend_connection(task->request->mhd);
     kd_turns_push(task->queue, &task->turns);
     return MHD_YES;

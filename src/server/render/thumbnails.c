@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAMPLES 3 /* rays along each side of a pixel: so small a picture needs smooth edges */
+#define SAMPLES 3 /* rays along each side of a pixel: small pictures need smooth edges */
 
 struct thumbnail {
-    struct kd_painting painting; /* first; its png is never changed again once it is there */
+    struct kd_painting painting; /* first member; png is immutable once `there` is set */
     char etag[120];
-    struct kd_error error;      /* of the latest try */
-    bool there, busy;           /* busy: the painter has it, and nobody else looks at it */
-    struct kd_request *waiting; /* suspended, the newest first */
+    struct kd_error error;      /* of the latest attempt */
+    bool there, busy;           /* busy: owned by the painter, not to be read by others */
+    struct kd_request *waiting; /* suspended requests, the newest first */
     struct kd_thumbnails *of;
 };
 
@@ -98,7 +98,7 @@ unsigned kd_thumbnails_rendered(struct kd_thumbnails *s)
     return n;
 }
 
-/* Takes out who waits, to be resumed without the lock. */
+/* Takes the list of waiting requests, which are to be resumed without the lock. */
 static struct kd_request *take(struct thumbnail *t)
 {
     struct kd_request *waiting = t->waiting;
@@ -106,7 +106,7 @@ static struct kd_request *take(struct thumbnail *t)
     return waiting;
 }
 
-/* One that is resumed may be gone at once. */
+/* Resumes requests. Each may be freed at once. */
 static void resume(struct kd_request *waiting)
 {
     while (waiting) {
@@ -116,7 +116,7 @@ static void resume(struct kd_request *waiting)
     }
 }
 
-/* What the painter has under way may have to end first, as a kernel does that is being made: nobody waits for that. */
+/* Does not wait for the painter, which may first have to finish the compilation of a kernel. */
 void kd_thumbnails_cancel(struct kd_thumbnails *s)
 {
     kd_painter_cancel(s->painter);
@@ -172,7 +172,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_error(request, error);
 }
 
-/* Waits for it, unless it is there, or has just been tried in vain. */
+/* Suspends the request until the thumbnail is there; answers at once if it is, or if rendering has just failed. */
 static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s, struct thumbnail *t)
 {
     pthread_mutex_lock(&s->lock);
@@ -207,7 +207,7 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     if (!t) {
         struct kd_scene scene;
         struct kd_error error = { 0 };
-        kd_scene_preset(&scene, request->rest, &error); /* it says which there are */
+        kd_scene_preset(&scene, request->rest, &error); /* for its message, which lists the presets */
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }

@@ -1,5 +1,5 @@
-/* Thumbnails of presets. Each is rendered when it is first requested (painter.h), then kept in memory, and on disk for
- * later runs. Requests that arrive meanwhile wait for that one rendering. */
+/* Thumbnails of presets. Each is rendered at the first request (painter.h), then kept in memory, and on disk for later
+ * runs. Requests that arrive meanwhile wait for the same rendering. */
 #ifndef KD_SERVER_RENDER_THUMBNAILS_H
 #define KD_SERVER_RENDER_THUMBNAILS_H
 
@@ -11,17 +11,16 @@ enum { KD_THUMBNAIL_WIDTH = 192, KD_THUMBNAIL_HEIGHT = 120 };
 
 struct kd_thumbnails;
 
-/* The server outlives them, and its queue and its etag_tail are there. renderer: as of the queue's device. */
+/* The server outlives them; its queue and its etag_tail exist already. renderer: parameters of the queue's device. */
 enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer,
                                     struct kd_thumbnails **out, struct kd_error *error);
-/* On the way down, once the server refuses what is new: nothing more is painted, and who waits is told so at once.
- * Any thread. */
+/* For shutdown: stops rendering, and resumes waiting requests, which are refused. Any thread. */
 void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
 /* As kd_painter_hangs. Any thread. */
 bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);
 /* Accepts NULL. */
 void kd_thumbnails_destroy(struct kd_thumbnails *thumbnails);
-/* How many have been painted, and not found in their files. Any thread. */
+/* Number rendered, not read from files. Any thread. */
 unsigned kd_thumbnails_rendered(struct kd_thumbnails *thumbnails);
 
 #endif

@@ -1,14 +1,15 @@
-/* Decides which work runs on the device, and runs it. */
+/* Schedules work on the device and runs it. */
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-#define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it, and ... */
-#define SHORT_BYTES ((size_t)64 << 20)  /* ... so much more may be of frames that are encoded soon */
-#define BRIEF_MS 3000.0 /* what has a lane for so long frees it soon: for such the last lanes are kept, */
-#define BRIEF_LANES 2   /* so many; and as many a client may have of them */
-#define LARGE 32        /* parts of the memory: what is smaller is not worth counting */
+/* limit of frames that are rendered and not yet encoded; one frame may exceed it */
+#define FRAME_BYTES ((size_t)256 << 20)
+#define SHORT_BYTES ((size_t)64 << 20) /* additional room for frames that are encoded soon */
+#define BRIEF_MS 3000.0                /* limit of brief pictures, for which the last lanes are reserved, ... */
+#define BRIEF_LANES 2                  /* ... this many; a client may have as many of them */
+#define LARGE 32                       /* fraction of the memory below which a picture is too small to count */
 
-/* The fields below are of the queue, and it is locked, where nothing else is said. */
+/* Functions access the queue's members and are called with the lock unless a comment says otherwise. */
 
 static bool is_large(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
@@ -17,8 +18,8 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
     return job->plan.device_bytes > c.memory_bytes / LARGE;
 }
 
-/* Beside the large pictures that are under way. One that needs nearly all of the memory has it when no other large
- * one has any. */
+/* Whether the picture fits in memory beside the large pictures in lanes. One that needs nearly all memory starts only
+ * when no other large one runs. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_capacity c;
@@ -29,8 +30,8 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.estimate_ms <= BRIEF_MS; }
 
-/* The lane that a long picture may begin in. No client has more than one of a class, but for those that are brief.
- * NULL: none yet. */
+/* Finds a lane for a long picture. A client has at most one for each class, apart from brief pictures. NULL: none
+ * yet. */
 static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_lane *found = NULL;
@@ -56,10 +57,10 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
-/* What a client waits for was affordable when it came, and frames of jobs when they were pushed
- * (kd_render_queue_may_push). All else begins when its client can afford it; who has to wait is looked at again by
- * kd_render_queue_sweep, ten times a second. What has begun has a lane and memory that others wait for: it goes on,
- * and the next one waits. */
+/* Whether the client's device time permits the work. Work that clients wait for was checked when it came, and frames of
+ * jobs when they were pushed (kd_render_queue_may_push). Other work begins when its client can afford it;
+ * kd_render_queue_sweep checks again ten times a second. Work that has begun continues, because others wait for its
+ * lane and memory. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
@@ -79,9 +80,9 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    if (queue->failed) /* those inside only have to leave */
+    if (queue->failed) /* only jobs inside run, to leave the renderer */
         return job->inside;
-    if (job == &queue->rest && (queue->compiling || queue->inside)) /* a rest may close the device */
+    if (job == &queue->rest && (queue->compiling || queue->inside)) /* freeing memory may close the device */
         return false;
     if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;
@@ -90,8 +91,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
             (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
-/* One that only has to be told that it is over: that takes no time, and others may wait for it. A long one that has
- * not begun needs no lane for that. */
+/* Finds a cancelled job. It runs first, since ending it takes no time, and needs no lane. */
 static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
 {
     struct kd_render_job *job = queue->jobs.first;
@@ -137,7 +137,7 @@ void kd_render_next(struct kd_render_queue *queue)
     pthread_cond_broadcast(&queue->changed);
 }
 
-/* What its turn has taken so far. */
+/* Charges the time of the present turn so far. */
 static void charge(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     double now = kd_clock_ms();
@@ -156,7 +156,7 @@ void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job
         pthread_cond_wait(&queue->changed, &queue->lock);
 }
 
-/* Between two slices: whoever is before it has the device meanwhile. */
+/* Between two slices: releases the device if another job comes first. */
 static bool between_slices(void *user, double fraction)
 {
     struct kd_render_job *job = user;
@@ -167,7 +167,7 @@ static bool between_slices(void *user, double fraction)
     if (choose(queue) != job)
         kd_render_give_way(queue, job);
     kd_pulse_beat(&queue->pulse);
-    const bool failed = queue->failed; /* while others had it */
+    const bool failed = queue->failed; /* while others owned it */
     pthread_mutex_unlock(&queue->lock);
     if (failed)
         return false;
@@ -188,8 +188,8 @@ static bool go_on(void *user, double fraction)
     return !kd_render_unwanted(job->queue, job);
 }
 
-/* Only who has the device may ask the renderer, and what it says of its speed changes as it measures itself.
- * Unlocked. */
+/* Only the owner of the device may call the renderer, and the speeds that it reports change as it measures itself.
+ * Called without the lock. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
 {
     struct kd_buffer json = { 0 }, old = { 0 };
@@ -206,7 +206,7 @@ enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
     return KD_OK;
 }
 
-/* Unlocked, as all that has the device. */
+/* Called without the lock. */
 static void render(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->more = false;
@@ -251,7 +251,7 @@ static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
     }
 }
 
-/* The turn of the job, which has the device. Unlocks while it works. */
+/* Runs one turn of the job, which owns the device. Unlocks meanwhile. */
 static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->inside = true;
@@ -267,7 +267,7 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     const bool again = kd_render_begins_with_kernels(queue, job) || kd_render_once_more(queue, job),
                more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
     if (!again)
-        job->repeated = false; /* it has come on */
+        job->repeated = false; /* it has made progress */
     if (more)
         job->away_ms = job->turn_ms;
     else {

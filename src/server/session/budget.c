@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* as the governor's, which tells one drag from two by them */
+/* the same as in the governor, which separates two drags by them */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 
 void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry)
 {
@@ -25,7 +26,7 @@ void kd_budget_ask(struct kd_budget_entry *e, double now)
     double pause = now - e->ended_ms;
     e->asks = true;
     if (!e->n_costs)
-        return; /* the first: nothing went before it */
+        return; /* the first frame has no pause before it */
     e->pauses[e->n_pauses++ % KD_BUDGET_FRAMES] = pause;
     if (pause >= HOLD_MAX_MS)
         e->hold_ms = HOLD_MS;
@@ -72,8 +73,7 @@ static void look(struct kd_budget *budget, double now)
     }
 }
 
-/* An entry competes at one of two levels: with the demand of another client, or with that of another session of its
- * own client. */
+/* Demand that competes with the entry's: of another client, or of another session of the same client. */
 static double rival(const struct kd_budget_entry *entry, const struct kd_budget_entry *other, bool clients)
 {
     if (clients)
@@ -81,9 +81,9 @@ static double rival(const struct kd_budget_entry *entry, const struct kd_budget_
     return other != entry && same_client(entry, other) ? other->demand : 0;
 }
 
-/* Finds the level up to which all are served: the level and what each rival has of it add up to the whole. The
- * search begins as if all rivals wanted as much. From round to round the level only rises, as those that want less
- * are left out, so that there are no more rounds than rivals. */
+/* Computes the max-min fair level of `whole`: the level, and what each rival gets up to it, add up to the whole. The
+ * iteration starts with rivals that demand everything. The level only rises, as rivals with a smaller demand drop out,
+ * so it ends after at most one round for each rival. */
 static double fill(const struct kd_budget *budget, const struct kd_budget_entry *entry, bool clients, double whole)
 {
     for (double level = 0, next;; level = next) {

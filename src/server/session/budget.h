@@ -1,24 +1,25 @@
-/* The budget says which part of the device's time each session that moves may count on, so that its governor can fit
- * frames into it. Pure: no clock, no device, no allocation. One owner at a time. Times are milliseconds of any
+/* Budget: estimates the share of the device's time that each moving session can rely on, so that its governor can
+ * choose frames that fit. Pure: no clock, no device, no allocation. One thread at a time. Times are milliseconds of any
  * steady clock.
  *
- * The unit is milliseconds of the device a millisecond of the clock, 0 to 1. A session's demand is what it would use
- * if it were alone: what its frames take, divided by that and by the time from the end of one to the request for the
- * next. Time spent waiting for others is in neither, so that who is made to wait seems neither dearer nor less
- * eager. What counts is the mean of the last eight frames and the least of the last eight pauses: a single slow
- * frame or late request says little, and who has begun to drag again is believed at its second frame. A session that
- * has asked for nothing for its hold time demands nothing: that is 400 ms, and grows to twice a pause that was
- * longer than that, to 2 s at most, so that the part of a hand that pauses in a drag is not lent out and taken back
- * at each stroke. Sessions that are only watched, or refined, ask for nothing here.
+ * Shares and demands are milliseconds of the device for each millisecond of the clock, 0 to 1. A session's demand is
+ * what it would use alone: the device time of a frame, divided by the sum of that and the pause from its end to the
+ * request for the next. Time spent waiting for others is in neither term, so that waiting changes no demand. The demand
+ * uses the mean of the last eight frame costs and the smallest of the last eight pauses. So a single slow frame or late
+ * request changes little, and a user who drags again has a demand from the second frame on.
  *
- * The time is divided as shares.h divides it, by client and then by session, max-min fair (Bertsekas & Gallager,
- * Data Networks, 1992, 6.5.2): each gets the same part, but those who want less get that, and the others have what
- * they leave. The part of a session is told as if it wanted everything: one that is alone has 1.
+ * A session without a request for its hold time demands nothing. The hold time is 400 ms. After a longer pause it
+ * becomes twice that pause, at most 2 s, so that the share of a hand that rests within a drag is not lent and taken
+ * back at each stroke. Sessions that are only watched or refined demand nothing.
+ *
+ * The time is divided as in shares.h, by client and then by session, max-min fair (Bertsekas & Gallager, Data Networks,
+ * 1992, 6.5.2): all get the same part, except that those with a smaller demand get only that, and the others divide the
+ * rest. A session's own share is computed as if it demanded everything: one that is alone has 1.
  *
  *     kd_budget_enter(&budget, &entry);
- *     kd_budget_ask(&entry, now);              a frame of what moves goes into the queue
- *     kd_budget_end(&entry, now, ms);          it has had the device for so long
- *     kd_budget_share(&budget, &entry, now);   before the next
+ *     kd_budget_ask(&entry, now);              a frame of a moving session is queued
+ *     kd_budget_end(&entry, now, ms);          it has used the device for ms
+ *     kd_budget_share(&budget, &entry, now);   before the next frame
  *     kd_budget_leave(&budget, &entry); */
 #ifndef KD_SERVER_SESSION_BUDGET_H
 #define KD_SERVER_SESSION_BUDGET_H
@@ -29,18 +30,19 @@
 
 enum { KD_BUDGET_FRAMES = 8 };
 
-/* An entry is one session's part of the budget, embedded in it. All of it but the client is 0 to begin with. */
+/* One session's part of the budget, embedded in the session. Set client; initialise the rest to 0. */
 struct kd_budget_entry {
-    char client[KD_CLIENT]; /* as in the claims of its frames */
-    /* the budget's own */
+    char client[KD_CLIENT]; /* the same as in the claims of its frames */
+    /* private to the budget */
     double costs[KD_BUDGET_FRAMES], pauses[KD_BUDGET_FRAMES];
     unsigned n_costs, n_pauses;
-    double ended_ms, hold_ms; /* when the latest frame had the device last */
-    bool asks;                /* a frame is in the queue, or has the device */
-    double demand, of_client; /* as of the call that is under way; of_client: 0 but in the first entry of each client */
+    double ended_ms, hold_ms; /* end of the latest frame on the device; hold time */
+    bool asks;                /* a frame is queued or runs */
+    /* computed in each call; of_client: sum over a client's sessions, stored in the client's first entry, else 0 */
+    double demand, of_client;
     struct kd_budget_entry *next;
 };
-struct kd_budget { /* all 0 to begin with */
+struct kd_budget { /* initialise to 0 */
     struct kd_budget_entry *first;
 };
 
@@ -48,13 +50,12 @@ void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry);
 void kd_budget_leave(struct kd_budget *budget, struct kd_budget_entry *entry);
 
 void kd_budget_ask(struct kd_budget_entry *entry, double now);
-/* The frame no longer has the device. ms: how long it had it, 0 or more; 0 says that it was given up, and is no
- * measure. */
+/* The frame has left the device. ms: device time used; 0: it was abandoned, and is not a measurement. */
 void kd_budget_end(struct kd_budget_entry *entry, double now, double ms);
 
-/* Estimates what the session would use alone, 0 to 1. It is 0 until it asks for its second frame. */
+/* Estimates the session's demand, 0 to 1. It is 0 until the second frame is requested. */
 double kd_budget_demand(const struct kd_budget_entry *entry, double now);
-/* The session may count on this share of the device: over 0, at most 1. */
+/* The share of the device that the session can rely on: above 0, at most 1. */
 double kd_budget_share(struct kd_budget *budget, const struct kd_budget_entry *entry, double now);
 
 #endif

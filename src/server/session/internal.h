@@ -9,39 +9,40 @@
 
 #include <pthread.h>
 
-struct kd_session_frame; /* one on its way through the render queue */
-/* How far the one is that is being made. run.c */
+struct kd_session_frame; /* one in the render queue */
+/* Progress of the frame being made. run.c */
 struct kd_session_progress kd_session_progress_of(const struct kd_session *session, double now);
 
 struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
-    struct kd_once once;       /* what it was asked for by */
-    struct kd_scene scene;     /* as at since_ms */
-    struct kd_timeline path;   /* what it goes along since then instead, if it has keys; */
-    struct kd_scene on_path;   /* the latest valid scene of which */
-    struct kd_crowd *crowd;    /* that it shows besides; NULL: none, or none yet */
-    bool crowded, crowd_moved; /* it has one; another one than in the latest frame */
+    struct kd_once once;     /* hashes of the request that created it */
+    struct kd_scene scene;   /* the scene at the time since_ms */
+    struct kd_timeline path; /* path that it has followed since then, if it has keyframes */
+    struct kd_scene on_path; /* latest valid scene on the path */
+    struct kd_crowd *crowd;  /* bodies of a playground shown in the scene; NULL: none, or none yet */
+    /* crowded: it shows a crowd; crowd_moved: the crowd differs from that of the latest frame */
+    bool crowded, crowd_moved;
     double since_ms, used_ms;
-    char lens_key[65]; /* of the scene as asked */
+    char lens_key[65]; /* of the full scene, before quality is reduced */
     struct kd_governor governor;
-    struct kd_budget_entry demand; /* entered while it is listed */
+    struct kd_budget_entry demand; /* in the budget while the session is listed */
     unsigned revision;             /* of the scene */
-    double patched_ms;             /* when somebody changed it last, or made it */
-    uint64_t order;                /* of the latest patch that had one */
-    uint64_t begun;                /* frames */
-    bool moved;                    /* the scene of the latest one went on by itself, */
-    bool flew;                     /* and so did its camera */
+    double patched_ms;             /* last change by a patch, or creation */
+    uint64_t order;                /* of the latest patch that had an order */
+    uint64_t begun;                /* number of frames begun */
+    bool moved;                    /* the scene of the latest frame was moving by itself */
+    bool flew;                     /* and so was its camera */
     bool listed;
-    struct kd_session_frame *rendering; /* before it is encoded */
+    struct kd_session_frame *rendering; /* frame not yet rendered */
     unsigned encoding;
-    bool adding; /* a file to a frame that is there */
+    bool adding; /* encoding a further file of the latest frame */
     struct kd_live_frame *latest;
-    double exposed_ms, exposure;  /* when the latest was rendered, and the stops that it got; */
-    unsigned exposed_revision;    /* 0: none */
-    double shown_ms, interval_ms; /* when the latest came; between frames, smoothed */
-    enum kd_status failed;        /* the latest render, with `error`; a patch starts anew */
+    double exposed_ms, exposure;  /* when the latest frame was rendered, and its exposure in stops */
+    unsigned exposed_revision;    /* revision of that frame; 0: none */
+    double shown_ms, interval_ms; /* when the latest frame was published; smoothed interval between frames */
+    enum kd_status failed;        /* status of the latest render, with `error`; a patch clears it */
     struct kd_error error;
     struct kd_viewer *viewers;
     struct kd_session *next;
@@ -51,42 +52,41 @@ struct kd_sessions {
     struct kd_sessions_params params;
     pthread_mutex_t lock;
     struct kd_session *first;
-    struct kd_budget budget; /* of the device's time, among those that move */
+    struct kd_budget budget; /* shares of the device's time among moving sessions */
     unsigned count;
     uint64_t frames, bytes; /* published */
     bool closed;
     double looked_ms;
 };
 
-/* Callers hold all->lock where nothing else is said. */
+/* Callers hold all->lock unless a comment says otherwise. */
 
-void kd_session_let_go(struct kd_session *session); /* of a reference */
+void kd_session_let_go(struct kd_session *session); /* drops a reference */
 void kd_session_unlist(struct kd_session *session);
-/* The scene with what goes on by itself, or along its path, valid. Fails where the path is not. */
+/* Computes the scene at a time, with its own motion or its path. Fails where the path's scene is not valid. */
 enum kd_status kd_session_scene(const struct kd_session *session, double now, struct kd_scene *out,
                                 struct kd_error *error);
-bool kd_session_on_its_way(const struct kd_session *session, double now); /* along a path that has not ended */
+bool kd_session_on_its_way(const struct kd_session *session, double now); /* follows a path that has not ended */
 
-/* Begins a frame if one is awaited, would differ, and there is room for it. run.c */
+/* Begins a frame if a viewer waits, the picture would differ, and the queue has room. run.c */
 void kd_session_pump(struct kd_session *session);
-/* Frames are believed to cost what the plan of the scene says, as long as none was measured. */
+/* Sets the expected cost of frames from the plan, until a frame has been measured. */
 void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
-/* The frame that is being rendered is given up if it refines: it is long, and nobody waits for it any more. */
+/* Cancels the frame being rendered if it is a refinement, which takes long and is obsolete. */
 void kd_session_drop_refinement(struct kd_session *session);
-void kd_session_drop(struct kd_session *session); /* whatever it is */
+void kd_session_drop(struct kd_session *session); /* cancels any frame */
 
-/* Says whether somebody waits. The first frame is made before anybody asks. watch.c */
+/* Whether a viewer waits. True before the first frame, which is made in advance. watch.c */
 bool kd_session_awaited(const struct kd_session *session);
-void kd_session_wake(struct kd_session *session); /* those for whom there is something */
+void kd_session_wake(struct kd_session *session); /* resumes viewers that have news */
 
-/* The kinds in which a frame is asked for. kinds.c */
-void kd_session_choose_kind(const struct kd_session *session, bool last,
-                            struct kd_render_job *job); /* the first, by who waits */
-/* What the viewer takes of the frame: NULL where that is still to be made. */
+/* Encodings of a frame; kinds.c. Sets the first encoding, by the waiting viewers. */
+void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
+/* The file of the frame in the viewer's encoding; NULL: not encoded yet. */
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);
-void kd_session_forget_pixels(struct kd_session *session,
-                              double now); /* of a frame that nobody has asked for in another kind */
-void kd_session_add_kinds(
-    struct kd_session *session); /* begins to make what is missing of the latest frame for those who wait */
+/* Frees the pixels of a frame that nobody has requested in another encoding lately. */
+void kd_session_forget_pixels(struct kd_session *session, double now);
+/* Starts encodings of the latest frame that waiting viewers lack. */
+void kd_session_add_kinds(struct kd_session *session);
 
 #endif

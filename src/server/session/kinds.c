@@ -1,19 +1,18 @@
-/* A frame is encoded in the kinds that are asked for and in no other: the first by the renderer's own encoder,
- * others when somebody waits for them. */
+/* Encodings of live frames. A frame is encoded only as viewers request it: first by the renderer's encoder, later in
+ * other encodings when a viewer waits for them. */
 #include "server/session/internal.h"
 
 #include <stdlib.h>
 
-#define PIXELS_MS \
-    1000.0 /* after which those of the latest frame go: whoever then wants it in another kind gets the next one */
+#define PIXELS_MS 1000.0 /* after which the latest frame's pixels are freed; later requests get the next frame */
 
 struct added {
-    struct kd_render_job job; /* first: the queue's pointer is ours */
+    struct kd_render_job job; /* first member: the queue stores a pointer to it */
     struct kd_session *session;
     struct kd_live_frame *frame;
 };
 
-/* These functions run with the lock, but for done. */
+/* All functions but `done` are called with the lock. */
 
 static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last ? 0 : viewer->lossy; }
 
@@ -42,8 +41,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
         if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
             near = file;
     }
-    /* The last place is for what is exact; where all others are taken the nearest quality has to do, which the
-     * answer names. */
+    /* The last slot is reserved for the lossless encoding. When the others are used, the nearest quality is sent, and
+     * the answer names it. */
     unsigned lossy_ones = 0;
     for (unsigned i = 0; i < frame->n_files; i++)
         lossy_ones += frame->files[i].lossy > 0;
@@ -61,8 +60,8 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
         kd_frame_finish(&s->latest->picture);
 }
 
-/* A newer frame has come meanwhile. Who waited for this one in this kind has it all the same: where that takes
- * longer than a frame nobody would ever have one. */
+/* A newer frame has been published meanwhile. Viewers that waited for this one in this encoding still get it: where
+ * encoding takes longer than a frame, they would otherwise never get any. */
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -110,7 +109,7 @@ static void add(struct kd_session *s, unsigned lossy)
     added->job = (struct kd_render_job) {
         .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
     };
-    added->job.frame = s->latest->picture; /* whose pixels stay the frame's */
+    added->job.frame = s->latest->picture; /* the pixels stay owned by the frame */
     added->job.plan.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);
     s->adding = true;
@@ -125,6 +124,6 @@ void kd_session_add_kinds(struct kd_session *s)
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && !v->any && s->latest->number > v->seen && !kd_session_file(v, s->latest)) {
             add(s, v->lossy);
-            return; /* what others lack comes after it */
+            return; /* further encodings follow when this one is done */
         }
 }

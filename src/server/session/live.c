@@ -1,4 +1,4 @@
-/* Sends the frames of a session: one by one as they are asked for, and as streams. */
+/* Sends a session's frames, one for each request or as a stream. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/query.h"
@@ -14,8 +14,8 @@
 #include <sys/socket.h>
 
 #define BINARY_TYPE "application/x-kerrd-frames"
-#define HEARTBEAT_MS 15000.0    /* of an event stream */
-#define UNSENT_BYTES (64 << 10) /* in the kernel: more would be frames grown old */
+#define HEARTBEAT_MS 15000.0    /* interval of comments in an event stream */
+#define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay frames */
 
 static enum MHD_Result ended(struct kd_request *request)
 {
@@ -47,7 +47,7 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);
 }
 
-/* What is said of the frame in this kind. */
+/* Adds headers that describe this encoding of the frame. */
 static void describe_file(struct MHD_Response *response, const struct kd_live_frame *frame,
                           const struct kd_live_file *file)
 {
@@ -60,8 +60,8 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-/* What has become of the request: how long it waited here, so that who asked knows how long its way is; and what it
- * changed. */
+/* Adds headers about the request: how long it waited here, so that the client can compute the network's delay, and the
+ * revision that it made. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
@@ -93,7 +93,7 @@ static enum MHD_Result send_frame(struct kd_request *request, const struct kd_vi
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Sends the answer, or waits again. */
+/* Sends the answer or suspends the request again. */
 static enum MHD_Result look(struct kd_request *request)
 {
     struct kd_error error = { 0 };
@@ -181,11 +181,11 @@ void kd_live_abandon(struct kd_request *request)
     request->viewer = NULL;
 }
 
-/* In a stream a frame has three parts: some bytes before the picture, the picture, some after it. */
+/* A frame in a stream: some bytes before the picture, the picture, some bytes after it. */
 struct stream {
-    struct kd_viewer viewer; /* first */
+    struct kd_viewer viewer; /* first member */
     enum { MULTIPART, BINARY, EVENTS } form;
-    struct kd_live_frame *frame; /* whose bytes are on their way */
+    struct kd_live_frame *frame; /* the frame being sent */
     char before[64], next[96];
     struct part {
         const char *data;
@@ -233,7 +233,7 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
     }
 }
 
-/* Copies from what is left of the present frame. 0: nothing is. */
+/* Copies from the rest of the present frame. Returns 0 when it is complete. */
 static size_t take(struct stream *s, char *to, size_t size)
 {
     size_t n = 0;
@@ -266,7 +266,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
     case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
     case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
-    case KD_VIEWER_LATE: /* a sign of life, which also finds out who has left without a word */
+    case KD_VIEWER_LATE: /* a heartbeat, which also detects clients that have vanished */
         s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         memcpy(to, ":\n\n", 3);
         return 3;
@@ -294,15 +294,14 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     }
     setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
     MHD_add_response_header(response, "Content-Type", type);
-    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* The stream may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
+    /* A stream has no deadline; libmicrohttpd's timeout ends readers that stall. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }
 
-/* An EventSource that lost its connection says which frame it had last. A number that no frame has had counts as
- * none. */
+/* The number in Last-Event-ID, which an EventSource sends when it reconnects; 0 if no frame has had it. */
 static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -336,8 +335,8 @@ static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_f
                                      .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
-    /* A browser shows a part when the head of the next one has come. So that head follows each frame at once, and
-     * the first head comes alone. */
+    /* Browsers show a part only when the header of the next one arrives. So that header is sent right after each frame,
+     * and the first header before all frames. */
     snprintf(s->next, sizeof s->next, "\r\n--kerrd\r\nContent-Type: %s\r\n\r\n", kd_format_live()->media_type);
     if (form == MULTIPART)
         set_part(s, 0, s->next + 2, strlen(s->next + 2));

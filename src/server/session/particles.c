@@ -1,5 +1,5 @@
-/* GET /v1/sessions/ID/particles says where the particles of a session are, as numbers. They are listed a slice at a
- * time, between which others have the device. */
+/* GET /v1/sessions/ID/particles: positions of a session's particles as numbers. They are listed in slices, between
+ * which others use the device. */
 #include "scene/number.h"
 #include "base/clock.h"
 #include "server/http/reply.h"
@@ -13,11 +13,11 @@
 #include <string.h>
 
 #define TYPE "application/octet-stream"
-#define BYTES_MAX ((size_t)128 << 20) /* of one answer: 10 000 000 places are 114 MiB */
+#define BYTES_MAX ((size_t)128 << 20) /* of one answer; 10 000 000 positions are 114 MiB */
 
-/* A job belongs to its request. */
+/* Owned by its request. */
 struct kd_particles_job {
-    struct kd_render_job device; /* first */
+    struct kd_render_job device; /* first member */
     struct kd_request *request;
     struct kd_particle_list list;
     size_t done;
@@ -41,7 +41,7 @@ static size_t slice_of(const struct kd_particles_job *job)
     return left < KD_PARTICLE_LIST_SLICE ? left : KD_PARTICLE_LIST_SLICE;
 }
 
-/* Lists one slice, on the thread that has the device. */
+/* Lists one slice, on the thread that owns the device. */
 static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress,
                                  void *user)
 {
@@ -100,7 +100,8 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->device.error, false);
     }
     request->reply_bytes = job->rows.size;
-    struct MHD_Response *response = kd_reply_take(&job->rows, TYPE); /* stays counted as held while the request lives */
+    /* the bytes stay reserved until the request ends */
+    struct MHD_Response *response = kd_reply_take(&job->rows, TYPE);
     if (!response)
         return kd_reply_no_memory(request);
     describe(response, &job->list);
@@ -111,7 +112,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Memory for the answer, counted as held. */
+/* Allocates the answer and reserves its bytes. */
 static enum kd_status allocate(struct kd_particles_job *job, bool *quota, struct kd_error *error)
 {
     size_t bytes = job->list.n * kd_particle_list_row(&job->list);
@@ -160,8 +161,8 @@ static enum MHD_Result submit(struct kd_request *request)
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* The request is suspended first, as the job may be done before push returns. A suspended request and its socket
-     * outlive the job. */
+    /* Suspend first, because the job may be done before push returns. A suspended request and its socket outlive the
+     * job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
     return MHD_YES;

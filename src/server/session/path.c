@@ -1,5 +1,4 @@
-/* These routes are POST and DELETE of a session's path. A path is read, and looked along, by the workers in turns:
- * that takes milliseconds. */
+/* POST and DELETE of a session's path. Workers parse and check a path in slices, because that takes milliseconds. */
 #include "base/clock.h"
 #include "scene/members.h"
 #include "scene/tree.h"
@@ -14,14 +13,14 @@
 #include <string.h>
 
 #define PATH_VALUES 50000
-#define PATH_LOOKS 30 /* of up to a quarter of a millisecond */
+#define PATH_LOOKS 30 /* positions checked, each in up to a quarter of a millisecond */
 
 struct path_task {
-    struct kd_task task;  /* first */
-    struct kd_scene from; /* the scene as it was when the path was asked for */
+    struct kd_task task;  /* first member */
+    struct kd_scene from; /* the scene when the path was requested */
     struct kd_timeline path;
     bool read;
-    int look; /* the next one */
+    int look; /* next position to check */
 };
 
 static void finish(struct kd_task *task)
@@ -30,8 +29,8 @@ static void finish(struct kd_task *task)
     kd_timeline_finish(&p->path);
 }
 
-/* {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances",
- * "angles", "ease", "look_at"}, from the scene as it is. */
+/* Parses {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances",
+ * "angles", "ease", "look_at"}. It begins at the present scene. */
 static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out,
                                 struct kd_error *error)
 {
@@ -59,7 +58,7 @@ done:
     return status;
 }
 
-/* What keyframes may say together. */
+/* Checks rules that involve several keyframes. */
 static enum kd_status check_motion(const struct kd_timeline *path, struct kd_error *error)
 {
     bool fallen = false, rates = false;
@@ -88,7 +87,8 @@ static enum kd_status read_whole(struct path_task *p, struct kd_error *error)
     return status;
 }
 
-/* Whether all of it is possible, as far as some looks can tell. Frames on the way are planned anew. */
+/* Checks the scene at one position of the path. Frames are planned anew, so a failure between the positions shows up
+ * later. */
 static enum kd_status look(struct path_task *p, struct kd_error *error)
 {
     struct kd_capacity capacity;
@@ -139,7 +139,7 @@ static enum MHD_Result begin(struct kd_request *request, struct kd_session *sess
     return kd_task_submit(&p->task);
 }
 
-/* The path has been looked along. */
+/* Starts the path when all checks have passed. */
 static enum MHD_Result follow(struct kd_request *request, struct kd_session *session)
 {
     struct path_task *p = (struct path_task *)request->task;

@@ -1,4 +1,4 @@
-/* These routes are POST /v1/sessions, and GET, PATCH and DELETE of one. */
+/* Handlers of POST /v1/sessions, and of GET, PATCH and DELETE of a session. */
 #include "render/emit/motion.h"
 #include "render/emit/told.h"
 #include "render/output/clock.h"
@@ -20,7 +20,7 @@
 #include <strings.h>
 
 #define JSON_TYPE "application/json"
-#define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
+#define STRIKE_VALUES 16 /* most values in a ringdown's body, which has one field */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -46,7 +46,7 @@ const char *kd_session_varies_word(size_t index)
     return index < sizeof varying / sizeof *varying ? varying[index].word : NULL;
 }
 
-/* ["moves_with_time", ...]: what the scene would show of another time or azimuth. */
+/* Writes ["moves_with_time", ...]: which changes of time or azimuth change the picture. */
 static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
 {
     const unsigned varies = kd_emit_varies(scene);
@@ -61,9 +61,9 @@ done:
     return status;
 }
 
-/* {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}, on a path "path", while a
- * picture is made "rendering", or "refining" for a finer one, of one who falls "clock", and for who has just made it
- * the token. */
+/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Optional members: "path" on
+ * a path; "rendering" or "refining" while a frame is being made; "clock" in free fall; the token for the client that
+ * has just created the session. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token,
                               struct kd_buffer *out)
 {
@@ -88,7 +88,7 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
         struct kd_json json = kd_json_begin(out);
         kd_json_object(&json, NULL);
         kd_json_number(&json, "fraction", state->progress.fraction);
-        kd_json_number(&json, "remaining_s", state->progress.left_s); /* NAN: null */
+        kd_json_number(&json, "remaining_s", state->progress.left_s); /* NAN is written as null */
         kd_json_end(&json);
         KD_TRY(kd_json_finish(&json));
     }
@@ -132,7 +132,7 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
-/* A number of the query in these bounds; *value stays where the query does not say it. */
+/* Parses a query parameter as a number between the bounds. *value is unchanged if it is absent. */
 static enum kd_status read_number(const struct kd_request *request, const char *name, double low, double high,
                                   double *value, struct kd_error *error)
 {
@@ -149,8 +149,7 @@ static enum kd_status read_number(const struct kd_request *request, const char *
     return KD_OK;
 }
 
-/* The query may say how much of the asked width a frame has at least while the scene changes, and how long one may
- * take for that. *said: it does. */
+/* Parses the query's limits of quality reduction. *said: at least one is given. */
 static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said,
                                 struct kd_error *error)
 {
@@ -166,7 +165,7 @@ done:
     return status;
 }
 
-/* Whether the answer is that to an earlier request with this key, or why there is none. */
+/* Handles Idempotency-Key: true if *result answers the request, by the earlier session or a refusal. */
 static bool made_before(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_session_state state;
@@ -216,7 +215,8 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    if (request->status != MHD_HTTP_CREATED && !*request->once.key) /* nobody has been told of it, nor asks again */
+    /* the client does not know it and cannot ask again */
+    if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);
     return result;
@@ -230,7 +230,7 @@ static enum MHD_Result refuse_patch(struct kd_request *request, const struct kd_
     return kd_reply_problem(request, &problem);
 }
 
-/* The place of a patch among those that are under way at once. */
+/* Parses the order of a patch among concurrent ones. */
 static enum kd_status read_order(const struct kd_request *request, uint64_t *order, struct kd_error *error)
 {
     const char *text = kd_target_value(&request->target, "order");
@@ -241,7 +241,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     return KD_OK;
 }
 
-/* RFC 7240: whoever prefers return=minimal has the scene already. */
+/* With "Prefer: return=minimal" (RFC 7240) the client does not need the scene. */
 static bool prefers_little(struct kd_request *request)
 {
     struct kd_buffer prefer = kd_reply_header_list(request, "Prefer");
@@ -339,7 +339,8 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
     return result;
 }
 
-/* {"amplitude": x}, {} or nothing: *amplitude stays as it is. KD_EINVAL without a pointer: no JSON object. */
+/* Parses {"amplitude": x}, {} or an empty body; *amplitude is unchanged if absent. Returns KD_EINVAL without a pointer
+ * if it is no JSON object. */
 static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
 {
     cJSON *tree = NULL;

@@ -1,4 +1,4 @@
-/* The frames of sessions go through the render queue. */
+/* Renders sessions' frames through the render queue. */
 #include "base/clock.h"
 #include "server/session/internal.h"
 #include "server/session/sessions.h"
@@ -8,24 +8,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPOSURE_MS 2000.0 /* in which 63 % of a change of brightness is followed */
-#define IDLE_MS 5e3        /* after the latest change by hand: what else its client has asked for goes before it */
-#define SURE 0.02          /* of a picture, from which on it is said how long the rest takes */
-#define ENCODING_MAX 2     /* frames of a session behind the renderer: one is traced while one is encoded */
+#define EXPOSURE_MS 2000.0 /* time constant of auto exposure: it follows 63 % of a change in this time */
+#define IDLE_MS 5e3        /* after the latest change by hand, other work of the client takes precedence */
+#define SURE 0.02          /* part of a picture after which the remaining time is estimated */
+/* frames of a session that are rendered and not encoded, so that one is traced while another is encoded */
+#define ENCODING_MAX 2
 
 struct kd_session_frame {
-    struct kd_render_job job; /* first: the queue's pointer is ours */
+    struct kd_render_job job; /* first member: the queue stores a pointer to it */
     struct kd_session *session;
     uint64_t number;
     unsigned revision;
     double begun_ms;
     struct kd_turn turn;
-    struct kd_crowd *crowd; /* that its scene shows: held */
-    double fraction;        /* that is done */
-    bool rendered, last;    /* last: nothing finer follows, nor any other */
+    struct kd_crowd *crowd; /* the crowd in its scene; a reference */
+    double fraction;        /* part that is done */
+    bool rendered, last;    /* last: no refinement and no other frame follows */
 };
 
-/* These functions run with the lock where nothing else is said. */
+/* Functions are called with the lock unless a comment says otherwise. */
 
 static void progress(struct kd_render_job *job, double fraction);
 static void rendered(struct kd_render_job *job);
@@ -38,15 +39,15 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Auto exposure follows slowly where only time goes on. It goes by the few brightest pixels, which are now these
- * particles and now those: the picture would flicker with them. */
+/* Slows auto exposure while only time advances. It depends on the few brightest pixels, which show different particles
+ * from frame to frame, so the picture would flicker. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->exposure_from = s->exposure;
     plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
 }
 
-/* Makes the frame that the queue is to render. NULL: *error says why not. */
+/* Makes the frame for the queue. NULL: *error says why it cannot. */
 static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene,
                                            const struct kd_turn *turn, double now, struct kd_error *error)
 {
@@ -107,11 +108,12 @@ void kd_session_pump(struct kd_session *s)
     }
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
-    if (moves || s->moved || s->crowd_moved) /* what has come to rest since the latest frame differs from it too */
+    /* a scene that has come to rest since the latest frame differs from that frame too */
+    if (moves || s->moved || s->crowd_moved)
         kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);
     if (turn.wait_ms > 0)
-        return; /* the sweep comes back */
+        return; /* the sweep calls again */
     struct kd_session_frame *live = make_frame(s, &scene, &turn, now, &error);
     if (!live) {
         fail(s, &error);
@@ -156,7 +158,7 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
         cost->total_ms = ms;
 }
 
-/* The cost leaves encoding out: that overlaps with the next frame, and takes a tenth of the time or less
+/* Cost of a frame without its encoding, which overlaps with the next frame and takes a tenth of the time or less
  * (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_render_job *job)
 {
@@ -189,7 +191,7 @@ void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
     kd_governor_expect(&s->governor, &reused);
 }
 
-/* The render thread calls this without the lock. */
+/* On the render thread, without the lock. */
 static void progress(struct kd_render_job *job, double fraction)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -198,7 +200,7 @@ static void progress(struct kd_render_job *job, double fraction)
     pthread_mutex_unlock(&live->session->all->lock);
 }
 
-/* What is left takes as long as what is done has taken, waiting for others included. */
+/* Estimates the remaining time from the elapsed time, which includes waiting for others. */
 struct kd_session_progress kd_session_progress_of(const struct kd_session *s, double now)
 {
     const struct kd_session_frame *live = s->rendering;
@@ -211,7 +213,7 @@ struct kd_session_progress kd_session_progress_of(const struct kd_session *s, do
     };
 }
 
-/* The render thread calls this without the lock: the next frame may be traced while this one is encoded. */
+/* On the render thread, without the lock. The next frame may be traced while this one is encoded. */
 static void rendered(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -239,7 +241,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
 {
     double now = kd_clock_ms();
     if (s->latest && s->latest->number > live->number)
-        return; /* overtaken */
+        return; /* a newer frame has been published already */
     if (s->shown_ms > 0 && now - s->shown_ms < 1000)
         s->interval_ms += (s->interval_ms > 0 ? 0.2 : 1) * (now - s->shown_ms - s->interval_ms);
     else
@@ -249,7 +251,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
                                        s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
-        return; /* the next one may have more luck */
+        return; /* out of memory: the next frame is tried */
     kd_live_frame_release(s->latest);
     s->latest = frame;
     s->all->frames++;
@@ -258,7 +260,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_session_add_kinds(s);
 }
 
-/* A thread of the queue calls this, without the lock. */
+/* On a thread of the queue, without the lock. */
 static void done(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -277,7 +279,7 @@ static void done(struct kd_render_job *job)
         publish(s, live);
     else if (job->status != KD_ECANCELLED &&
              (job->status != KD_EDEVICE ||
-              kd_render_queue_lost(all->params.renders, NULL))) /* one that is opened again may show the next */
+              kd_render_queue_lost(all->params.renders, NULL))) /* after a reopened device the next frame may succeed */
         fail(s, &job->error);
     kd_session_pump(s);
     kd_session_let_go(s);

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNTS_MS 20. /* that who only wants to know may wait for the lock */
+#define COUNTS_MS 20. /* how long a reader of counts waits for the lock */
 
-#define TARGET_MS 33.0 /* of a frame while the scene changes */
+#define TARGET_MS 33.0 /* target duration of a frame while the scene changes */
 
 enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out,
                                   struct kd_error *error)
@@ -22,7 +22,7 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
     return KD_OK;
 }
 
-/* From here on functions run with the lock. */
+/* Functions from here on are called with the lock. */
 
 void kd_session_let_go(struct kd_session *s)
 {
@@ -69,7 +69,7 @@ enum kd_status kd_session_scene(const struct kd_session *s, double now, struct k
     return status;
 }
 
-/* The scene as far as it is known: where a path is no valid scene, the latest that was one. */
+/* The present scene; where the path's scene is not valid, the latest valid one. */
 static struct kd_scene scene_now(const struct kd_session *s, double now)
 {
     struct kd_scene scene;
@@ -77,7 +77,7 @@ static struct kd_scene scene_now(const struct kd_session *s, double now)
     return kd_session_scene(s, now, &scene, &error) ? s->on_path : scene;
 }
 
-/* From here on functions take the lock themselves. */
+/* Functions from here on take the lock. */
 
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {
@@ -119,7 +119,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
         return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a session");
     }
     s->all = all;
-    s->references = 2; /* the list's and the caller's */
+    s->references = 2; /* for the list and the caller */
     s->crowded = crowded;
     snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;
@@ -206,7 +206,7 @@ const char *kd_session_token(const struct kd_session *s) { return s->token; }
 
 bool kd_session_owned(const struct kd_session *s, const char *token) { return kd_secret_equal(s->token, token); }
 
-static unsigned viewers_of(const struct kd_session *s) /* locked */
+static unsigned viewers_of(const struct kd_session *s) /* called with the lock */
 {
     unsigned n = 0;
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -214,7 +214,7 @@ static unsigned viewers_of(const struct kd_session *s) /* locked */
     return n;
 }
 
-static void state(const struct kd_session *s, struct kd_session_state *out) /* locked */
+static void state(const struct kd_session *s, struct kd_session_state *out) /* called with the lock */
 {
     const double now = kd_clock_ms(), end = kd_timeline_end(&s->path);
     *out = (struct kd_session_state) { .scene = scene_now(s, now),
@@ -234,7 +234,7 @@ void kd_session_state(struct kd_session *s, struct kd_session_state *out)
     pthread_mutex_unlock(&s->all->lock);
 }
 
-/* The scene is another from now on. Locked. */
+/* Sets the scene. Called with the lock. */
 static void change(struct kd_session *s, double now, const struct kd_scene *scene, const struct kd_plan *plan)
 {
     s->scene = *scene;
@@ -254,13 +254,13 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
-    if (order && order <= s->order) { /* only the HTTP thread writes it */
+    if (order && order <= s->order) { /* only the HTTP thread writes s->order */
         kd_session_state(s, out);
         return KD_OK;
     }
     pthread_mutex_lock(&s->all->lock);
     struct kd_scene scene = scene_now(s, now);
-    pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
+    pthread_mutex_unlock(&s->all->lock); /* the scene cannot change meanwhile: only the HTTP thread patches */
     enum kd_status status;
     KD_TRY(kd_scene_patch(&scene, text, length, error));
     KD_TRY(kd_scene_resolve(&scene, s->all->params.assets, error));
@@ -371,7 +371,7 @@ enum kd_status kd_session_stop(struct kd_session *s, struct kd_error *error)
     pthread_mutex_lock(&s->all->lock);
     const bool goes = s->path.n_keys;
     const struct kd_scene scene = scene_now(s, now);
-    pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread changes what that is */
+    pthread_mutex_unlock(&s->all->lock); /* the scene cannot change meanwhile: only the HTTP thread changes it */
     enum kd_status status = KD_OK;
     if (!goes)
         return status;

@@ -1,4 +1,4 @@
-/* Viewers of a session, and what happens to sessions as time goes by. */
+/* Viewers of sessions, and the periodic sweep. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/session/internal.h"
@@ -7,9 +7,9 @@
 #include <poll.h>
 #include <stdlib.h>
 
-#define LOOK_MS 1000.0 /* how late a client that has hung up may be noticed */
+#define LOOK_MS 1000.0 /* interval of checks for disconnected clients */
 
-/* With the lock. */
+/* Called with the lock. */
 static void wake(struct kd_viewer *viewer)
 {
     if (!viewer->waiting)
@@ -65,7 +65,7 @@ void kd_viewer_detach(struct kd_viewer *viewer)
     viewer->session = NULL;
 }
 
-/* Hands over a reference. */
+/* Stores a reference to the frame in *out. */
 static void give(struct kd_viewer *viewer, struct kd_live_frame *frame, struct kd_live_frame **out)
 {
     kd_live_frame_release(viewer->owed);
@@ -75,7 +75,7 @@ static void give(struct kd_viewer *viewer, struct kd_live_frame *frame, struct k
     *out = frame;
 }
 
-/* With the lock. */
+/* Called with the lock. */
 static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
 {
     struct kd_session *s = viewer->session;
@@ -96,12 +96,12 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         give(viewer, owed, frame);
         return KD_VIEWER_FRAME;
     }
-    if (viewer->late && !newer) { /* else it comes as soon as it has been encoded as the viewer takes it */
+    if (viewer->late && !newer) { /* otherwise the frame comes as soon as its encoding is done */
         viewer->late = false;
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    MHD_suspend_connection(viewer->mhd); /* before anybody can wake it: that takes the lock */
+    MHD_suspend_connection(viewer->mhd); /* before a wake-up can happen, which needs the lock */
     kd_session_add_kinds(s);
     kd_session_pump(s);
     return KD_VIEWER_LATER;
@@ -115,7 +115,7 @@ enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_fram
     return what;
 }
 
-static void sweep_deadlines(struct kd_session *s, double now) /* locked */
+static void sweep_deadlines(struct kd_session *s, double now) /* called with the lock */
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && now > v->deadline_ms) {
@@ -124,7 +124,7 @@ static void sweep_deadlines(struct kd_session *s, double now) /* locked */
         }
 }
 
-/* Asks about all waiting sockets in one call: hundreds of idle viewers cost nothing that can be measured. With the
+/* Polls all waiting sockets in one call, so that hundreds of idle viewers have no measurable cost. Called with the
  * lock. */
 static void sweep_gone(struct kd_sessions *all)
 {
