@@ -20,8 +20,8 @@ struct kd_replacing {
     int folder, fd;
     char temporary[NAME_MAX + 1];
 };
-bool kd_replace_begin(int folder, const char *name,
-                      struct kd_replacing *out); /* the caller keeps the folder open and closes it */
+/* the caller keeps the folder open and closes it */
+bool kd_replace_begin(int folder, const char *name, struct kd_replacing *out);
 bool kd_replace_append(struct kd_replacing *file, const void *data, size_t size);
 bool kd_replace_commit(struct kd_replacing *file, const char *name); /* ends it, also on failure */
 void kd_replace_abandon(struct kd_replacing *file);

@@ -30,8 +30,8 @@ struct kd_waiting kd_waiting_now(void)
     DIR *tasks = opendir("/proc/self/task");
     if (!tasks)
         return sum;
-    for (const struct dirent *task = readdir(tasks); task;
-         task = readdir(tasks)) /* readdir is safe here: this call alone uses the stream */
+    /* readdir is safe here: this call alone uses the stream */
+    for (const struct dirent *task = readdir(tasks); task; task = readdir(tasks))
         add(&sum, dirfd(tasks), task->d_name);
     closedir(tasks);
     return sum;

@@ -92,8 +92,8 @@ static double slope(const struct column *c, size_t key)
 static double cubic(const struct column *c, size_t key, double t, double from, double to)
 {
     double h = apart(c, key), m0 = h * slope(c, key), m1 = h * slope(c, key + 1);
-    return from +
-           t * (m0 + t * (3 * (to - from) - 2 * m0 - m1 + t * (m0 + m1 - 2 * (to - from)))); /* Hermite's cubic */
+    /* Hermite's cubic */
+    return from + t * (m0 + t * (3 * (to - from) - 2 * m0 - m1 + t * (m0 + m1 - 2 * (to - from))));
 }
 
 static double between(const struct column *c, size_t key, double t)
@@ -103,8 +103,8 @@ static double between(const struct column *c, size_t key, double t)
         return c->ratios ? exp(from) : from;
     double value = c->by == KD_LINEAR ? from + t * (to - from) : cubic(c, key, t, from, to);
     if (c->by != KD_CATMULL_ROM)
-        value = fmax(fmin(from, to),
-                     fmin(fmax(from, to), value)); /* the monotone cubic lies between them, but rounding may exceed */
+        /* the monotone cubic lies between them, but rounding may exceed */
+        value = fmax(fmin(from, to), fmin(fmax(from, to), value));
     if (c->turns && !(value >= c->field->minimum && value <= c->field->maximum))
         value = remainder(value, 360);
     return c->ratios ? exp(value) : value;
