@@ -246,8 +246,8 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
-    /* t grows as 1/w^2, so a single step in w is inaccurate there */
-    double pace = sqrt(fmax(kd_orbit_radial(&run->orbit, run->aim), 0));
+    double pace = sqrt(
+        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
         return kd_error_field(
             error, "/r_max", "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
