@@ -11,7 +11,7 @@ unsigned kd_cores(void)
     return sched_getaffinity(0, sizeof set, &set) ? 1 : (unsigned)CPU_COUNT(&set);
 }
 
-/* Threads that run or want to, this one among them: the first number of "0.20 0.18 0.12 1/80 11206". */
+/* Number of runnable threads, including this one: the first number of "1/80" in "0.20 0.18 0.12 1/80 11206". */
 static long running(void)
 {
     char text[128];

@@ -1,12 +1,12 @@
-/* The number of processor cores. Any thread. */
+/* Counts processor cores, all and idle. Any thread. */
 #ifndef KD_BASE_CORES_H
 #define KD_BASE_CORES_H
 
-unsigned kd_cores(void); /* that this process may run on: those of its affinity, at least 1 */
+unsigned kd_cores(void); /* cores in the process's affinity mask, at least 1 */
 
-/* How many of these nobody uses at this moment, the calling thread's own not counted; negative if more threads want to
- * run than there are cores. Threads of all processes count (proc_loadavg(5)); where this process may run on a part of
- * the machine's cores alone, the rest is taken to be as busy. Without /proc: all cores but the caller's. */
+/* Number of these cores that are idle now, not counting the calling thread's own; negative if more threads want to
+ * run than there are cores. Threads of all processes count (proc_loadavg(5)). If the process may use only some of
+ * the machine's cores, the others are taken to be as busy. Without /proc: all cores but the caller's. */
 int kd_cores_idle(void);
 
 #endif

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Giulietti's g(k): the 128 leading bits of 10^k, rounded up where they are not all of it. */
+/* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless exact. */
 #define K_MIN (-292)
 #define K_MAX 324
-#define WORDS 38 /* of 32 bits: 10^324 has 1077, and 2^1152/10^292 still has 183 */
+#define WORDS 38 /* words of 32 bits: 10^324 has 1077 bits, and 2^1152/10^292 still has 183 */
 
 struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];
@@ -64,7 +64,7 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    down.word[WORDS - 2] = 1; /* repeated floors are the floor of the whole quotient */
+    down.word[WORDS - 2] = 1; /* the floor of repeated divisions is the floor of the whole quotient */
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);
@@ -85,7 +85,7 @@ struct decimal {
     int exponent;
 };
 
-/* Finds the shortest decimal that reads back as c 2^q. The names are the paper's. */
+/* Finds the shortest decimal that reads back as c 2^q. Names follow the paper. */
 static struct decimal shortest(uint64_t c, int q, int lower_is_closer)
 {
     uint64_t odd = c & 1;
@@ -186,7 +186,7 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
     }
     struct decimal d = take_apart(fabs(value));
     size_t n = write_digits(digits, d.digits);
-    int exponent = d.exponent + (int)n - 1; /* of the first digit */
+    int exponent = d.exponent + (int)n - 1; /* exponent of the first digit */
     used += exponent < -5 || exponent > 16 ? write_scientific(out + used, digits, n, exponent)
                                            : write_plain(out + used, digits, n, exponent);
     out[used] = 0;
@@ -195,8 +195,8 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
 
 double kd_decimal_round(double value, int digits)
 {
-    /* Powers of ten up to 10^22 and whole numbers up to 10^15 are exact as doubles, so that one division or product
-     * rounds once. */
+    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles, so that one division or product
+     * rounds only once. */
     static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     const int most = sizeof exact / sizeof *exact - 1;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A pointer that has been cut off may end in the middle of a character, or of an escape. */
+/* A pointer that was cut off may end within a character or an escape. */
 static void mend_pointer(char *pointer)
 {
     kd_utf8_mend(pointer);
@@ -22,7 +22,8 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->retry_s = 0;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
-    mend_pointer(error->pointer); /* both may quote what is no text; a pointer is for programs */
+    /* Both may quote invalid text. The pointer is for programs and keeps control characters. */
+    mend_pointer(error->pointer);
     kd_utf8_show(error->message);
 }
 

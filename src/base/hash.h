@@ -7,7 +7,7 @@
 
 #define KD_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
 
-/* The hash of all bytes so far, KD_HASH_BEGIN of none, and of these after them. */
+/* Extends a hash by `size` bytes. The hash of no bytes is KD_HASH_BEGIN. */
 static inline uint64_t kd_hash(uint64_t hash, const void *data, size_t size)
 {
     const unsigned char *bytes = data;

@@ -48,7 +48,7 @@ static void put_string(struct kd_json *json, const char *text)
     put(json, "\"", 1);
 }
 
-/* The comma and the name before a value. */
+/* Writes the comma and the name before a value. */
 static void lead(struct kd_json *json, const char *name)
 {
     if (!json->depth) {

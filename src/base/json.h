@@ -1,4 +1,4 @@
-/* Writes JSON documents, which are checked once at the end. One thread a document.
+/* Writes JSON documents. Errors are checked once, at the end. One thread a document.
  *
  *     struct kd_json json = kd_json_begin(out);
  *     kd_json_object(&json, NULL);
@@ -9,9 +9,8 @@
  *     kd_json_end(&json);
  *     return kd_json_finish(&json);
  *
- * After a first failure nothing more is written. kd_json_finish says so and takes back all that the document has
- * appended: a document is whole or not there. `name` is the member's in an object, NULL in an array and of the
- * outermost value. */
+ * After the first failure nothing more is written; kd_json_finish returns the status and removes the partial
+ * document. `name` is the member's name within an object, and NULL within an array and for the outermost value. */
 #ifndef KD_BASE_JSON_H
 #define KD_BASE_JSON_H
 
@@ -23,24 +22,24 @@ enum { KD_JSON_DEPTH = 32 };
 
 struct kd_json {
     struct kd_buffer *out;
-    enum kd_status
-        status;   /* KD_ENOMEM: no memory; KD_EINVAL: objects and arrays do not fit together, the caller's mistake */
+    /* KD_ENOMEM: out of memory. KD_EINVAL: objects and arrays are nested wrongly, the caller's mistake. */
+    enum kd_status status;
     size_t begun; /* out->size before the document */
     unsigned depth;
-    bool lines; /* a member a line, for readers */
+    bool lines; /* one member a line, for human readers */
     struct { bool array, filled; } open[KD_JSON_DEPTH];
 };
 
 /* Appends to out, whose earlier bytes stay. */
 struct kd_json kd_json_begin(struct kd_buffer *out);
-/* The same with a line for each value. */
+/* The same, with each value on a line of its own. */
 struct kd_json kd_json_begin_lines(struct kd_buffer *out);
 
 void kd_json_object(struct kd_json *json, const char *name);
 void kd_json_array(struct kd_json *json, const char *name);
 void kd_json_end(struct kd_json *json); /* ends the innermost object or array */
 
-/* The fewest digits that read back the same; null if it is infinite or none. */
+/* The fewest digits that read back as the same double; null if it is infinite or NaN. */
 void kd_json_number(struct kd_json *json, const char *name, double value);
 /* text is UTF-8. */
 void kd_json_string(struct kd_json *json, const char *name, const char *text);
@@ -50,6 +49,6 @@ void kd_json_null(struct kd_json *json, const char *name);
 void kd_json_raw(struct kd_json *json, const char *name, const char *text, size_t length);
 
 enum kd_status kd_json_finish(struct kd_json *json);
-enum kd_status kd_json_finish_line(struct kd_json *json); /* the same, and a line feed behind it */
+enum kd_status kd_json_finish_line(struct kd_json *json); /* the same, followed by a line feed */
 
 #endif

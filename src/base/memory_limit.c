@@ -6,10 +6,10 @@
 #include <string.h>
 #include <sys/resource.h>
 
-/* One version of control groups: where its files say what. */
+/* A version of control groups: the names of its files and keys. */
 struct version {
-    const char *filesystem, *controller; /* in mountinfo; NULL: any */
-    const char *most, *used, *idle;      /* files, and the key in memory.stat */
+    const char *filesystem, *controller; /* as in mountinfo; NULL: any */
+    const char *most, *used, *idle;      /* file of the limit, file of the use, key in memory.stat */
     const char *by;
 };
 static const struct version versions[] = {
@@ -18,7 +18,8 @@ static const struct version versions[] = {
       "the memory.limit_in_bytes of a control group" },
 };
 
-/* The number after a key, as "key 12" or "key: 12 kB"; key "": the file holds but a number. False for "max" as well. */
+/* Reads the number after a key, as in "key 12" or "key: 12 kB". key "": the file holds a number only. False for
+ * "max" as well. */
 static bool number_in(const char *root, const char *path, const char *key, uint64_t *out)
 {
     char name[PATH_MAX], line[256];
@@ -51,7 +52,7 @@ static bool list_holds(char *list, const char *word)
     return false;
 }
 
-/* Reads, from a mountinfo line whose file system is that of the version, which group is mounted there, and where. */
+/* Reads the mounted group and its mount point from a mountinfo line of this version's file system. */
 static bool read_mount(char *line, const struct version *version, char *group, char *mount)
 {
     char filesystem[32], options[256];
@@ -62,7 +63,7 @@ static bool read_mount(char *line, const struct version *version, char *group, c
            sscanf(line, "%*s %*s %*s %1023s %1023s", group, mount) == 2;
 }
 
-/* Reads the process's group from a line of /proc/self/cgroup, "4:memory:/group" or, in version 2, "0::/group". */
+/* Reads the process's group from a line of /proc/self/cgroup: "4:memory:/group" or, in version 2, "0::/group". */
 static bool read_group(char *line, const struct version *version, char *group)
 {
     char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;
@@ -75,16 +76,16 @@ static bool read_group(char *line, const struct version *version, char *group)
     return true;
 }
 
-/* One of the lists that the kernel keeps of a process. */
+/* Opens a file of /proc. */
 static FILE *open_list(const char *root, const char *path)
 {
     char name[PATH_MAX];
     return snprintf(name, sizeof name, "%s%s", root, path) < (int)sizeof name ? fopen(name, "re") : NULL;
 }
 
-/* Finds the folder of the process's group, and how many of its characters are the mount's. In a container the mount
- * may show only a part of the tree; the path in /proc/self/cgroup then names the whole way, or something that is not
- * seen here. */
+/* Finds the folder of the process's group, and the length of the mount point within that path. In a container the
+ * mount may show only part of the tree; the path in /proc/self/cgroup is then relative to the whole tree, or names a
+ * group that is not visible here. */
 static bool find_group(const char *root, const struct version *version, char *folder, size_t size, size_t *mount_length)
 {
     char line[4096], mounted[1024], mount[1024], group[1024];
@@ -110,7 +111,7 @@ static bool find_group(const char *root, const struct version *version, char *fo
     return snprintf(folder, size, "%s%s", mount, strcmp(below, "/") ? below : "") < (int)size;
 }
 
-/* What one group leaves; UINT64_MAX where it sets no limit. */
+/* Bytes that one group leaves; UINT64_MAX if it sets no limit. */
 static uint64_t left_in(const char *root, const char *folder, const struct version *version)
 {
     char path[PATH_MAX];
@@ -126,7 +127,7 @@ static uint64_t left_in(const char *root, const char *folder, const struct versi
     return used < most ? most - used : 0;
 }
 
-/* From the process's group up to the mount: each of them may set a limit. */
+/* Minimum over the process's group and its ancestors up to the mount: each may set a limit. */
 static void least_of_groups(const char *root, const struct version *version, struct kd_memory_limit *least)
 {
     char folder[2560];

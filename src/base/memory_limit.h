@@ -10,18 +10,18 @@
 #include <stdint.h>
 
 struct kd_memory_limit {
-    uint64_t left; /* bytes that it may take beside those it holds */
-    uint64_t own;  /* bytes that it holds: its resident memory but for files; 0 where that cannot be read */
-    const char
-        *by; /* what sets it, for a sentence: "the memory that is available", "the memory.max of a control group" */
+    uint64_t left; /* bytes that the process may still allocate */
+    uint64_t own;  /* bytes of resident memory not backed by files; 0 if unknown */
+    /* Which limit applies, for a message: "the memory that is available", "the memory.max of a control group". */
+    const char *by;
 };
 
-/* Returns the bytes that the limits of the address space (RLIMIT_AS, `ulimit -v`) and of data (RLIMIT_DATA, `ulimit
- * -d`) leave; UINT64_MAX: neither is set, or what is used cannot be read. */
+/* Bytes left by the limits of the address space (RLIMIT_AS, `ulimit -v`) and of data (RLIMIT_DATA, `ulimit -d`).
+ * UINT64_MAX: neither is set, or the use cannot be read. */
 uint64_t kd_address_space_left(void);
 
-/* False if not even MemAvailable can be read: out of descriptors, no /proc. root comes before each path: "" but in
- * tests. */
+/* False if not even MemAvailable can be read: no descriptors are left, or /proc is missing. root: a prefix of each
+ * path, "" except in tests. */
 bool kd_memory_limit_read(const char *root, struct kd_memory_limit *out);
 
 #endif

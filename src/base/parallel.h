@@ -8,16 +8,15 @@
 
 #define KD_PARALLEL_THREADS 16
 
-/* On as many threads as there are cores, at most KD_PARALLEL_THREADS. */
+/* Uses as many threads as there are cores, at most KD_PARALLEL_THREADS. */
 void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user);
 
-/* On as many cores as are idle, for items of some 100 us or more: before each of its items the caller starts threads
- * for cores that are idle, and a thread that it started ends after an item if more threads want to run than there are
- * cores. All calls together start at most one thread less than there are cores. */
+/* Uses idle cores only; for items of about 100 us or more. Before each of its items the caller starts a thread for
+ * each idle core. A started thread ends after an item if more threads want to run than there are cores. All calls
+ * together start at most one thread less than there are cores. */
 void kd_parallel_idle(size_t n, void (*each)(void *user, size_t item), void *user);
 
-/* kd_parallel_idle runs on this many threads if the calling thread sets it, however busy the cores are: for tests and
- * benchmarks. 0: by idle cores. */
+/* For tests and benchmarks: kd_parallel_idle uses this many threads, however busy the cores are. 0: idle cores only. */
 extern _Thread_local unsigned kd_parallel_threads;
 
 #endif

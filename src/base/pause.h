@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-extern _Thread_local void (*kd_pause_hook)(void); /* NULL: this thread shares nothing */
+extern _Thread_local void (*kd_pause_hook)(void); /* NULL: this thread serves one request only */
 
 static inline void kd_pause(void)
 {
@@ -14,7 +14,7 @@ static inline void kd_pause(void)
         kd_pause_hook();
 }
 
-/* In a loop: each n-th time. */
+/* Pauses at every n-th i of a loop. */
 static inline void kd_pause_every(uint64_t i, uint64_t n)
 {
     if (i % n == 0)

@@ -16,8 +16,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PIPE_BYTES (1 << 20) /* what fits is what is written between two looks */
-#define NICE 10              /* pictures that somebody waits for come first */
+#define PIPE_BYTES (1 << 20) /* pipe capacity: what is written between two polls should fit */
+#define NICE 10              /* pictures that users wait for come first */
 
 extern char **environ;
 
@@ -28,7 +28,7 @@ static void shut(int *fd)
     *fd = -1;
 }
 
-/* A pipe, of which neither end goes to another program, and ours never waits. */
+/* Makes a pipe: both ends close on exec, and our end is non-blocking. */
 static bool make_pipe(int *ours, int *its, bool we_write)
 {
     int ends[2];
@@ -51,7 +51,7 @@ static int close_others(posix_spawn_file_actions_t *files)
     DIR *all = opendir("/proc/self/fd");
     int code = all ? 0 : errno;
     for (struct dirent *one; !code && (one = readdir(all));) {
-        const int fd = atoi(one->d_name); /* 0 of "." and ".." */
+        const int fd = atoi(one->d_name); /* atoi gives 0 for "." and ".." */
         if (fd >= 4 && fd != dirfd(all) && !(fcntl(fd, F_GETFD) & FD_CLOEXEC))
             code = posix_spawn_file_actions_addclose(files, fd);
     }
@@ -61,7 +61,8 @@ static int close_others(posix_spawn_file_actions_t *files)
 }
 #endif
 
-/* Descriptors may be numbered 0 to 3 already where ours were closed at the start: each goes out of the way first. */
+/* If kerrd was started with descriptors 0 to 2 closed, the given ones may have numbers up to 3 and be overwritten
+ * here; kd_program_start moves them out of the way first. */
 static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid)
 {
     posix_spawn_file_actions_t files;
@@ -80,8 +81,8 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
-                                       POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for us, who then end it */
+    /* A process group of its own: Ctrl-C reaches kerrd only, which then ends the program. */
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, out, 3)) &&
@@ -93,7 +94,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     return code;
 }
 
-/* A copy above those that the program has. */
+/* Moves a descriptor to 4 or above, beyond those that the program uses. */
 static bool lift(int *fd)
 {
     int high = fcntl(*fd, F_DUPFD_CLOEXEC, 4);
@@ -128,7 +129,7 @@ enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most
                    ? 0
                    : errno;
     if (!code) {
-        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* refused, it is 64 KiB */
+        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* if refused, it stays 64 KiB */
         code = spawn(argv, in, told, to, &program->pid);
     }
     shut(&in);
@@ -155,8 +156,8 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* The beginning of what it says is kept, where the reason mostly is, and the end, where a full disk is told. Closes the
- * pipe where nobody has its other end any more. */
+/* Reads its standard error. The beginning is kept, where the reason mostly is, and the end, where a full disk is
+ * reported. Closes the pipe at its end of file. */
 static void listen_to(struct kd_program *p)
 {
     char part[256];
@@ -166,7 +167,7 @@ static void listen_to(struct kd_program *p)
         memcpy(p->said + p->n_said, part, keep);
         p->n_said += keep;
         p->said[p->n_said] = 0;
-        if (p->n_last + (size_t)n >= sizeof p->last) { /* its older half makes way */
+        if (p->n_last + (size_t)n >= sizeof p->last) { /* drop its older half */
             const size_t kept = sizeof p->last / 2;
             memmove(p->last, p->last + p->n_last - kept, kept);
             p->n_last = kept;
@@ -179,11 +180,11 @@ static void listen_to(struct kd_program *p)
         shut(&p->told);
 }
 
-/* Its group has its number: while it has not been waited for, nobody else gets that. */
+/* Kills the program's process group. Its id cannot be reused before waitpid. */
 static void end_group(const struct kd_program *p)
 {
     kill(-p->pid, SIGKILL);
-    kill(p->pid, SIGKILL); /* before it has a group of its own */
+    kill(p->pid, SIGKILL); /* in case it has no group of its own yet */
 }
 
 bool kd_program_over(struct kd_program *p, int *code)
@@ -191,7 +192,7 @@ bool kd_program_over(struct kd_program *p, int *code)
     siginfo_t about = { 0 };
     int status;
     *code = -1;
-    if (p->pid <= 0) /* it is over already */
+    if (p->pid <= 0) /* it has ended already */
         return true;
     listen_to(p);
     if (!waitid(P_PID, (id_t)p->pid, &about, WEXITED | WNOHANG | WNOWAIT) && !about.si_pid)
@@ -206,7 +207,7 @@ bool kd_program_over(struct kd_program *p, int *code)
     return true;
 }
 
-/* Milliseconds of a processor that it has used, without its children. */
+/* Processor time in ms that it has used, without its children. */
 static double used_ms(const struct kd_program *p)
 {
     clockid_t clock;
@@ -237,7 +238,7 @@ static bool begins_path(const char *at)
     return *at == '/' && (unsigned char)at[1] > ' ';
 }
 
-/* Behind a control character, or a whole escape sequence (ECMA-48, 5.4). */
+/* Skips a control character, or a whole escape sequence (ECMA-48, 5.4). */
 static const char *skip_control(const char *at)
 {
     if (at[0] != '\x1b' || at[1] != '[')
@@ -255,7 +256,7 @@ void kd_program_reason(const struct kd_program *p, char out[300])
     while (*at && *at != '\n' && *at != '\r' && n < 300 - 5) {
         if ((unsigned char)*at < ' ' || *at == 0x7f)
             at = skip_control(at);
-        else if (!strncmp(at, " @ 0x", 5)) /* where in its memory something lies */
+        else if (!strncmp(at, " @ 0x", 5)) /* an address in its memory */
             at += 5 + strspn(at + 5, "0123456789abcdefABCDEF");
         else if (strchr(before, last) && begins_path(at)) {
             at += strcspn(at, after);

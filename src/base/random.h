@@ -6,9 +6,9 @@
 
 #define KD_RANDOM_STEP 0x9e3779b97f4a7c15u
 
-struct kd_random { uint64_t state; }; /* begins at a seed */
+struct kd_random { uint64_t state; }; /* initialise with the seed */
 
-/* The next one, uniform in [0, 1). */
+/* The next number, uniform in [0, 1). */
 static inline double kd_random(struct kd_random *random)
 {
     uint64_t x = random->state += KD_RANDOM_STEP;
@@ -17,7 +17,7 @@ static inline double kd_random(struct kd_random *random)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/* Number *n of those that begin at a seed, from 0 on; *n goes on by one. */
+/* Random number *n (from 0) of the sequence of this seed; increments *n. */
 static inline double kd_random_drawn(uint64_t seed, uint64_t *n)
 {
     struct kd_random random = { seed + (*n)++ * KD_RANDOM_STEP };

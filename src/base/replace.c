@@ -13,7 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define STALE_S 3600 /* without a change; by then a file of ours is written, however slow the disk */
+#define STALE_S 3600 /* seconds since the last change; no write takes that long, even to a slow disk */
 
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
@@ -46,7 +46,7 @@ static bool write_all(int fd, const void *data, size_t size)
     return true;
 }
 
-/* An empty file beside the name. */
+/* Creates an empty temporary file beside `name`. */
 static int open_temporary(int folder, const char *name, char out[NAME_MAX + 1])
 {
     unsigned char random[KD_TEMPORARY_TAIL - (sizeof KD_TEMPORARY_MARK - 1)];
@@ -94,8 +94,8 @@ bool kd_replace_commit(struct kd_replacing *file, const char *name)
     int cause = errno;
     if (!good)
         unlinkat(file->folder, file->temporary, 0);
-    /* The new name is as good as the old one without this, but a power cut may bring the old one back. Some file
-     * systems have no such call for folders. */
+    /* Makes the rename durable: otherwise a power cut may bring the old file back. Some file systems do not support
+     * fsync of folders. */
     if (good && fsync(file->folder) && errno != EINVAL && errno != EROFS)
         cause = errno, good = false;
     errno = cause;
@@ -121,8 +121,7 @@ bool kd_replace_file_at(int folder, const char *name, const void *data, size_t s
     return false;
 }
 
-/* Removes what killed processes have left half written. A file that was touched a moment ago is still being written,
- * and stays. */
+/* Removes temporary files that killed processes left. A recently changed one may still be being written, and stays. */
 static void remove_stale(int folder, const char *name)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -4,15 +4,15 @@
 
 enum { KD_SLIP_FAR = 1000 };
 
-/* Edit distance (Damerau and Levenshtein: two neighbours that have changed places are one edit) to a name of ours,
- * all lower case; KD_SLIP_FAR for names longer than any of ours. */
+/* Edit distance of Damerau and Levenshtein: a swap of two neighbouring letters is one edit. `known` is lower case.
+ * KD_SLIP_FAR if either name is longer than 40 bytes, more than any name of kerrd has. */
 int kd_slip_distance(const char *given, const char *known);
 
-/* The same, and KD_SLIP_FAR unless near enough to be a slip: one edit in three letters, or the name without its
- * unit. */
+/* The same, but KD_SLIP_FAR if the distance exceeds a third of given's length. A name without its unit has distance
+ * 1. */
 int kd_slip(const char *given, const char *known);
 
-/* The nearest of the names offered; `name` stays NULL if none is near. Begin with { 0 }. */
+/* The nearest of the names offered so far; `name` stays NULL if none is near. Initialise with { 0 }. */
 struct kd_slip_best {
     const char *name;
     int score;

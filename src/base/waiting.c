@@ -16,7 +16,7 @@ static void add(struct kd_waiting *sum, int tasks, const char *task)
     if (file >= 0)
         close(file);
     if (n <= 0)
-        return; /* the thread has ended since */
+        return; /* the thread has ended meanwhile */
     text[n] = 0;
     if (sscanf(text, "%lf %lf", &ran, &waited) == 2) {
         sum->ran_ns += ran;
@@ -30,7 +30,8 @@ struct kd_waiting kd_waiting_now(void)
     DIR *tasks = opendir("/proc/self/task");
     if (!tasks)
         return sum;
-    for (const struct dirent *task = readdir(tasks); task; task = readdir(tasks)) /* a stream of this call's own */
+    /* readdir is safe here: this call alone uses the stream */
+    for (const struct dirent *task = readdir(tasks); task; task = readdir(tasks))
         add(&sum, dirfd(tasks), task->d_name);
     closedir(tasks);
     return sum;
@@ -40,5 +41,5 @@ double kd_waiting_share(const struct kd_waiting *since)
 {
     struct kd_waiting now = kd_waiting_now();
     double ran = now.ran_ns - since->ran_ns, waited = now.waited_ns - since->waited_ns;
-    return ran > 0 && waited > 0 ? ran / (ran + waited) : 1; /* less than before: threads ended */
+    return ran > 0 && waited > 0 ? ran / (ran + waited) : 1; /* a negative difference means that threads ended */
 }

@@ -5,13 +5,13 @@
 #define KD_BASE_WAITING_H
 
 struct kd_waiting {
-    double ran_ns, waited_ns; /* summed over the threads that live; both 0 where the kernel does not say */
+    double ran_ns, waited_ns; /* summed over the living threads; both 0 where the kernel does not report them */
 };
 
 struct kd_waiting kd_waiting_now(void);
 
-/* The share of the time since in which threads that could run did run: 1 when nobody else wants the cores, or
- * nothing is known. */
+/* Share of runnable time since `since` in which the threads ran. 1 when the cores are uncontended, or when nothing
+ * is known. */
 double kd_waiting_share(const struct kd_waiting *since);
 
 #endif

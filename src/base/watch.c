@@ -17,16 +17,16 @@
 enum { HELD = 16, KNOWN = 1 << 14, DEPTH = 24 };
 
 static _Thread_local bool answers;
-static _Thread_local double turn_ms; /* when the turn began */
+static _Thread_local double turn_ms; /* thread time at which the slice began */
 static _Thread_local struct {
     const void *lock;
     double since_ms;
 } held[HELD];
 static _Thread_local unsigned n_held;
-/* Locks by their addresses, and what has been done with them since they were made. A place that another lock has is
- * that one's: a rule may then be broken unseen. */
+/* Hash table of locks by address, with flags of what happened while they were held. A lock that hashes to a taken
+ * slot replaces the other, so that a violation may be missed. */
 enum { ANSWERED = 1, SYNCED = 2 };
-static _Atomic uintptr_t known[KNOWN]; /* the address, and in its lowest bits the two */
+static _Atomic uintptr_t known[KNOWN]; /* the address, with the two flags in its lowest bits */
 
 static double used_ms(void)
 {
@@ -35,7 +35,7 @@ static double used_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-/* The program says what is broken and goes on. */
+/* KERRD_WATCH=tell: report violations and continue. */
 static bool tells(void)
 {
     const char *how = getenv("KERRD_WATCH");
@@ -55,7 +55,7 @@ static void broken(const char *rule, double ms)
 
 static _Atomic uintptr_t *place_of(const void *lock) { return &known[((uintptr_t)lock >> 4) * 2654435761u % KNOWN]; }
 
-/* Notes what is done with a lock; returns all that has been. */
+/* Sets a flag of a lock; returns all its flags. */
 static unsigned note(const void *lock, unsigned what)
 {
     _Atomic uintptr_t *place = place_of(lock);
@@ -78,8 +78,8 @@ static void taken(const void *lock)
     n_held++;
 }
 
-/* Time that others have had counts as a thread's own on a machine that is shared: a rule is broken by four times as
- * much as it allows, or by a thread's third time. */
+/* On a shared machine, time taken by others can count as a thread's own. So a limit is broken only by four times its
+ * value, or by a thread's third excess. */
 static void too_long(const char *rule, double ms, double most_ms)
 {
     static _Thread_local unsigned times;
@@ -115,7 +115,7 @@ void kd_watch_turn_begins(void) { turn_ms = used_ms(); }
 
 void kd_watch_turn_ends(void) { too_long("a worker's turn is too long", used_ms() - turn_ms, TURN_MS); }
 
-/* Where the linker leads the calls. */
+/* The linker's --wrap: our calls go to __wrap_NAME, which call __real_NAME. */
 #define REAL(type, name, ...) \
     type __real_##name(__VA_ARGS__); \
     type __wrap_##name(__VA_ARGS__)
@@ -202,5 +202,5 @@ int __wrap_unlinkat(int folder, const char *path, int flags)
     return __real_unlinkat(folder, path, flags);
 }
 #else
-typedef int kd_watch_is_off; /* a file must hold something (C11, 6.9) */
+typedef int kd_watch_is_off; /* a translation unit must not be empty (C11, 6.9) */
 #endif

@@ -1,10 +1,10 @@
-/* Rules of a server's threads, checked in a build with -Dwatch=true, which aborts where one is broken and names the
- * calls:
+/* Debug checks on the server's threads, compiled in by -Dwatch=true. The program aborts with a backtrace when one of
+ * these rules is broken:
  *
  *     a thread that answers requests never waits for a disk (fsync, unlink);
- *     a worker's slice takes at most 50 ms of the thread's processor time, and a lock is held for at most 2 ms of that
- *       (four times as much at once, or the third time);
- *     nobody waits for a disk (fsync) while holding a lock that a thread which answers requests takes.
+ *     a worker's slice takes at most 50 ms of the thread's processor time, and a lock is held for at most 2 ms of it
+ *        (a single violation of less than four times that is tolerated twice a thread);
+ *     no thread calls fsync while it holds a lock that a request-answering thread takes.
  *
  * The linker redirects the calls of our own code to this file (src/server/meson.build). With KERRD_WATCH=tell in the
  * environment the program prints each violation and continues. Other builds contain nothing of this. Any thread. */
@@ -12,7 +12,7 @@
 #define KD_BASE_WATCH_H
 
 #ifdef KD_WATCH
-void kd_watch_answers(void); /* the calling thread answers requests from now on */
+void kd_watch_answers(void); /* marks the calling thread as one that answers requests */
 void kd_watch_turn_begins(void);
 void kd_watch_turn_ends(void);
 #else

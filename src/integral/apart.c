@@ -5,13 +5,13 @@
 #define HAS(name) "{\"required\":[\"" name "\"]}"
 #define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
 #define ALONE(name) "{\"required\":[\"" name "\"],\"not\":{\"anyOf\":["
-/* A member beside an emissivity that it does not belong to. */
+/* A member given with an emissivity that it does not belong to. */
 #define NOT_OF(name, words) \
     "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
 #define OF_NO_OTHER_THAN(name, word) \
     "{\"required\":[\"" name \
     "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[\"" word "\"]}}}}"
-/* A picture is of a scene, and a disk is of none. */
+/* Pictures need a scene, and a disk does not take one. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_A_DISK \
     HAS("spin") \

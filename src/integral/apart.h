@@ -1,11 +1,11 @@
-/* Exclusive members of a request for integrals, in JSON Schema. check.c, request.c and scene.c refuse the same
+/* JSON Schema of members of a request that exclude one another. check.c, request.c and scene.c refuse the same
  * combinations. */
 #ifndef KD_INTEGRAL_APART_H
 #define KD_INTEGRAL_APART_H
 
 #include "integral/request.h"
 
-/* The value of "not" in the schema of a request, which gives the spectrum of a disk and that of a volume as one
+/* The value of "not" in the schema of a request. The spectra of a disk and of a volume share one schema
  * (KD_INTEGRAL_SPECTRUM). */
 const char *kd_integral_apart(enum kd_integral what);
 

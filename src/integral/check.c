@@ -1,4 +1,4 @@
-/* Rules that tie fields of a request together, and what follows from fields that are not given. */
+/* Checks the rules between fields of a request, and fills in fields that follow from others. */
 #include "integral/internal.h"
 #include "integral/request.h"
 
@@ -38,7 +38,7 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
     return KD_OK;
 }
 
-/* A list that grows. */
+/* Checks that a list is strictly increasing. */
 enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, const char *name, struct kd_error *error)
 {
     for (size_t i = 1; i < list->n; i++)
@@ -51,7 +51,7 @@ enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, con
     return KD_OK;
 }
 
-/* What belongs to one emissivity is refused beside another, as it would do nothing. */
+/* A field of one emissivity is refused with another, because it would have no effect. */
 static enum kd_status check_emissivity(const struct kd_integral_request *r, struct kd_error *error)
 {
     static const struct {
@@ -112,7 +112,8 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
     return kd_integral_check_growth(&r->edges, "edges", error);
 }
 
-/* n numbers at equal ratios, or at the middles of n parts of 0 to 1. */
+/* Fills a list with n numbers in geometric progression, or, if `first` is 0, with the midpoints of n parts of 0 to
+ * 1. */
 enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error)
 {
@@ -126,7 +127,7 @@ enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *
     return status;
 }
 
-/* A list is refused beside what would have made it. */
+/* Refuses a list that is given together with fields that would generate it. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error)
 {
@@ -174,7 +175,7 @@ done:
     return status;
 }
 
-/* A list, or a range that has both its ends. */
+/* Requires a list, or a range with both ends. */
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *r, uint32_t most, struct kd_error *error)
 {
     static const char *const even[] = { "frequency_min_hz", "frequency_max_hz", "frequencies" };

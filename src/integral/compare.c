@@ -44,7 +44,7 @@ void kd_integral_drop_observation(struct kd_integral_request *r)
     r->comparison = NULL, r->observation = NULL;
 }
 
-/* By the name or the hash of an asset. */
+/* Reads the observation by the name or the hash of its asset. */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const cJSON *root, struct kd_error *error)
 {
     const cJSON *given = NULL;
@@ -152,8 +152,8 @@ void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
         answer->chi2[0][p] = answer->chi2[1][p] = NAN;
 }
 
-/* What the model is multiplied by; NaN: nobody can tell. Of light without a frequency a map of flux 1 was transformed.
- */
+/* Factor that scales the model; NaN if it cannot be determined. If the light has no frequency, a map of flux 1 was
+ * transformed. */
 static double scale_of(const struct kd_integral_answer *answer, const double (*model)[2])
 {
     const struct kd_integral_request *r = answer->request;
@@ -168,7 +168,7 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
     const struct kd_integral_request *r = answer->request;
     struct kd_comparison *c = r->comparison;
     const double found = scale_of(answer, (const double (*)[2])model),
-                 scale = isfinite(found) ? found : 1; /* closures do not know it */
+                 scale = isfinite(found) ? found : 1; /* closures do not determine the scale */
     for (size_t i = 0; i < c->n; i++)
         model[i][0] *= scale, model[i][1] *= scale;
     kd_comparison_judge(c, (const double (*)[2])model, answer->chi2[finer]);

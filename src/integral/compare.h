@@ -1,15 +1,15 @@
-/* A comparison with an observation, as an integral. Private to this module. */
+/* Compares a scene with an observation, as an integral. Private to this module. */
 #ifndef KD_INTEGRAL_COMPARE_H
 #define KD_INTEGRAL_COMPARE_H
 
 #include "integral/answer.h"
 
-/* What is known of the rows before a model is. */
+/* Fills the columns that do not depend on the model. */
 void kd_integral_compare_lay_out(struct kd_integral_answer *answer);
-/* Takes the model's visibilities, in Jy where the scene has them, and fills columns and chi^2; of a finer map chi^2 and
- * the error alone. */
+/* Takes the model's visibilities (Jy if the scene has a flux), and fills columns and chi^2. For a finer map it fills
+ * only chi^2 and the error. */
 void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model)[2], bool finer);
-/* The members of an answer that no other integral has, and their schemas. */
+/* Write the members of an answer that only comparisons have, and their schemas. */
 void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer);
 void kd_integral_compare_schema(struct kd_json *json);
 

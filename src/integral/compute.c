@@ -1,4 +1,4 @@
-/* Each integral fills the columns that its kind lists. */
+/* Computes the integrals that need no pictures, and fills the columns of their answers. */
 #include "base/pause.h"
 #include "integral/answer.h"
 #include "integral/kept.h"
@@ -228,7 +228,8 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
                    : kd_error_set(error, KD_ENOMEM, "out of memory for %u bins", r->bins);
     free(edges);
     for (size_t i = 0; !status && i < r->bins; i++)
-        c[0][i] = r->edges.at[i], c[1][i] = r->edges.at[i + 1], c[3][i] = sum = fmin(sum + c[2][i], 1); /* rounding */
+        /* guards against rounding */
+        c[0][i] = r->edges.at[i], c[1][i] = r->edges.at[i + 1], c[3][i] = sum = fmin(sum + c[2][i], 1);
     const double values[] = { image->isco, profile.total, sum, profile.error };
     for (size_t i = 0; !status && i < sizeof values / sizeof *values; i++)
         answer->values[i] = values[i];

@@ -1,4 +1,4 @@
-/* Requests have these fields, a row each; their schema follows from them. */
+/* The table of request fields, and their JSON Schema. */
 #include "base/schema.h"
 #include "integral/apart.h"
 #include "integral/request.h"
@@ -166,7 +166,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
     };
 }
 
-/* The i-th of "a|b|c", its length in *n; NULL behind the last. */
+/* The i-th word of "a|b|c", its length in *n; NULL beyond the last. */
 static const char *word_at(const char *words, int i, size_t *n)
 {
     for (; *words; words += *n + (words[*n] == '|')) {
@@ -221,8 +221,8 @@ static void add_range(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
 }
 
-/* Off the axis, and not within what is seen edge on; of a transfer function not face on either. check.c refuses the
- * same. */
+/* Inclinations are off the axis and not too near edge-on; for a transfer function also not face-on. check.c refuses
+ * the same. */
 static void add_inclination(struct kd_json *json, enum kd_integral what)
 {
     const double least = what == KD_INTEGRAL_TRANSFER ? KD_INTEGRAL_FACE_ON : 0,
@@ -260,7 +260,7 @@ static void add_number_or_word(struct kd_json *json, const struct kd_integral_fi
 static void add_list(struct kd_json *json, const struct kd_integral_field *f)
 {
     kd_json_string(json, "type", "array");
-    kd_json_number(json, "minItems", strcmp(f->name, "edges") ? 1 : 2); /* a bin has two */
+    kd_json_number(json, "minItems", strcmp(f->name, "edges") ? 1 : 2); /* a bin has two edges */
     kd_json_number(json, "maxItems", KD_INTEGRAL_LIST);
     kd_json_object(json, "items");
     add_range(json, f);
@@ -325,7 +325,7 @@ static void end_object(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* The schema of a spectrum is that of both: of a disk, or of a scene. */
+/* The schema of a spectrum covers both a disk and a scene. */
 void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
     const unsigned of = what == KD_INTEGRAL_SPECTRUM ? SPECTRUM | VOLUME : 1u << what;
@@ -342,7 +342,7 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
         kd_schema_text(json, "observation",
                        "{\"type\":\"string\",\"minLength\":1,\"maxLength\":64,\"description\":\"SHA-256 of an asset "
                        "of the server: uvfits, or the EHT's CSV\"}");
-    bool inside = false; /* the object of fields whose names have dots, which stand together */
+    bool inside = false; /* whether the object of fields with dotted names is open; such fields are adjacent */
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & of))

@@ -4,14 +4,14 @@
 
 #define GIGA 1e9
 
-/* The turn at a place, without the whole turns, which a product of large numbers has many of. */
+/* exp(2 pi i turns) as cosine and sine. Whole turns are removed first, since `turns` may be large. */
 static void turn(double turns, double *re, double *im)
 {
     const double angle = 2 * M_PI * (turns - rint(turns));
     *re = cos(angle), *im = sin(angle);
 }
 
-/* A row's sum with the turns of its columns: four at a time, so that no sum waits for the one before. */
+/* Sums a row times its columns' phases, with four independent sums so that they pipeline. */
 static void row_sum(const float *row, const double *re, const double *im, uint32_t width, double *out_re,
                     double *out_im)
 {

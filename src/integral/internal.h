@@ -1,4 +1,4 @@
-/* What the files of this module share. */
+/* Functions shared by the files of this module. */
 #ifndef KD_INTEGRAL_INTERNAL_H
 #define KD_INTEGRAL_INTERNAL_H
 
@@ -9,19 +9,20 @@
 
 /* request.c */
 const struct kd_integral_field *kd_integral_field_named(const struct kd_integral_request *request,
-                                                        const char *name); /* NULL: it has none of that name */
-/* Room for n numbers of a list, in place of what it had. */
+                                                        const char *name); /* NULL: no field of this name */
+/* Replaces a list by room for n numbers. */
 enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n,
                                      const char *pointer, struct kd_integral_list **list, struct kd_error *error);
 
 /* check.c */
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
-/* Numbers of a list must grow. */
+/* Checks that a list is strictly increasing. */
 enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, const char *name, struct kd_error *error);
-/* A list is refused beside what would have made it. */
+/* Refuses a list that is given together with fields that would generate it. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error);
-/* n numbers at equal ratios, or, where the first is 0, at the middles of n parts of 0 to 1. */
+/* Fills a list with n numbers in geometric progression, or, if `first` is 0, with the midpoints of n parts of 0 to
+ * 1. */
 enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error);
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
@@ -29,13 +30,14 @@ enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request
 
 /* scene.c */
 bool kd_integral_is_scene_member(const struct kd_integral_request *request,
-                                 const char *name); /* "preset" and "scene" of those that may have a scene */
-/* Takes both from a document. */
+                                 const char *name); /* "preset" and "scene", for integrals that may have a scene */
+/* Reads both from a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
 
 /* compare.c */
-bool kd_integral_is_observation(const struct kd_integral_request *request, const char *name); /* of a comparison */
+bool kd_integral_is_observation(const struct kd_integral_request *request,
+                                const char *name); /* true for its members in a comparison */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *request, const cJSON *root,
                                             struct kd_error *error);
 void kd_integral_drop_observation(struct kd_integral_request *request);

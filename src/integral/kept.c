@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEPT = 8 }; /* 150 kB each */
+enum { KEPT = 8 }; /* number of cached images, 150 kB each */
 
 static struct entry {
     double spin, inclination_deg;
-    unsigned long used; /* 0: empty */
+    unsigned long used; /* time of last use; 0: empty */
     struct kd_disk_image image;
 } entries[KEPT];
 static unsigned long uses;
@@ -49,7 +49,8 @@ enum kd_status kd_kept_image(const struct kd_hole *hole, double inclination_deg,
                              struct kd_error *error)
 {
     const double spin = hole->a;
-    inclination_deg = inclination_deg > 90 ? 180 - inclination_deg : inclination_deg; /* from below as from above */
+    /* the same from below as from above */
+    inclination_deg = inclination_deg > 90 ? 180 - inclination_deg : inclination_deg;
     struct kd_disk_image *image = *out = malloc(sizeof *image);
     if (!image)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the disk's image");

@@ -1,5 +1,4 @@
-/* Disk images that were made lately are kept for the next request, as fits ask for the same spin and inclination
- * again. Any thread. */
+/* Cache of recent disk images: fits ask for the same spin and inclination repeatedly. Any thread. */
 #ifndef KD_INTEGRAL_KEPT_H
 #define KD_INTEGRAL_KEPT_H
 
@@ -7,7 +6,7 @@
 #include "physics/disk/disk_image.h"
 #include "physics/spacetime/hole.h"
 
-/* A copy of the image, made if it is not kept; the caller frees it. */
+/* Gives a copy of the image, which is computed if not cached. The caller frees it. */
 enum kd_status kd_kept_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
                              struct kd_error *error);
 

@@ -36,11 +36,12 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
     const double w = scene.image.width, h = scene.image.height,
                  size = r->pixels * (kd_integral_is_finer(r, picture) ? KD_INTEGRAL_FINER : 1) / fmax(w, h);
     scene.image.width = (int32_t)fmax(1, rint(w * size)), scene.image.height = (int32_t)fmax(1, rint(h * size));
-    scene.style.beam_uas = 0; /* no telescope */
+    scene.style.beam_uas = 0; /* no telescope beam */
     scene.style.bloom = 0;
     if (kd_integral_is_mapped(r->what)) {
         scene.image.layers = layers_of(r);
-    } else { /* matter of a given flux is the same at all frequencies: it has that flux at the scene's own */
+    } else { /* matter normalised to a flux must not depend on the frequency: the flux refers to the scene's own
+                frequency */
         scene.volume.normalise_ghz =
             isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
         scene.volume.frequency_ghz = r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9;

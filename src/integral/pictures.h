@@ -1,5 +1,4 @@
-/* Some integrals are made of pictures of a scene: these are the pictures, and what is taken from each. Pure, any
- * thread. */
+/* The pictures of a scene that an integral needs, and what is read from each. Pure, any thread. */
 #ifndef KD_INTEGRAL_PICTURES_H
 #define KD_INTEGRAL_PICTURES_H
 
@@ -8,35 +7,32 @@
 
 enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
 #define KD_INTEGRAL_FINER \
-    1.5 /* times as many pixels along each side: not 2, where what a coarse grid mistakes for short baselines could \
-           fall on the same place */
+    1.5 /* pixels a side, over those of the coarse picture; not 2, where aliases of both grids could coincide */
 
-/* What a picture is off by falls as the square of its pixels: of that the difference from a finer one, 1.5 times as
- * fine, is 1 - 1/1.5^2. */
+/* The error of a picture falls as one over the square of its pixels a side. So the error is this times the
+ * difference from the finer picture, 1/(1 - 1/1.5^2). */
 #define KD_INTEGRAL_OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 
-/* A request that has been checked needs so many pictures; 0: it is made of none. */
+/* Number of pictures that a checked request needs; 0: it is not made of pictures. */
 unsigned kd_integral_pictures(const struct kd_integral_request *request);
-/* The scene of one, as a picture of the format below is made of it. With `check` finer every other one is finer, and
- * tells the error of the one before. */
+/* The scene of a picture, for the format below. If the error is to be estimated, every other picture is a finer
+ * version of the one before. */
 struct kd_scene kd_integral_scene(const struct kd_integral_request *request, unsigned picture);
 bool kd_integral_is_finer(const struct kd_integral_request *request, unsigned picture);
 
-/* What is taken from each: of a visibility maps, as floats, all light and then each image order; of a spectrum its
- * flux in Jy, as a double. */
+/* What is read from each picture. Visibility: maps as floats, total light first, then each image order. Spectrum:
+ * the flux in Jy as a double. */
 const struct kd_format *kd_integral_picture_format(enum kd_integral what);
 
-/* The plan of a picture's scene. Matter of a given flux has the same density in all of them: that of the scene as it
- * was asked, whatever their pixels make of its shape. */
+/* Plans a picture's scene. Matter normalised to a flux has the same density in all pictures: that of the requested
+ * scene, independent of the pictures' pixels. */
 enum kd_status kd_integral_plan(const struct kd_integral_request *request, struct kd_scene *scene,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* Gives the scene that the request begins with: the default one, in place of what it has. A spectrum is that of a
- * volume from then on. */
+/* Replaces the request's scene by the default one. A spectrum becomes that of a volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 
-/* Of a picture as above, seen from far away: radians from a pixel to the next, and the longest baseline that pixels
- * so wide tell. */
+/* For such a picture, seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */
 double kd_integral_pixel(const struct kd_scene *scene);
 double kd_integral_nyquist_gl(const struct kd_scene *scene);
 

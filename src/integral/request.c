@@ -34,7 +34,7 @@ static bool has(const struct kd_integral_request *request, const struct kd_integ
 static enum kd_status unknown(const struct kd_integral_request *request, const char *name, const char *pointer,
                               struct kd_error *error)
 {
-    char shown[60], known[400] = ""; /* kd_error_field clips what is longer */
+    char shown[60], known[400] = ""; /* kd_error_field truncates longer text */
     struct kd_slip_best meant = { 0 };
     if (request->what == KD_INTEGRAL_SPECTRUM && !strcmp(name, "volume"))
         return kd_error_field(error, pointer,
@@ -53,7 +53,7 @@ static enum kd_status unknown(const struct kd_integral_request *request, const c
                           meant.name ? "; did you mean " : "", meant.name ? meant.name : "", known);
 }
 
-/* The text up to a mark, cut where there is no room for it. */
+/* Copies the text up to `mark`, truncated to the buffer. */
 static const char *part(const char *text, const char *mark, char out[64])
 {
     size_t length = strcspn(text, mark);
@@ -104,7 +104,7 @@ static bool inside(const struct kd_integral_field *f, const struct kd_value *val
     return f->open ? x > f->least && x < f->most : x >= f->least && x <= f->most;
 }
 
-/* The place of a word in "a|b|c"; -1: it is none of them. */
+/* Index of a word in "a|b|c"; -1: none of them. */
 static int word_place(const char *words, const char *text)
 {
     int i = 0;
@@ -121,7 +121,7 @@ static bool store_word(void *at, const char *words, const char *text)
 {
     const int i = word_place(words, text);
     if (i >= 0)
-        memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
+        memcpy(at, &i, sizeof i); /* every enum here is as wide as int */
     return i >= 0;
 }
 
@@ -149,7 +149,7 @@ static bool store(struct kd_integral_request *request, const struct kd_integral_
     return false;
 }
 
-/* Room for n numbers of a list, in place of what it had. */
+/* Replaces a list by room for n numbers. */
 enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n,
                                      const char *pointer, struct kd_integral_list **list, struct kd_error *error)
 {
@@ -193,7 +193,7 @@ done:
     return status;
 }
 
-/* Numbers with commas between them. */
+/* Reads numbers separated by commas. */
 static enum kd_status read_typed(struct kd_integral_request *request, const struct kd_integral_field *f,
                                  const char *text, const char *pointer, struct kd_error *error)
 {
@@ -212,7 +212,7 @@ done:
     return status;
 }
 
-/* One more of a set of words. */
+/* Adds a word to a set. */
 static enum kd_status put_word(struct kd_integral_request *request, const struct kd_integral_field *f,
                                const struct kd_value *value, const char *pointer, struct kd_error *error)
 {
@@ -226,7 +226,7 @@ static enum kd_status put_word(struct kd_integral_request *request, const struct
     return KD_OK;
 }
 
-/* Words of an array, or with commas between them. */
+/* Reads words from an array, or separated by commas. */
 static enum kd_status read_words(struct kd_integral_request *request, const struct kd_integral_field *f,
                                  const cJSON *item, const char *text, const char *pointer, struct kd_error *error)
 {
@@ -262,7 +262,7 @@ const struct kd_integral_field *kd_integral_field_named(const struct kd_integral
     return NULL;
 }
 
-/* A field, known by its name, or by that of its object, a dot and its own. */
+/* Reads a field by its name, which is OBJECT.NAME for a member of an object. */
 static enum kd_status read_named(struct kd_integral_request *request, const cJSON *item, const char *name,
                                  const char *pointer, struct kd_error *error)
 {

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
-#define EDGE 1 /* pixels: the border, whose light tells of what lies beyond it */
+#define EDGE 1 /* width of the border, in pixels; its brightness indicates light beyond the map */
 
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
 enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* of a spectrum of pictures */
@@ -18,7 +18,7 @@ enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* value
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
 
-/* What each row is of. */
+/* Fills the columns that identify each row. */
 static void lay_out(struct kd_integral_answer *answer)
 {
     const struct kd_integral_request *r = answer->request;
@@ -57,7 +57,7 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
     return KD_OK;
 }
 
-/* Adds up a map, without what is no number, which counts as dark from then on. */
+/* Sums a map. Values that are not finite are counted in *undefined and set to 0. */
 static double total(float *map, size_t n, double *undefined)
 {
     double sum = 0;
@@ -69,7 +69,7 @@ static double total(float *map, size_t n, double *undefined)
     return sum;
 }
 
-/* What a sky as bright as the border would add up to over the whole map, of the map's sum. */
+/* Flux of a sky with the border's mean brightness over the whole map, as a fraction of the map's sum. */
 static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
 {
     double edge = 0, n = 0;
@@ -110,7 +110,7 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
-        sum = total(map, n, &undefined); /* that of all light is the last */
+        sum = total(map, n, &undefined); /* map 0, total light, comes last and leaves its sum */
         run->map[k] = map;
     }
     if (!(sum > 0))
@@ -142,7 +142,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     if (kd_integral_is_finer(r, run->picture)) {
         c[FLUX_ERROR][row] = jy == c[JY][row] ? 0
                                               : fmin(KD_INTEGRAL_OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
-                                                     1); /* 1: the coarser one saw none of it */
+                                                     1); /* 1: the coarser picture showed no light */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
     }
@@ -175,7 +175,7 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Observations have the conjugate of kd_fourier's sign (observe/observation.h). */
+/* Observations use the conjugate of kd_fourier's sign (observe/observation.h). */
 static void put_model(struct kd_integral_run *run, const double sum[2])
 {
     const struct kd_integral_request *r = run->answer.request;

@@ -1,4 +1,4 @@
-/* An integral is computed in pieces where it is made of pictures, which whoever runs it renders. One thread at a time.
+/* Computes an integral in pieces. If it needs pictures, the caller renders them. One thread at a time.
  *
  *     struct kd_integral_run run;
  *     kd_integral_run_begin(&run, &request, &error);
@@ -19,23 +19,23 @@
 struct kd_integral_run {
     struct kd_integral_answer answer;
     unsigned picture, pictures;
-    /* of the maps that are being summed */
+    /* the maps being summed */
     struct kd_buffer maps;
     struct kd_fourier_grid grid;
     const float *map[1 + KD_INTEGRAL_ORDERS];
-    double scale; /* what a sum is multiplied by */
+    double scale; /* factor of a sum */
     size_t baseline;
-    double (*model)[2]; /* of a comparison: at each of its visibilities */
+    double (*model)[2]; /* for a comparison: the model at each of its visibilities */
     double *scratch;
 };
 
-/* Computes all of it if it is made of no pictures. Of one that fails nothing is left to finish. */
+/* Computes everything if no pictures are needed. On failure there is nothing to finish. */
 enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request,
                                      struct kd_error *error);
-/* Takes the file over. KD_EINVAL at /scene: nothing shines in it. */
+/* Takes ownership of the file's bytes. KD_EINVAL at /scene: the picture has no light. */
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                     const struct kd_plan *plan, struct kd_error *error);
-/* Goes on until the time has come on kd_clock_ms; false: with this picture it is done. */
+/* Continues until `until_ms` on kd_clock_ms. False: finished with this picture. */
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms);
 void kd_integral_run_finish(struct kd_integral_run *run);
 

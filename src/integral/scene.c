@@ -1,5 +1,5 @@
-/* Requests for integrals over pictures have a scene: "preset" and "scene", and fields that say which pictures are
- * made of it. */
+/* Reads and checks the scene of a request ("preset" and "scene"), and the fields that say which pictures are made of
+ * it. */
 #include "integral/internal.h"
 #include "integral/request.h"
 #include "integral/pictures.h"
@@ -75,7 +75,7 @@ done:
     return status;
 }
 
-/* Light of a thin disk, and of whatever shines beside a volume, is of no frequency in particular. */
+/* Light of a thin disk, and of anything else beside a volume, has no particular frequency. */
 static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!kd_scene_is_radio(scene))
@@ -130,7 +130,7 @@ static enum kd_status fill_lengths(struct kd_integral_request *r, struct kd_erro
     return status;
 }
 
-/* Each length with each angle: all lengths of one angle stand together. */
+/* Combines each length with each angle; all lengths of one angle are adjacent. */
 static enum kd_status make_baselines(struct kd_integral_request *r, struct kd_error *error)
 {
     struct kd_integral_list *u, *v, *angles;

@@ -1,4 +1,4 @@
-/* Writes answers as JSON, CSV and NPY, and the schema of the first. */
+/* Writes answers as JSON, CSV and NPY, and the schema of the JSON form. */
 #include "base/decimal.h"
 #include "base/pause.h"
 #include "base/schema.h"
@@ -18,7 +18,7 @@ static size_t count(const struct kd_integral_column *list, size_t most)
     return n;
 }
 
-/* Those of a list that ends with a NULL, and n more. */
+/* Writes a NULL-terminated list and n more sentences. */
 static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences,
                             const char *const *more, size_t n)
 {
@@ -40,7 +40,7 @@ static enum kd_status write_scene(struct kd_json *json, const struct kd_scene *s
     return status;
 }
 
-/* Goes into the object that a field's name has before its dot, out of another. */
+/* Opens the object named before the dot of a field's name, and closes the previous one if it differs. */
 static void enter(struct kd_json *json, const char **object, const char *name)
 {
     char of[40];
@@ -55,7 +55,7 @@ static void enter(struct kd_json *json, const char **object, const char *name)
         kd_json_object(json, of);
 }
 
-/* Parameters that are lists stand in the columns. */
+/* Parameters that are lists are written as columns. */
 static void write_parameters(struct kd_json *json, const struct kd_integral_request *request)
 {
     const char *object = "";
@@ -175,7 +175,7 @@ static void raw(struct kd_json *json, const char *name, const char *text)
     kd_json_raw(json, name, text, strlen(text));
 }
 
-/* An object with a member for each of the list, of this schema. */
+/* Writes an object schema with one member of this type for each item of the list. */
 static void add_listed(struct kd_json *json, const char *name, const struct kd_integral_column *list, size_t n,
                        const char *type)
 {

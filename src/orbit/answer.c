@@ -11,7 +11,7 @@
 #define SUN_S 4.925490947e-6 /* GM/c^3 of the Sun, IAU 2015 nominal */
 #define CENTURY_S (36525 * 86400.)
 
-enum { PLAIN = 10, COLUMNS = 17, SUMMARY = 15 }; /* columns of an orbit that nobody looks at, and of one that is seen */
+enum { PLAIN = 10, COLUMNS = 17, SUMMARY = 15 }; /* columns of an orbit without observer, with one, and of a summary */
 
 static const char *const columns[COLUMNS] = { "mino",  "tau_proper", "t",     "r",  "theta",
                                               "phi",   "x",          "y",     "z",  "energy_error",
@@ -45,11 +45,11 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
     memcpy(to, all, sizeof all);
 }
 
-/* A status that stays once it has failed. */
+/* Output with a sticky status: after a failure nothing more is written. */
 struct text {
     struct kd_buffer *out;
     enum kd_status status;
-    int digits; /* of numbers; 0: all */
+    int digits; /* significant digits of numbers; 0: all */
 };
 
 static void put(struct text *t, const char *s)
@@ -66,7 +66,7 @@ static void number(struct text *t, double value, const char *otherwise)
     put(t, isfinite(value) ? text : otherwise);
 }
 
-/* "name":value with a comma before it unless it is the first of its object. */
+/* Writes "name":value, preceded by a comma unless it is the first member of its object. */
 static void member(struct text *t, const char *name, double value)
 {
     if (t->status)
@@ -135,13 +135,14 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* A circle has no periastron: the formula gives that of its smallest oscillation, which is infinite at the ISCO. */
+/* A circle has no periastron. The formula would give the advance of its smallest oscillation, which is infinite at
+ * the ISCO. */
 static double periastron_advance(const struct kd_orbit_run *run)
 {
     return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;
 }
 
-/* The advance per radial period; an orbit in the plane of the equator has no node. */
+/* Advance per radial period. An orbit in the equatorial plane has no node. */
 static void advances(struct text *t, const struct kd_orbit_run *run, double p)
 {
     double advance = periastron_advance(run);
@@ -192,7 +193,7 @@ static void head(struct text *t, const struct kd_orbit_run *run)
 
 static void drift(struct text *t, const struct kd_orbit_run *run)
 {
-    open(t, "drift"); /* L is a parameter of the equations, and no step touches it */
+    open(t, "drift"); /* L is a parameter of the equations and does not drift */
     member(t, "energy", run->worst.energy);
     member(t, "angular_momentum", 0);
     member(t, "carter", run->worst.carter);
@@ -202,7 +203,7 @@ static void drift(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* The difference between the end of the path and the closed form there: two methods that share no step. */
+/* Difference between the end of the integrated path and the closed form: two independent methods. */
 static void against_closed(struct text *t, const struct kd_orbit_run *run)
 {
     struct kd_orbit_place got = kd_orbit_path_place(&run->path),
@@ -291,7 +292,7 @@ static void csv_row(struct text *t, const double *values, int n)
     put(t, "\n");
 }
 
-/* Little-endian whatever the machine is. */
+/* Writes little-endian doubles on any machine. */
 static void bytes(struct text *t, const double *values, int n)
 {
     for (int i = 0; i < n && !t->status; i++) {
@@ -436,7 +437,7 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
                                                 runs[i].samples, 0, t->out);
         if (!t->status)
             t->status = kd_orbit_answer_end(&runs[i], KD_ORBIT_JSON, t->out);
-        t->out->size -= !t->status; /* its newline */
+        t->out->size -= !t->status; /* replaces the newline */
     }
     put(t, "\n]}\n");
 }
@@ -451,7 +452,7 @@ enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, c
         return t.status;
     }
     const char *const *names = samples ? columns : summary_names;
-    int count = samples ? PLAIN : SUMMARY; /* nobody looks at many */
+    int count = samples ? PLAIN : SUMMARY; /* orbits of a batch have no observer */
     if (format == KD_ORBIT_NPY)
         npy_head(&t, names, count, n, samples ? runs->samples : 0);
     else

@@ -1,13 +1,13 @@
-/* Writes orbits as text and bytes. Pure; any thread.
+/* Writes the answers to requests for orbits. Pure; any thread.
  *
- * A document has a head (what is known before the first step), the series and a result (what integrating it showed):
+ * A document has a head (what is known before the first step), the series, and a result (what the integration gave):
  *
- *     JSON     {head, "series": {"columns": [...], "rows": [[...], ...]}, "result": {...}}; {"orbits": [...]} of
+ *     JSON     {head, "series": {"columns": [...], "rows": [[...], ...]}, "result": {...}}; {"orbits": [...]} for
  *              many
- *     NDJSON   {"head": {...}}, {"columns": [...]}, {"rows": [[...], ...]} and {"progress": 0.25} in turns,
+ *     NDJSON   {"head": {...}}, {"columns": [...]}, then {"rows": [[...], ...]} and {"progress": 0.25} interleaved,
  *              {"result": {...}}
- *     CSV      the columns' names, then a line a sample; of many without series a line an orbit
- *     NPY      records with the columns' names; of many without series a record an orbit, with series of shape
+ *     CSV      the columns' names, then a line a sample; for many without series a line an orbit
+ *     NPY      records with the columns' names; for many without series a record an orbit, with series of shape
  *              (orbits, samples)
  *
  * NAN is null in JSON and empty in CSV. */
@@ -19,25 +19,24 @@
 
 enum kd_orbit_format { KD_ORBIT_JSON, KD_ORBIT_NDJSON, KD_ORBIT_CSV, KD_ORBIT_NPY };
 
-/* The parts of the answer for one orbit, in their order. */
+/* Parts of the answer for one orbit, to be written in this order. */
 enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format,
                                      struct kd_buffer *out);
-/* first: how many were written before. */
+/* first: number of samples written before. */
 enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format,
                                        const struct kd_orbit_sample *samples, size_t n, size_t first,
                                        struct kd_buffer *out);
 enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct kd_buffer *out); /* NDJSON only */
 enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out);
 
-/* The answer for many orbits, all of them done; not as NDJSON. samples: run->samples of each, or NULL. */
+/* Writes the answer for many finished orbits; not for NDJSON. samples: run->samples of each orbit, or NULL. */
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out);
 
-/* Columns of a series, in their order; the first ones are those of an orbit that nobody looks at. NULL past the
- * last. */
+/* Name of a column of the series; NULL beyond the last. Without an observer a series has only the first ones. */
 const char *kd_orbit_column(size_t index);
 
-/* Sentences on what is approximated; NULL past the last. */
+/* Sentences about approximations; NULL beyond the last. */
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index);
 
 #endif

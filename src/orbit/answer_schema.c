@@ -1,4 +1,4 @@
-/* What answer.c writes, as a schema. */
+/* JSON Schema of the answers that answer.c writes. */
 #include "base/schema.h"
 #include "orbit/answer.h"
 #include "orbit/schema.h"
@@ -7,7 +7,7 @@ static const char *fate(size_t i) { return i <= KD_ORBIT_ESCAPE ? kd_orbit_fate_
 static const char *end(size_t i) { return i <= KD_END_FAR ? kd_orbit_end_name((enum kd_orbit_end)i) : NULL; }
 static const char *way(size_t i) { return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL; }
 
-/* docs/orbits.md says what each is. */
+/* docs/orbits.md explains each member. */
 #define UNITS "per rest mass; lengths and times in M, angles in radians unless a name ends in _deg"
 #define NUMBER KD_SCHEMA_NUMBER
 #define OR_NULL KD_SCHEMA_NUMBER_OR_NULL

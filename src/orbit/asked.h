@@ -1,4 +1,4 @@
-/* What is asked of one orbit, and of all of a request. Plain values, any thread. */
+/* A request for orbits as plain values: one orbit, and the parameters of all. Any thread. */
 #ifndef KD_ORBIT_ASKED_H
 #define KD_ORBIT_ASKED_H
 
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KD_ORBIT_SAMPLES_MAX 200000u /* of one orbit; of all together where there are many */
+#define KD_ORBIT_SAMPLES_MAX 200000u /* for one orbit, and in total for many */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
@@ -18,33 +18,35 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    double spin; /* NAN: that of the request, or the case's own */
+    double spin; /* NAN: that of the request, or of the named case */
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
     bool outward;
     double place_r, theta_deg, phi_deg, v[3];
     enum kd_observer frame;
     enum kd_orbit_case named;
-    unsigned seen; /* which fields were given, a bit each */
+    unsigned seen; /* bit mask of the fields that were given */
 };
 
 struct kd_orbit_params {
-    double spin; /* NAN if not given: 0, or the case's own */
+    double spin; /* NAN if not given: 0, or that of the named case */
     double periods,
-        time;     /* the duration: radial periods (turns, if r is constant), or t in M; NAN but for at most one */
-    bool or_end;  /* what has no periods, for it plunges or escapes, is followed to its end instead of being refused */
-    double r_max; /* where what escapes is let go, 100 */
-    double tolerance; /* relative error of a radial period, 1e-12; chooses the step where `steps` is 0 */
-    double mass_msun; /* for times in seconds; NAN: none */
+        /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
+        time;
+    bool or_end;  /* follow a plunging or escaping orbit, which has no periods, to its end instead of refusing it */
+    double r_max; /* radius at which an escaping orbit ends, 100 */
+    /* Relative error of a radial period, 1e-12; determines the step if `steps` is 0. */
+    double tolerance;
+    double mass_msun; /* for times in seconds; NAN: not given */
     uint32_t steps;   /* per radial period */
     uint32_t samples; /* 0: no series */
-    uint32_t digits;  /* significant, of the series' numbers as text */
+    uint32_t digits;  /* significant digits of the series' numbers in text */
     enum kd_orbit_way way;
-    bool series; /* of many orbits */
+    bool series; /* of many orbits: write their series */
     struct kd_orbit_observer {
-        double r, inclination_deg, azimuth_deg; /* inclination_deg: NAN: nobody looks */
+        double r, inclination_deg, azimuth_deg; /* inclination_deg NAN: no observer */
         enum kd_observer motion;
-    } seen; /* by whom */
+    } seen; /* the observer */
 };
 static inline bool kd_orbit_is_seen(const struct kd_orbit_params *params)
 {

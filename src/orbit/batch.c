@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#define FEW 64         /* some 10 milliseconds at ten periods each */
-#define STEPS 1000000u /* between two looks at whether to go on */
+#define FEW 64         /* orbits a turn: some 10 ms at ten periods each */
+#define STEPS 1000000u /* between two calls of stop */
 
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
 {
@@ -72,7 +72,7 @@ static int by_steps(const void *a, const void *b)
     return (x->steps > y->steps) - (x->steps < y->steps);
 }
 
-/* Orbits that can go abreast do so, with others that take about as long. */
+/* Follows a few orbits; those that can run side by side in SIMD lanes do so, grouped by similar duration. */
 static enum kd_status follow_few(struct kd_orbit_batch *batch, size_t first, size_t last, struct kd_error *error)
 {
     struct kd_orbit_run *all[FEW], *abreast[FEW];

@@ -13,7 +13,7 @@ const char *kd_orbit_case_name(enum kd_orbit_case which)
 
 double kd_orbit_case_mass_msun(enum kd_orbit_case which) { return which == KD_CASE_MERCURY ? 1 : NAN; }
 
-/* Semi-major axis and eccentricity of Mercury (NASA's planetary fact sheet), GM of the Sun (IAU 2015 nominal). */
+/* Semi-major axis and eccentricity of Mercury from NASA's planetary fact sheet, GM of the Sun as IAU 2015 nominal. */
 static struct kd_orbit_spec mercury(double spin)
 {
     const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
@@ -27,11 +27,12 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
     struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin };
     switch (which) {
     case KD_CASE_MERCURY: return mercury(spin);
-    case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: some turns of whirl for each leaf */
+    case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: several turns of whirl for each radial period
+                              */
         spec.e = 0.8;
         spec.p = 1.0001 * kd_orbit_separatrix(kd_hole(spec.spin), spec.e, 1);
         return spec;
-    case KD_CASE_PLUNGE: /* thrown sideways too slowly */
+    case KD_CASE_PLUNGE: /* tangential velocity too small to stay in orbit */
         spec.form = KD_ORBIT_STATE;
         spec.place_r = 2 * kd_kerr_isco(kd_hole(spec.spin));
         spec.theta_deg = 90;

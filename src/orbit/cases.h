@@ -1,4 +1,4 @@
-/* These orbits are known by name. Any thread. */
+/* Named example orbits. Any thread. */
 #ifndef KD_ORBIT_CASES_H
 #define KD_ORBIT_CASES_H
 
@@ -6,8 +6,8 @@
 
 const char *kd_orbit_case_name(enum kd_orbit_case which);
 
-/* A spec that says in numbers what the case is. spin: NAN for the case's own, which is then in the result. */
+/* The spec of a case in numbers. spin NAN: the case's own spin, which the result contains. */
 struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin);
-double kd_orbit_case_mass_msun(enum kd_orbit_case which); /* NAN: none */
+double kd_orbit_case_mass_msun(enum kd_orbit_case which); /* NAN: the case has none */
 
 #endif

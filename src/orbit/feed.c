@@ -1,8 +1,8 @@
 #include "orbit/feed.h"
 
-#define STEPS 65536u          /* a piece: some 25 ms */
-#define SEEN 4                /* samples a piece, of an orbit that is seen: some 8 ms */
-#define STEPS_A_LINE 1000000u /* between lines of progress: some 0.4 s */
+#define STEPS 65536u          /* steps a piece: some 25 ms */
+#define SEEN 4                /* samples a piece with an observer: some 8 ms */
+#define STEPS_A_LINE 1000000u /* steps between lines of progress: some 0.4 s */
 
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
                                   enum kd_orbit_format format, struct kd_error *error)

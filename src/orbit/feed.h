@@ -1,4 +1,4 @@
-/* A feed makes the bytes of an answer from its request, in pieces of some 30 ms; POST /v1/orbits and `kerrd orbit`
+/* A feed: produces the bytes of an answer from a request in pieces of some 30 ms. POST /v1/orbits and `kerrd orbit`
  * share it. */
 #ifndef KD_ORBIT_FEED_H
 #define KD_ORBIT_FEED_H
@@ -13,26 +13,25 @@ struct kd_orbit_feed {
     const struct kd_orbit_request *request;
     enum kd_orbit_format format;
     enum { KD_FEED_START, KD_FEED_SERIES, KD_FEED_DONE } stage;
-    struct kd_orbit_run run;     /* of one orbit */
-    struct kd_orbit_batch batch; /* of many */
+    struct kd_orbit_run run;     /* for one orbit */
+    struct kd_orbit_batch batch; /* for many */
     uint64_t told;               /* steps done when progress was last written */
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
 
-/* The request, checked, must outlive the feed. Every orbit is solved here: KD_EINVAL as kd_orbit_run_init; NDJSON is
- * for one orbit. / */
+/* The request must have been checked, and must outlive the feed. Every orbit is solved here: KD_EINVAL as
+ * kd_orbit_run_init. NDJSON is for one orbit only. */
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
                                   enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* Appends the next piece to `out`; of many orbits nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before
- * anything is written. */
+/* Appends the next piece to `out`; for many orbits nothing until all are done. KD_EINVAL as kd_orbit_run_prepare,
+ * before anything is written. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
 
-/* Helps with a batch of many orbits, on another thread than kd_orbit_feed_more's. False when there is nothing left
- * to begin. */
+/* Works on a batch of many orbits, on another thread than kd_orbit_feed_more. False when nothing is left to begin. */
 bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
 
 #endif

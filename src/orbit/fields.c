@@ -149,7 +149,7 @@ static bool store(void *to, const struct kd_orbit_field *field, const struct kd_
     case WORD:
         for (int i = 0; value->kind == KD_VALUE_STRING && kd_orbit_field_word(field, i); i++)
             if (!strcmp(value->text, kd_orbit_field_word(field, i))) {
-                memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
+                memcpy(at, &i, sizeof i); /* every enum here is as wide as int */
                 return true;
             }
         return false;

@@ -49,13 +49,13 @@ static struct kd_orbit_spec empty_spec(void)
     };
 }
 
-/* A table and what it fills. */
+/* A table of fields and the struct that it fills. */
 struct target {
     const struct kd_orbit_field *fields;
     size_t n;
     void *to;
-    unsigned seen;     /* a bit a field, the sections above them */
-    const char *extra; /* names besides */
+    unsigned seen;     /* bit mask: a bit a field, then a bit a section */
+    const char *extra; /* further known names, for messages */
 };
 
 static const struct kd_orbit_field *find(const struct target *t, const char *section, const char *name)
@@ -120,7 +120,7 @@ static enum kd_status not_a(const cJSON *item, const char *pointer, const char *
                           allowed);
 }
 
-/* A field, or a section with fields. */
+/* Reads a field, or a section with its fields. */
 static enum kd_status read_item(struct target *t, const cJSON *item, const char *parent, struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
@@ -143,7 +143,7 @@ static enum kd_status read_item(struct target *t, const cJSON *item, const char 
 #define FORMS "an orbit is given by %s, by %s, by %s, or by %s"
 #define FORM_TEXTS form_texts[0], form_texts[1], form_texts[2], form_texts[3]
 
-/* Refuses a field beside one of another form. */
+/* Refuses a field that does not belong to the orbit's form. */
 static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_orbit_field *field, const char *pointer,
                             struct kd_error *error)
 {
@@ -154,7 +154,7 @@ static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_or
                           FORM_TEXTS);
 }
 
-/* Checks that an orbit is given in one form, and wholly. */
+/* Checks that an orbit is given in exactly one form, completely. */
 static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
     unsigned seen = spec->seen;
@@ -259,7 +259,7 @@ static const struct kd_orbit_field *by_name(const struct kd_orbit_field *table, 
     return NULL;
 }
 
-/* Sets a field. "r" is that of a position too, whichever the orbit is given by. */
+/* Sets a field. "r" also means position.r, according to the orbit's form. */
 static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_orbit_field *field,
                                 const struct kd_value *value, const char *pointer, struct kd_error *error)
 {
@@ -305,7 +305,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     const struct kd_orbit_params *p = &request->params;
     if (!request->n)
         return kd_error_field(error, "/orbit", "orbit is missing: one orbit, or orbits with a list");
-    if (!request->many) { /* by name a field at a time: all of them? */
+    if (!request->many) { /* fields come by name, one at a time: check whether the orbit is complete */
         struct kd_orbit_spec spec = *request->specs;
         enum kd_status status = settle(&spec, "/orbit", error);
         if (status)
@@ -336,12 +336,12 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     return KD_OK;
 }
 
-/* The error that rounding of the constants leaves in a whirl: 4 units of the last place, times kd_orbit_whirl. */
+/* Error that rounding of the constants causes in a whirl: 4 ulp times kd_orbit_whirl. */
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
                           const struct kd_orbit_state *start)
 {
-    bool given = s->form == KD_ORBIT_CONSTANTS ||
-                 s->form == KD_ORBIT_STATE; /* p and e say exactly where the turning points are */
+    /* p and e give the turning points exactly */
+    bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE;
     return given ? 4 * DBL_EPSILON * kd_orbit_whirl(orbit, start, NULL) : 0;
 }
 

@@ -1,8 +1,8 @@
-/* Reads from outside what is asked of the orbit integrator: a JSON document, or fields by name. Any thread.
+/* Reads requests for the orbit integrator: a JSON document, or fields by name. Any thread.
  *
  *     {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}, "duration": {"periods": 10}, "samples":
  *       1000,
- *      "method": "yoshida6", "tolerance": 1e-12, "seen": {"observer_r": 30, "observer_inclination_deg": 60}}
+ *     "method": "yoshida6", "tolerance": 1e-12, "seen": {"observer_r": 30, "observer_inclination_deg": 60}}
  *
  * An orbit is one of
  *
@@ -12,8 +12,8 @@
  *     {"case"}                                                        "mercury", "zoom-whirl", "plunge", "isco",
  *       "spherical"
  *
- * and may have a "spin" of its own. "orbits" instead of "orbit": an array of up to KD_ORBITS_MAX, answered with a
- * summary each, and with series if "series" is true. */
+ * and may have its own "spin". "orbits" instead of "orbit" is an array of up to KD_ORBITS_MAX; the answer has a
+ * summary of each, and series if "series" is true. */
 #ifndef KD_ORBIT_REQUEST_H
 #define KD_ORBIT_REQUEST_H
 
@@ -26,38 +26,38 @@
 #include <stdint.h>
 
 #define KD_ORBITS_MAX 10000u
-#define KD_ORBIT_BODY_MAX ((size_t)4 << 20) /* bytes of a document */
-/* Samples of one that is seen: each takes some 2 ms; a stream ends when its client has enough. */
+#define KD_ORBIT_BODY_MAX ((size_t)4 << 20) /* maximum size of a document */
+/* Maximum number of samples with an observer. Each takes some 2 ms; a stream ends when its client disconnects. */
 #define KD_ORBIT_SEEN_MAX 20000u
 #define KD_ORBIT_ROUNDING_MAX 1e-3
-#define KD_ORBIT_STEPS_MAX 1000000000. /* of one orbit: five minutes */
+#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum for one orbit: five minutes */
 
 struct kd_orbit_request {
     struct kd_orbit_params params;
     struct kd_orbit_spec *specs; /* malloc'd */
     size_t n;
-    bool many; /* "orbits" */
+    bool many; /* given as "orbits" */
 };
 
 void kd_orbit_request_init(struct kd_orbit_request *request);
 void kd_orbit_request_finish(struct kd_orbit_request *request);
 
-/* Merge a document into a request without orbits. Types and ranges are checked, not yet whether each orbit exists.
- * KD_EINVAL without a pointer: this is no JSON document. */
+/* Merges a document into a request without orbits. Checks types and ranges, not yet whether each orbit exists.
+ * KD_EINVAL without a pointer: not a JSON document. */
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
                                      struct kd_error *error);
 
-/* One parameter or one field of the orbit (request->specs[0], which appears with its first field) by the last part
- * of its name. */
+/* Sets one parameter, or one field of the orbit (request->specs[0], which is created by its first field), by the
+ * last part of its name. */
 enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
                                     struct kd_error *error);
-/* Checks, after the last kd_orbit_request_set, that there is an orbit, and wholly. */
+/* Call after the last kd_orbit_request_set: checks that there is a complete orbit. */
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
-/* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". The
- * azimuth of the start is not in it. *rounding: the error, relative to the whole way, that rounding of its constants
- * leaves where they lead to a whirl, at an unstable circle that they all but belong to; what would have more than
- * KD_ORBIT_ROUNDING_MAX is refused. */
+/* Solves for the motion that a spec describes; KD_EINVAL with the pointer within the request, such as
+ * "/orbits/17/p". The result does not include the initial azimuth. *rounding: error, relative to the whole path,
+ * caused by rounding of the constants if they lead to a whirl, close to an unstable circular orbit. Above
+ * KD_ORBIT_ROUNDING_MAX the orbit is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);
 

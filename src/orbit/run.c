@@ -8,11 +8,11 @@
 
 #include <math.h>
 
-#define LONGEST_TURNS 1000 /* of what is followed to its end: a whirl next to an unstable circle */
+#define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-#define SEARCHES 3      /* samples in a row without an image, after which one is searched for */
-#define SEARCH_EVERY 64 /* samples only */
-#define HALVINGS 6      /* of the step in search of an end: each gains a factor of 64, from some 1e-10 to rounding */
+#define SEARCHES 3      /* after this many samples in a row without an image, a full search is made */
+#define SEARCH_EVERY 64 /* only every so many samples */
+#define HALVINGS 6      /* of the step in the search for an end: each gains a factor of 64, from 1e-10 to rounding */
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
 {
@@ -20,7 +20,7 @@ const char *kd_orbit_end_name(enum kd_orbit_end end)
     return names[end];
 }
 
-/* Who looks must be somewhere. */
+/* Sets up the observer, and checks that it exists. */
 static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
 {
     const struct kd_orbit_observer *o = &run->params->seen;
@@ -71,7 +71,7 @@ enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run)
     return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
 }
 
-/* The Mino time at which t is `time`; t grows steadily. */
+/* Solves t(Mino time) = time; t is monotonic. */
 static double mino_at(const struct kd_orbit_run *run, double time)
 {
     double low = 0, high = time / run->frequencies.mino_t + 2 * run->period;
@@ -87,22 +87,22 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* Whether a step went where its constants forbid it to go: through the turning point, or back where there is none.
- * Next to a whirl a step that is too long does so. */
+/* True if a step went where the constants of motion forbid: through a turning point, or back without one. A step
+ * that is too long does this close to a whirl. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_hole(o->a)->outer); /* or no number any more */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_hole(o->a)->outer); /* or NAN */
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
 #define SEARCH_STEPS \
-    5e6 /* a second or so, if not twice as many as up to the end that was found before: far out a step may be so short \
-           that nothing comes of it */
+    5e6 /* minimum number of steps before giving up, some one second in all: far out the steps may be too short to \
+           ever arrive */
 
-/* Finds the end of a path that is not bound, at the horizon, far away, or when its time is over, by following it
- * once in steps of h. False if it strays, or if it was to be followed to its end and does not come there. */
+/* Finds the end of an unbound path, at the horizon, far away, or when its time is over, by following it once in
+ * steps of h. False if it strays, or does not reach the end that was asked for. */
 static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
@@ -127,7 +127,8 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0; /* within the step, from infinity if E = 1 */
+        /* the turn happened within the step, coming from infinity if E = 1 */
+        bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
             run->end = falls ? KD_END_HORIZON : KD_END_FAR;
@@ -145,7 +146,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
     }
     run->mino_end = path.mino.value;
     return !isnan(run->aim) || o->circular ||
-           path.place[KD_PATH_W].value == run->start.w; /* on an unstable circle itself */
+           path.place[KD_PATH_W].value == run->start.w; /* it starts on an unstable circle */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
@@ -175,7 +176,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
         if (!find_end(run, h))
             continue;
-        found = true; /* and of a whirl well enough: the steps are tried up to there, and beyond the end is infinity */
+        /* for a whirl this is close enough: steps are tried up to this end, and beyond it lies infinity */
+        found = true;
         if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
             return KD_OK;
         before = run->mino_end;
@@ -183,7 +185,7 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     return found && isfinite(before) ? KD_OK : no_end(run, error);
 }
 
-/* Begins a run, all but the choice of its step. */
+/* Starts a run, except for the choice of its step. */
 static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 {
     if (run->params->way == KD_WAY_CLOSED && !run->closed)
@@ -197,7 +199,7 @@ static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
     return status;
 }
 
-/* run->h is what the step should be at most. */
+/* Divides the path into equal steps of at most run->h, a whole number a sample. */
 static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
 {
     double pieces = run->samples ? run->samples - 1 : 1,
@@ -212,7 +214,7 @@ static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
     return KD_OK;
 }
 
-/* A whirl magnifies the error of the step, so the end is searched for in the steps that the run will take. */
+/* A whirl magnifies the error of the steps, so the end is searched for with the steps that the run will use. */
 static enum kd_status find_end_again(struct kd_orbit_run *run, struct kd_error *error)
 {
     for (int i = 0; i < 6; i++) {
@@ -238,14 +240,14 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     enum kd_status status = cut(run, error);
     if (!status && !run->closed && !isnan(run->aim))
         status = find_end_again(run, error);
-    if (run->rounding > 1e-12) /* less is nothing to speak of */
+    if (run->rounding > 1e-12) /* smaller errors are negligible */
         run->error_estimate = fmax(run->error_estimate, run->rounding);
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
     double pace = sqrt(
-        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: a step across w says nothing of it */
+        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
         return kd_error_field(
             error, "/r_max", "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
@@ -301,11 +303,11 @@ static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)
 {
     worst->energy = fmax(worst->energy, fabs(now.energy));
     worst->carter = fmax(worst->carter, fabs(now.carter));
-    worst->mass = fmax(worst->mass, fabs(now.mass)); /* fmax leaves a NAN out */
+    worst->mass = fmax(worst->mass, fabs(now.mass)); /* fmax ignores a NAN */
     worst->binet = isnan(now.binet) ? NAN : fmax(worst->binet, fabs(now.binet));
 }
 
-/* w grows until periastron and falls after it. */
+/* Records the azimuth of a periastron: w grows up to it and falls after it. */
 static void note_periastron(struct kd_orbit_run *run)
 {
     struct kd_orbit_path at = kd_orbit_path_to_apsis(&run->path, -run->h);
@@ -329,8 +331,8 @@ static size_t advance_closed(struct kd_orbit_run *run, uint64_t steps, struct kd
     return n;
 }
 
-/* Takes the last step of a path that is not bound, to the end that was found with another step: less than half a
- * step off. */
+/* Takes the last step of an unbound path to the end that was found with another step size. It is less than half a
+ * step away. */
 static void step_to_the_end(struct kd_orbit_run *run)
 {
     if (run->end == KD_END_DURATION)

@@ -1,5 +1,4 @@
-/* A run follows one orbit from its start to the end of what was asked for, in pieces. A run belongs to one thread at
- * a time. */
+/* A run: follows one orbit from its start to the end of the request, in pieces. One thread at a time. */
 #ifndef KD_ORBIT_RUN_H
 #define KD_ORBIT_RUN_H
 
@@ -9,8 +8,8 @@
 struct kd_orbit_sample {
     struct kd_orbit_place place; /* t and phi NAN at the horizon */
     double x, y, z;              /* sqrt(r^2 + a^2) sin theta (cos phi, sin phi), r cos theta */
-    double energy_error;         /* relative; NAN in closed form */
-    struct kd_place_image image; /* as it is seen; NAN where there is none, or nobody looks */
+    double energy_error;         /* relative; NAN for the closed form */
+    struct kd_place_image image; /* its image for the observer; NAN if there is none */
 };
 
 /* params must outlive the run. KD_EINVAL as kd_orbit_request_solve. */
@@ -19,14 +18,14 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
 
 enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run);
 
-/* Finds the end, and a step that holds the tolerance; takes up to a second for one, and tries some of many abreast.
- * KD_EINVAL, pointer "/duration" or "/method", if it cannot be done. */
+/* Finds the end, and a step that meets the tolerance. Takes up to a second for one run; several are tried side by
+ * side. KD_EINVAL, pointer "/duration" or "/method", if that is impossible. */
 enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error);
 
-/* Up to `steps` steps and `room` samples on; returns how many samples were written. */
+/* Advances by up to `steps` steps and `room` samples; returns the number of samples written. */
 size_t kd_orbit_run_advance(struct kd_orbit_run *run, uint64_t steps, struct kd_orbit_sample *samples, size_t room);
-/* The same for up to KD_ORBIT_LANES runs side by side, all of which kd_orbit_run_abreast admits: prepared, and
- * without samples. */
+/* The same for up to KD_ORBIT_LANES runs in SIMD lanes. All must satisfy kd_orbit_run_abreast: prepared, and without
+ * samples. */
 bool kd_orbit_run_abreast(const struct kd_orbit_run *run);
 void kd_orbit_run_advance_abreast(struct kd_orbit_run *const *runs, int n, uint64_t steps);
 bool kd_orbit_run_done(const struct kd_orbit_run *run);

@@ -10,33 +10,34 @@ enum kd_orbit_end { KD_END_DURATION, KD_END_HORIZON, KD_END_FAR };
 const char *kd_orbit_end_name(enum kd_orbit_end end); /* "duration", "horizon", "r_max" */
 
 struct kd_orbit_run {
-    /* from the beginning */
+    /* set by kd_orbit_run_init */
     const struct kd_orbit_params *params;
     struct kd_orbit orbit;
     struct kd_orbit_state start;
     double phi;       /* at the start */
     double mass_msun; /* NAN: none */
     double rounding;  /* as kd_orbit_request_solve */
-    bool closed;      /* has a closed form: fate BOUND. Else `bound`, `frequencies` and period are not set */
+    bool closed;      /* has a closed form: fate BOUND. Otherwise `bound`, `frequencies` and period are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
-    double period; /* Mino time of a radial period; of a turn in phi where r is constant */
-    /* after kd_orbit_run_prepare */
+    double period; /* Mino time of a radial period; of a turn in phi if r is constant */
+    /* set by kd_orbit_run_prepare */
     enum kd_orbit_end end;
     double mino_end, h;
-    double aim; /* of a path that is not bound, 1/r or t of its last place; NAN if it ends when its time is over */
+    double aim; /* for an unbound path: 1/r or t of its last place; NAN if it ends when its time is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
-    double error_estimate; /* relative, of the place after a period (or the whole path): from half as many steps, or
-                            * `rounding` if that is larger. NAN if neither is known: `steps` was given, or the closed
-                            * form, and no whirl ahead */
-    /* while it goes on */
+    /* Relative error of the place after a period (or the whole path): from a run with half as many steps, or
+     * `rounding` if that is larger. NAN if neither is known: `steps` was given, or the closed form is used, and
+     * there is no whirl. */
+    double error_estimate;
+    /* updated by kd_orbit_run_advance */
     struct kd_orbit_path path;
     struct kd_orbit_drift worst; /* absolute values */
     uint64_t periastra;
-    double first_phi, last_phi;  /* azimuth at periastra */
-    struct kd_place_view view;   /* of who looks */
-    struct kd_place_image image; /* the latest that was found */
+    double first_phi, last_phi;  /* azimuth at the first and the last periastron */
+    struct kd_place_view view;   /* of the observer */
+    struct kd_place_image image; /* the last image found */
     unsigned missed;             /* samples since then */
 };
 

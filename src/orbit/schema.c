@@ -35,11 +35,11 @@ static void add_field(struct kd_json *json, const struct kd_orbit_field *f)
     kd_json_end(json);
 }
 
-/* Some rows of a table. */
+/* A selection of rows of a table. */
 struct rows {
     const struct kd_orbit_field *fields;
     size_t n;
-    enum kd_orbit_form form; /* those of this form, and of any; KD_ORBIT_FORMS: all */
+    enum kd_orbit_form form; /* rows of this form, and those of any; KD_ORBIT_FORMS: all */
 };
 
 static bool is_of(const struct rows *rows, const struct kd_orbit_field *f)
@@ -47,7 +47,7 @@ static bool is_of(const struct rows *rows, const struct kd_orbit_field *f)
     return rows->form == KD_ORBIT_FORMS || f->form == KD_ORBIT_FORMS || f->form == rows->form;
 }
 
-/* The sections below the document, and "" for the document itself, by their first rows. */
+/* True for the first selected row of its section; "" is the section of the document itself. */
 static bool is_first_of_section(const struct rows *rows, const struct kd_orbit_field *f)
 {
     for (const struct kd_orbit_field *g = rows->fields; g < f; g++)
@@ -93,8 +93,8 @@ static void add_members(struct kd_json *json, const struct rows *rows, const cha
             add_field(json, &rows->fields[i]);
 }
 
-/* What the members of a section of the settings may not be together, as JSON. A duration has one length, and says by
- * or_end alone what follows what has no periods; who sees an orbit is somewhere. */
+/* Combinations of settings that a section forbids, as JSON Schema. A duration has one length; or_end is for
+ * durations without periods. An observer needs a place. */
 static const struct {
     const char *section, *not;
 } apart[] = {
@@ -171,8 +171,8 @@ void kd_orbit_request_schema(struct kd_json *json, const char *name)
 {
     const struct rows rows = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, KD_ORBIT_FORMS };
     begin_object(json, name);
-    /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no
-     * class with the fields. */
+    /* A request has either orbit or orbits. This is not a oneOf, because client generators would turn that into a
+     * union instead of a class with the fields. */
     kd_schema_text(json, "if", "{\"required\":[\"orbits\"]}");
     kd_schema_text(json, "then",
                    "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"],\"properties\":{\"seen\":{"

@@ -17,7 +17,8 @@ double kd_orbit_pace(const struct kd_orbit *o)
     return sqrt(fastest);
 }
 
-/* Twice as many steps until halving them moves the end, at the order of the method, by no more than the tolerance. */
+/* Search for a step: the number of steps is doubled until the error estimate from the last doubling, for the
+ * method's order, is within the tolerance. */
 struct trial {
     double span, longest, last, step;
     uint32_t n;
@@ -28,10 +29,10 @@ struct trial {
 static struct trial begin(const struct kd_orbit_run *run)
 {
     struct trial t = { .last = INFINITY };
-    /* At the horizon t is infinite, so the trial stops a little before it. */
+    /* t is infinite at the horizon, so the trial stops a little before it. */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
-    /* A fall is fast at its end, of which the span shows little, and a whirl magnifies errors that are not those of
-     * the step. */
+    /* A fall is fast at its end, which the span's start does not show. A whirl magnifies errors that are not those
+     * of the step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;
@@ -44,8 +45,8 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
     return isnan(a->t) || isnan(a->r) ? INFINITY : d;
 }
 
-/* The error of a method of order 6 is a 63rd of what half the steps move the end by. Stops where rounding, or a
- * whirl that magnifies it, leaves nothing to gain. */
+/* For a method of order 6 the error is 1/63 of the change from halving the step. Stops when rounding, or a whirl
+ * that magnifies it, prevents further gain. */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {
     double error = distance(&t->coarse, &t->fine) / 63, tolerance = fmax(run->params->tolerance, 0.1 * run->rounding);
@@ -67,7 +68,7 @@ static void judge(struct kd_orbit_run *run, struct trial *t)
     t->step = t->span / t->n;
 }
 
-/* Follows each over its span in times * n steps. */
+/* Follows each trial over its span in times * n steps. */
 static void follow(struct kd_orbit_run *const *runs, struct trial *trials, int n, uint32_t times)
 {
     struct kd_orbit_path paths[KD_ORBIT_LANES];

@@ -1,16 +1,16 @@
-/* These write bytes as text, and read them back: RFC 4648, section 4. Any thread. */
+/* Base64 (RFC 4648, section 4). Any thread. */
 #ifndef KD_PLAYGROUND_BASE64_H
 #define KD_PLAYGROUND_BASE64_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Characters of n bytes, without a NUL. */
+/* Length of the text for n bytes, without the NUL. */
 static inline size_t kd_base64_length(size_t n) { return (n + 2) / 3 * 4; }
 
 /* Writes kd_base64_length(n) characters and a NUL. */
 void kd_base64_write(char *to, const void *data, size_t n);
-/* Reads exactly n bytes; false: the text is no Base64 of n bytes. */
+/* Decodes exactly n bytes; false if the text is not Base64 of n bytes. */
 bool kd_base64_read(void *to, size_t n, const char *text);
 
 #endif

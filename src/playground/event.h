@@ -1,5 +1,5 @@
-/* What happens in a playground is told as events, by number. The last KD_PLAYGROUND_EVENTS are kept. One thread at a
- * time. */
+/* Numbered events of a playground, such as mergers and captures. The last KD_PLAYGROUND_EVENTS are kept. One thread
+ * at a time. */
 #ifndef KD_PLAYGROUND_EVENT_H
 #define KD_PLAYGROUND_EVENT_H
 
@@ -9,7 +9,7 @@
 
 enum { KD_PLAYGROUND_EVENTS = 4096 };
 
-/* X(NAME, word, what it is and what its energy is) */
+/* X(NAME, word, description of the event and of its energy) */
 #define KD_PLAYGROUND_EVENT_KINDS(X) \
     X(MERGER, merger, "two bodies have become one; energy: what became heat") \
     X(SHEDDING, shedding, "the tide has taken so much of a star; energy: of what is shed, in the hole's field") \
@@ -27,21 +27,21 @@ struct kd_playground_event {
     uint64_t number; /* from 1 */
     double t;
     enum kd_playground_event_kind kind;
-    uint32_t body, other; /* by id; other 0: there is none */
+    uint32_t body, other; /* ids; other 0: none */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
-    double mass,
-        other_mass; /* of a merger those of the two before; of shedding and disruption what is lost, and what is left */
+    /* Merger: the masses of the two bodies before. Shedding and disruption: mass lost, and mass left. */
+    double mass, other_mass;
     double r, energy;
-    double tidal_radius, spread; /* r_t and the half width of the debris' energies; NAN where that means nothing */
+    double tidal_radius, spread; /* r_t and half width of the debris' energies; NAN for other events */
 };
 
 struct kd_playground_events {
     struct kd_playground_event kept[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
-    uint64_t last;                                         /* number of the newest; 0: nothing has happened */
+    uint64_t last;                                         /* number of the newest; 0: none yet */
 };
 
 void kd_playground_event_add(struct kd_playground_events *events, struct kd_playground_event event);
-/* The event of this number; NULL: it is no longer kept, or has not happened. */
+/* The event of this number; NULL if it is no longer kept, or has not happened yet. */
 const struct kd_playground_event *kd_playground_event_at(const struct kd_playground_events *events, uint64_t number);
 void kd_playground_event_json(const struct kd_playground_event *event, struct kd_json *json, const char *name);
 

@@ -8,11 +8,11 @@
 #include <string.h>
 
 #define STEPS_A_TURN \
-    256 /* of the fastest phase: 1e-8 in place after a hundred orbits (tests/unit/playground_kerr.c) \
-         */
+    256 /* steps in a radian of the fastest phase: an error of 1e-8 in position after a hundred orbits \
+           (tests/unit/playground_kerr.c) */
 
-/* The fastest phase of the motion per Mino time: the slopes of both forces, and how fast w goes by where nothing
- * holds it. */
+/* The fastest phase velocity of the motion per Mino time: from the slopes of both forces, and the rate of w on
+ * unbound motion. */
 static double pace(const struct kd_orbit *o)
 {
     const double w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
@@ -47,9 +47,9 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct 
     return KD_OK;
 }
 
-/* Place and velocity, by E, L and the rates in Mino time: with S = Sigma, D = Delta, gamma = (E - omega L)/alpha the
- * observer sees v_r = r' (S/D)^(1/2)/(S gamma), v_theta = theta' S^(1/2)/(S gamma), v_phi = L/(g_phiphi^(1/2)
- * gamma), r' = dr/dlambda. */
+/* Position and velocity from E, L and the rates in Mino time. With S = Sigma, D = Delta, gamma = (E - omega
+ * L)/alpha, the observer of zero angular momentum measures v_r = r' (S/D)^(1/2)/(S gamma), v_theta = theta'
+ * S^(1/2)/(S gamma), v_phi = L/(g_phiphi^(1/2) gamma), with r' = dr/dlambda. */
 static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_path *path, double x[3], double v[3])
 {
     const struct kd_orbit *o = &path->orbit;
@@ -88,7 +88,7 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
         kd_orbit_path_step(&next, g->h);
         const double then = kd_orbit_path_place(&next).t;
         if (isnan(then) || !(next.place[KD_PATH_W].value > 0) ||
-            g->from_t + then > t) /* past the horizon, past infinity, past t */
+            g->from_t + then > t) /* the step would pass the horizon, infinity, or t */
             return true;
         if (!*steps)
             return false;
@@ -98,7 +98,7 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
 
 void kd_geodesic_back(struct kd_playground_geodesic *g) { g->path = g->begun; }
 
-/* By dt/dlambda = (A E - 2 a r L)/Delta, A = (r^2 + a^2)^2 - a^2 Delta sin^2. */
+/* From dt/dlambda = (A E - 2 a r L)/Delta, A = (r^2 + a^2)^2 - a^2 Delta sin^2. */
 double kd_geodesic_pace(const struct kd_playground_geodesic *g)
 {
     const struct kd_orbit *o = &g->path.orbit;

@@ -1,15 +1,15 @@
-/* A playground as JSON: what is asked for, what is changed, and a snapshot that starts again exactly. Any thread.
+/* Playgrounds as JSON: documents that create one, patches, and snapshots that continue exactly. Any thread.
  *
  *     {"preset": "system", "waves": true, "bodies": [{"name", "mass", "radius", "temperature_k", "position": [x, y,
  *       z], "velocity": [x, y, z]}]}
  *
- * makes one: the preset's settings and bodies, if any, then the settings and bodies that are given. A snapshot is
- * such a document with "state" in it, which holds all that the motion depends on besides: kd_playground_read of it
- * goes on to the bit as if nothing had been.
+ * creates one: first the preset's settings and bodies, if any, then the given settings and bodies. A snapshot is
+ * such a document with a "state", which holds everything else that the motion depends on: after kd_playground_read
+ * the motion continues bit for bit.
  *
  *     {"amplification": 100, "add": [{...}], "change": [{"id": 3, "velocity": [0, 0.1, 0]}], "remove": [1, 2]}
  *
- * changes one: settings first, then in the order add, change, remove. Nothing is changed unless all of it can be. */
+ * patches one: settings first, then add, change, remove in this order. On an error nothing is changed. */
 #ifndef KD_PLAYGROUND_JSON_H
 #define KD_PLAYGROUND_JSON_H
 
@@ -18,27 +18,27 @@
 
 #include <cjson/cJSON.h>
 
-#define KD_PLAYGROUND_JSON_MAX ((size_t)96 << 20) /* bytes of a document: a million pieces take 72 MiB */
+#define KD_PLAYGROUND_JSON_MAX ((size_t)96 << 20) /* maximum size of a document: a million pieces take 72 MiB */
 
-/* KD_EINVAL with a pointer; without one this is no JSON document. */
+/* KD_EINVAL with a pointer; without one the text is not JSON. */
 enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error);
-/* *p is replaced, or left as it was. */
+/* Replaces *p; on an error *p is unchanged. */
 enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error);
-/* The same in two steps, for the holder of a playground whose documents ask for more, such as "rate": it takes that
- * out in between. Free *tree with cJSON_Delete. */
+/* The same in two steps, for a caller with members of its own, such as "rate", which it removes from the tree in
+ * between. Free *tree with cJSON_Delete. */
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error);
 enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error);
 enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error);
-/* The preset that a document names; NULL: it names none that there is. */
+/* The preset that a document names; NULL if it names none that exists. */
 const struct kd_playground_preset *kd_playground_preset_in(const cJSON *tree);
-/* A setting by its name from text, as on a command line. */
+/* Sets a setting by name from text, as on a command line. */
 enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text,
                                         struct kd_error *error);
 
-/* {settings, "bodies"}, and with `snapshot` "state". KD_ENOMEM. */
+/* Writes {settings, "bodies"}, and with `snapshot` also "state". KD_ENOMEM. */
 enum kd_status kd_playground_write(struct kd_playground *p, bool snapshot, struct kd_buffer *out);
-/* {"t", "settings", "bodies" with ids, "totals", "debris", "approximations"}: how it stands, without what a snapshot
- * needs. */
+/* Writes {"t", "settings", "bodies" with ids, "totals", "debris", "approximations"}: the present state, without what
+ * only snapshots need. */
 void kd_playground_status_json(struct kd_playground *p, struct kd_json *json);
 
 #endif

@@ -1,4 +1,4 @@
-/* Bodies that touch become one, and bodies that come too close become the hole's. */
+/* Mergers of touching bodies, and captures by the hole. */
 #include "base/pause.h"
 #include "playground/hole.h"
 #include "playground/playground.h"
@@ -20,7 +20,7 @@ static struct kd_playground_event event_of(const struct kd_playground *p, enum k
     return event;
 }
 
-/* Whether two have touched now or within the last h, in which they moved all but straight. */
+/* True if two bodies touched within the last h; their motion is approximated as straight. */
 static bool touched(const struct kd_playground_body *a, const struct kd_playground_body *b, double h)
 {
     double x[3], v[3], xv = 0, vv = 0, d2 = 0;
@@ -37,8 +37,7 @@ static bool touched(const struct kd_playground_body *a, const struct kd_playgrou
     return a->radius > 0 && b->radius > 0 && d2 <= reach * reach;
 }
 
-/* b becomes part of a: mass and momentum are the sums, the place is their centre, the volume the sum. The heavier
- * one's name and number stay. */
+/* Merges b into a: masses, momenta and volumes add, at the centre of mass. The heavier one keeps its name and id. */
 static void join(struct kd_playground *p, struct kd_playground_body *a, struct kd_playground_body *b)
 {
     const bool other = b->mass > a->mass;
@@ -60,9 +59,9 @@ static void join(struct kd_playground *p, struct kd_playground_body *a, struct k
     one.radius = cbrt(a->radius * a->radius * a->radius + b->radius * b->radius * b->radius);
     one.temperature_k = a->temperature_k + share * (b->temperature_k - a->temperature_k);
     one.radiated = a->radiated + b->radiated;
-    one.whole_mass = 0; /* a pass through the tides begins anew, as another star */
+    one.whole_mass = 0; /* the merged star may begin a new tidal pass */
     *a = one;
-    b->id = 0; /* it is no more: swept out below */
+    b->id = 0; /* marks it for removal below */
     kd_playground_event_add(&p->events, event);
 }
 
@@ -70,7 +69,8 @@ void kd_playground_merge(struct kd_playground *p, double h)
 {
     double before = 0;
     size_t joined = 0;
-    bool grown[KD_PLAYGROUND_BODIES_MAX] = { false }; /* where it was before this step means nothing any more */
+    /* bodies whose position before this step is no longer meaningful */
+    bool grown[KD_PLAYGROUND_BODIES_MAX] = { false };
     for (size_t i = 0; i < p->n; i++) {
         bool again = p->mutual.near[i] > 0 && p->bodies[i].id;
         while (again) {
@@ -80,7 +80,7 @@ void kd_playground_merge(struct kd_playground *p, double h)
                 if (j != i && p->bodies[j].id && touched(&p->bodies[i], &p->bodies[j], grown[i] || grown[j] ? 0 : h)) {
                     before = joined++ ? before : kd_playground_totals(p).energy;
                     join(p, &p->bodies[i], &p->bodies[j]);
-                    grown[i] = again = true; /* it has grown, and may touch more */
+                    grown[i] = again = true; /* the larger body may touch others */
                 }
         }
     }
@@ -123,6 +123,6 @@ void kd_playground_capture(struct kd_playground *p)
                                                          body->x[(k + 2) % 3] * body->v[(k + 1) % 3]);
         kd_playground_drop(p, i);
     }
-    if (taken) /* once for all of them: it goes over all pairs */
+    if (taken) /* computed once for all captures, because it visits all pairs */
         p->spent.captured_energy += before - kd_playground_totals(p).energy;
 }

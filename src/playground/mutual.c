@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The widest vectors that the processor has, chosen when the program starts. Sums and their order are the same: no
- * fused operations. A sanitizer is not there yet when that choice is made. */
+/* Compiles for the widest vectors, selected when the program starts. Sums and their order are the same in all
+ * versions: there is no fused arithmetic. Sanitizers are not initialised yet when the selection runs. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define WIDE __attribute__((target_clones("default", "avx2", "avx512f")))
@@ -42,9 +42,8 @@ void kd_playground_mutual_finish(struct kd_playground_mutual *mutual)
     *mutual = (struct kd_playground_mutual) { 0 };
 }
 
-/* What all n bodies do to LANES of them, from `first` on. The lanes are gone through side by side, in vectors where
- * the processor has them, and each sums up over the others in their order: the result does not depend on the width
- * of a vector. */
+/* The pull of all n bodies on LANES of them, from `first` on. The lanes run side by side, in vectors if available.
+ * Each lane sums over the others in order, so that the result does not depend on the vector width. */
 WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t n, double softening2, double margin)
 {
     double x[LANES], y[LANES], z[LANES], mass[LANES], radius[LANES], self[LANES], sum[SUMS][LANES] = { 0 };
@@ -74,7 +73,7 @@ WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t
     double *const out[SUMS] = { p->ax, p->ay, p->az, p->potential, p->rate, p->near };
     for (size_t s = 0; s < SUMS; s++)
         for (size_t l = 0; l < LANES; l++)
-            out[s][first + l] = sum[s][l] - (s == NEAR); /* of itself it is near */
+            out[s][first + l] = sum[s][l] - (s == NEAR); /* without itself */
 }
 
 void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n,
@@ -87,7 +86,7 @@ void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct
         mutual->mass[i] = bodies[i].mass;
         mutual->radius[i] = bodies[i].radius;
     }
-    for (size_t i = n; i % LANES; i++) /* lanes that stand idle */
+    for (size_t i = n; i % LANES; i++) /* unused lanes */
         mutual->x[i] = mutual->y[i] = mutual->z[i] = mutual->mass[i] = mutual->radius[i] = 0;
     for (size_t first = 0; first < n; first += LANES) {
         kd_pause_every(first, 16 * LANES);

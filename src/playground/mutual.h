@@ -1,5 +1,4 @@
-/* Computes how bodies pull one another: all pairs, softened, in double precision. One thread a
- * kd_playground_mutual.
+/* Mutual gravity of bodies: all pairs, softened, in double precision. One thread a kd_playground_mutual.
  *
  * Plummer's softening: the pull of a mass m at distance d is m d/(d^2 + e^2)^(3/2), its potential -m/(d^2 +
  * e^2)^(1/2) (H. Plummer 1911, MNRAS 71, 460). */
@@ -12,22 +11,22 @@
 
 #include <stddef.h>
 
-/* Arrays of `room` numbers each, a multiple of eight, in one allocation: a body's place, mass and radius as the
- * pairs are gone through, and what they give. */
+/* Arrays of `room` numbers each, a multiple of eight, in one allocation: position, mass and radius of the bodies as
+ * input, and the results. */
 struct kd_playground_mutual {
     size_t room;
     double *x, *y, *z, *mass, *radius;
     double *ax, *ay, *az;
-    double *potential; /* of unit mass */
-    double *rate; /* the sum of (m_i + m_j)/s^3 of its pairs: the square of a rate no slower than that of any of them */
-    double *near; /* how many there are within R_i + R_j + margin */
+    double *potential; /* per unit mass */
+    double *rate;      /* sum of (m_i + m_j)/s^3 over its pairs: squared rate, at least that of the fastest pair */
+    double *near;      /* number of bodies within R_i + R_j + margin */
     void *block;
 };
 
 enum kd_status kd_playground_mutual_reserve(struct kd_playground_mutual *mutual, size_t n, struct kd_error *error);
 void kd_playground_mutual_finish(struct kd_playground_mutual *mutual);
 
-/* Fills the arrays for these bodies. */
+/* Computes the arrays for these bodies. */
 void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n,
                                double softening, double margin);
 

@@ -1,5 +1,5 @@
-/* The settings of a playground, a row each: the struct, its defaults, how JSON and --set are read and written, and
- * the schema follow from the rows. Any thread. */
+/* Settings of a playground, one row each. The struct, its defaults, JSON and --set in both directions, and the
+ * schema are generated from the rows. Any thread. */
 #ifndef KD_PLAYGROUND_PARAMS_H
 #define KD_PLAYGROUND_PARAMS_H
 
@@ -13,7 +13,7 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 #define KD_PLAYGROUND_DEBRIS_MAX 1000000u
 
 /* REAL and WHOLE(NAME, default, least, most, help), TRUTH(NAME, default, help), WORD(NAME, default, "a|b", help).
- * Settings that are FIXED are chosen when a playground is made and stay. */
+ * gravity and spin are fixed when a playground is made. */
 #define KD_PLAYGROUND_SETTINGS(REAL, WHOLE, TRUTH, WORD) \
     WORD( \
         gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
@@ -49,27 +49,27 @@ struct kd_playground_params {
 #undef KD_WORD_
 };
 
-/* Also the table of a body's fields, "position" and "velocity" apart. */
+/* Also used for the table of a body's fields, except "position" and "velocity". */
 enum kd_playground_kind { KD_SETTING_REAL, KD_SETTING_WHOLE, KD_SETTING_TRUTH, KD_SETTING_WORD };
 struct kd_playground_setting {
     const char *name;
     enum kd_playground_kind kind;
     size_t offset;
     double value, least, most; /* value: the default */
-    double above_0;            /* what is above 0 is at least this */
-    const char *words;         /* "a|b", of WORD: the values 0, 1, ... */
+    double above_0;            /* non-zero values are at least this */
+    const char *words;         /* for WORD: "a|b", with the values 0, 1, ... */
     const char *help;
 };
 extern const struct kd_playground_setting kd_playground_settings[];
 extern const size_t kd_playground_n_settings;
-extern const struct kd_playground_setting kd_playground_body_fields[]; /* of struct kd_playground_body */
+extern const struct kd_playground_setting kd_playground_body_fields[]; /* fields of struct kd_playground_body */
 extern const size_t kd_playground_n_body_fields;
 
 struct kd_playground_params kd_playground_defaults(void);
 bool kd_playground_params_same(const struct kd_playground_params *a,
-                               const struct kd_playground_params *b); /* all settings; playground.c */
+                               const struct kd_playground_params *b); /* compares all settings; in playground.c */
 
-/* Word `i` of "a|b|c", copied; false: there are fewer. */
+/* Copies word `i` of "a|b|c"; false if there are fewer. */
 bool kd_playground_word(const char *words, int i, char *out, size_t size);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR 1e6 /* M: no body begins farther out */
+#define FAR 1e6 /* M: maximum initial distance of a body */
 
 static bool kerr(const struct kd_playground *p) { return p->params.gravity == KD_GRAVITY_KERR; }
 
@@ -60,7 +60,7 @@ static enum kd_status reserve(struct kd_playground *p, struct kd_error *error)
     return KD_OK;
 }
 
-/* Whether such a body can be; of gravity "kerr" its geodesic decides. */
+/* Checks that such a body can exist. With gravity "kerr" its geodesic decides. */
 static enum kd_status check(const struct kd_playground *p, const struct kd_playground_body *body,
                             struct kd_error *error)
 {
@@ -80,7 +80,8 @@ static enum kd_status check(const struct kd_playground *p, const struct kd_playg
     return KD_OK;
 }
 
-/* Before another list of bodies, or others in it: what the energy was, unless that is known from the change before. */
+/* Call before the list of bodies or a body is changed from outside: records the energy, unless an earlier change
+ * did. */
 static void disturb(struct kd_playground *p)
 {
     if (!p->disturbed && !kerr(p))
@@ -88,7 +89,7 @@ static void disturb(struct kd_playground *p)
     p->disturbed = true;
 }
 
-/* After it: the next step begins anew. */
+/* Call after such a change: the next step starts afresh. */
 static void begin_anew(struct kd_playground *p)
 {
     p->forced = false;
@@ -196,7 +197,7 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
         return kd_error_field(error, "/gravity", "gravity is chosen when a playground is made, and stays");
     if (params->spin != p->params.spin)
         return kd_error_field(error, "/spin", "spin is chosen when a playground is made, and stays");
-    struct kd_playground_params looks = *params; /* how it is shown, and all else as it is */
+    struct kd_playground_params looks = *params; /* only appearance may differ */
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;
     looks.albedo = p->params.albedo;

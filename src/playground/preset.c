@@ -14,8 +14,7 @@ static enum kd_status add(struct kd_playground *p, const char *name, struct kd_p
     return kd_playground_add(p, &body, NULL, error);
 }
 
-/* On a circle of radius r, at the azimuth phi along it, in a plane that is inclined and goes up at the azimuth
- * `node`. */
+/* A circular orbit of radius r at the phase phi, in a plane inclined about the line of nodes at azimuth `node`. */
 static struct kd_playground_body circling(double r, double phi, double inclination, double node)
 {
     const double v = kd_playground_circular(r), c = cos(inclination), s = sin(inclination);
@@ -27,7 +26,7 @@ static struct kd_playground_body circling(double r, double phi, double inclinati
     };
 }
 
-/* On a parabola whose pericentre is 1.2 times as deep as the tidal radius, r away from the hole. */
+/* A parabolic orbit at distance r, whose pericentre is the tidal radius over 1.2. */
 static struct kd_playground_body passing(double mass, double radius, double temperature_k, double r)
 {
     const double pericentre = radius * cbrt(1 / mass) / 1.2, l = pericentre * sqrt(2 / (pericentre - 2)),
@@ -39,10 +38,10 @@ static struct kd_playground_body passing(double mass, double radius, double temp
                                          .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } };
 }
 
-/* The sun and a hole of a million suns: the tidal radius is 47 M. */
+/* The Sun and a hole of a million solar masses: the tidal radius is 47 M. */
 static void disruption_settings(struct kd_playground_params *s)
 {
-    s->h_max = 5; /* at 100 M a second twenty pictures */
+    s->h_max = 5; /* gives twenty pictures a second at 100 M a second */
     s->debris_per_body = 50000;
 }
 
@@ -51,8 +50,8 @@ static enum kd_status disruption(struct kd_playground *p, struct kd_error *error
     return add(p, "star", passing(1e-6, 0.47, 5800, 300), error);
 }
 
-/* A white dwarf of one sun, 5500 km large, and a hole of a thousand suns, on a parabola as deep as the star's above:
- * the tidal radius is 37 M, and what is bound most tightly comes back after 16 000 M, 78 s there. */
+/* A white dwarf of one solar mass and 5500 km radius, and a hole of a thousand solar masses, on an equally deep
+ * parabola. The tidal radius is 37 M. The most tightly bound debris comes back after 16 000 M, which is 78 s. */
 static void dwarf_settings(struct kd_playground_params *s)
 {
     s->h_max = 5;
@@ -91,7 +90,7 @@ static enum kd_status planets(struct kd_playground *p, struct kd_error *error)
     }
     if (status)
         return status;
-    /* The last one's moon, with the circular speed of the softened pull. */
+    /* A moon of the last one, at the circular speed of the softened pull. */
     const double d = 3, e2 = p->params.softening * p->params.softening, v = d * sqrt(body.mass / pow(d * d + e2, 1.5));
     const double out = kd_playground_radius(body.x), speed = kd_playground_radius(body.v);
     struct kd_playground_body moon = { .mass = 1e-7, .radius = 0.1, .temperature_k = 2500 };
@@ -111,7 +110,7 @@ static void binary_settings(struct kd_playground_params *s)
     s->tides = false;
 }
 
-/* Two dark bodies of a hundredth each, 5 M apart, in free fall from rest 1000 M from the hole: they meet long before
+/* Two dark bodies of mass 0.01, 5 M apart, in free fall from rest at 1000 M from the hole. They meet long before
  * they have fallen far. */
 static enum kd_status binary(struct kd_playground *p, struct kd_error *error)
 {
@@ -143,7 +142,7 @@ static enum kd_status emri(struct kd_playground *p, struct kd_error *error)
     struct kd_playground_body body = circling(12, 0, 0, 0);
     body.mass = 1e-3;
     body.radius =
-        0.3; /* so large that it is seen: nothing else depends on it, as there is nothing to touch and tides are off */
+        0.3; /* large enough to be visible; it has no other effect, because nothing can be touched and tides are off */
     body.temperature_k = 12000;
     return add(p, "companion", body, error);
 }
@@ -161,7 +160,7 @@ static enum kd_status swarm(struct kd_playground *p, struct kd_error *error)
     enum kd_status status = KD_OK;
     uint64_t *n = &p->random;
     for (int i = 0; !status && i < 400; i++) {
-        double drawn[5]; /* one after the other: arguments of a call have no order */
+        double drawn[5]; /* drawn one by one, because the order of arguments in a call is unspecified */
         for (int k = 0; k < 5; k++)
             drawn[k] = kd_random_drawn(p->params.seed, n);
         struct kd_playground_body body =
@@ -183,8 +182,8 @@ static void eight_settings(struct kd_playground_params *s)
     s->softening = 0.001;
 }
 
-/* A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; start by C. Simo. Scaled to masses m = 0.1 and the length
- * 100 M, at rest 1e5 M from the hole, whose tide there is 1e-8 of their pull. */
+/* The figure-eight orbit: A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; initial values by C. Simo. Scaled
+ * to masses m = 0.1 and a length of 100 M, at rest 1e5 M from the hole, whose tide there is 1e-8 of their pull. */
 static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
 {
     static const double x[3][2] = { { 0.97000436, -0.24308753 }, { -0.97000436, 0.24308753 }, { 0, 0 } };

@@ -1,4 +1,4 @@
-/* These playgrounds are known by name. Any thread. */
+/* Presets of playgrounds. Any thread. */
 #ifndef KD_PLAYGROUND_PRESET_H
 #define KD_PLAYGROUND_PRESET_H
 
@@ -6,12 +6,12 @@
 
 struct kd_playground_preset {
     const char *name, *title;
-    double rate;             /* M a second, at which it is worth watching */
-    double centre[3], reach; /* M: what a view of it looks at, and half the width that it shows */
+    double rate;             /* M a second: suggested speed */
+    double centre[3], reach; /* M: centre of a suggested view, and half its width */
     void (*settings)(struct kd_playground_params *params);
-    /* Adds its bodies to an empty playground with these settings, or others. */
+    /* Adds its bodies to an empty playground, with its own or other settings. */
     enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);
-    const char *scene; /* JSON of a scene that shows it well, over the default one */
+    const char *scene; /* JSON of a suitable scene, as a difference from the default one */
 };
 extern const struct kd_playground_preset kd_playground_presets[];
 extern const size_t kd_playground_n_presets;

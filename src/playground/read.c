@@ -1,4 +1,4 @@
-/* Documents that make and change a playground. */
+/* Reads documents that create or change a playground. */
 #include "base/pause.h"
 #include "playground/fields.h"
 #include "playground/hole.h"
@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PIECES 16384   /* of debris, that are copied at once: a millisecond */
-#define VALUES 4000000 /* of a document: of 4 096 bodies some fifty each, and the sources' counts */
+#define PIECES 16384   /* pieces of debris copied at a time: a millisecond */
+#define VALUES 4000000 /* maximum values of a document: 4 096 bodies with some fifty each, and the sources' counts */
 
 static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer,
                                 struct kd_error *error)
@@ -26,8 +26,8 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
     return KD_OK;
 }
 
-/* The fields that are given; the others stay. *id: NULL where a body has none to be called by. grown: how many times
- * the most that a new body may have this one may: mergers add. */
+/* Reads the given fields; others stay. id: set to the member "id"; NULL if a body may not have one. grown: factor on
+ * the largest mass and radius of a new body, since mergers add up. */
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
 {
@@ -49,7 +49,7 @@ static enum kd_status read_body(struct kd_playground_body *body, const cJSON *it
             KD_TRY(read_name(body, one, at, error));
         else if (!strcmp(one->string, "position"))
             KD_TRY(kd_playground_numbers(body->x, 3, 1e18, one, at,
-                                         error)); /* how far a new one may be is checked where it is added */
+                                         error)); /* the distance of a new body is checked when it is added */
         else if (!strcmp(one->string, "velocity"))
             KD_TRY(kd_playground_numbers(body->v, 3, 1 + 1e-12, one, at, error));
         else if (id && !strcmp(one->string, "id"))
@@ -61,7 +61,7 @@ done:
     return status;
 }
 
-/* Whose place is wrong is a body of a list. */
+/* Errors of a body get the pointer of its place in the list. */
 static enum kd_status in_list(enum kd_status status, const char *pointer, struct kd_error *error)
 {
     if (status && error && strncmp(error->pointer, pointer, strlen(pointer)))
@@ -104,7 +104,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
             return kd_error_field(error, pointer, "there is no body with this id, or it is there no more");
         body = *old;
         if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
-            body.whole_mass = 0; /* another star, whose pass through the tides begins anew */
+            body.whole_mass = 0; /* it is now another star, whose tidal pass starts afresh */
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
@@ -126,7 +126,7 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     if (list && !cJSON_IsArray(list))
         return kd_error_field(error, pointer, "%s is no array", name);
     if (list && what != ADD &&
-        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* of ADD the body that is one too many is named */
+        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* for ADD the error names the first body too many */
         return kd_error_field(error, pointer, "%s has %d elements; it must have at most %u", name,
                               cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
@@ -147,7 +147,7 @@ static bool among(const char *name, const char *const *names)
     return *names;
 }
 
-/* The settings that are given, and that there is nothing else but `others`. */
+/* Reads the given settings; members other than these and `others` are errors. */
 static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *const *others,
                                     struct kd_error *error)
 {
@@ -195,7 +195,7 @@ static enum kd_status read_preset(const cJSON *tree, const struct kd_playground_
         clipped);
 }
 
-/* The bodies of a snapshot may be farther out than new ones, where motion has brought them. */
+/* Bodies of a snapshot may be farther out than new ones, because they have moved. */
 static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -239,7 +239,7 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     if (preset)
         KD_TRY(preset->fill(p, error));
     KD_TRY(state ? take_bodies(p, bodies, error) : do_list(p, ADD, bodies, "bodies", error));
-    p->disturbed = false; /* the books begin here */
+    p->disturbed = false; /* the energy balance starts here */
     if (state)
         KD_TRY(kd_state_read(p, state, error));
 done:
@@ -259,7 +259,7 @@ enum kd_status kd_playground_read(const char *text, size_t length, struct kd_pla
     return status;
 }
 
-/* A copy that can be changed and thrown away. */
+/* A copy that can be modified and discarded. */
 static enum kd_status copy(const struct kd_playground *from, struct kd_playground **out, struct kd_error *error)
 {
     struct kd_playground *p = malloc(sizeof *p);

@@ -21,7 +21,7 @@ void kd_series_begin(struct kd_playground_series *series, const double now[KD_SE
     series->n = 1;
 }
 
-/* An open series is never full: the row of the present must fit in its file. */
+/* An open-ended series is never full, so that a file has room for the present row. */
 double kd_series_next(const struct kd_playground_series *series)
 {
     if (series->span > 0 && series->n == KD_SERIES_ROWS)
@@ -39,7 +39,8 @@ static void thin(struct kd_playground_series *series)
     series->interval *= 2;
 }
 
-/* Counts are those before; where the number of bodies changes, all is as it was before. */
+/* Interpolates linearly between two rows. Counts stay as before; if the number of bodies changes, so does
+ * everything. */
 static void between(const double before[KD_SERIES_N], const double now[KD_SERIES_N], double t, double row[KD_SERIES_N])
 {
     const double share = (t - before[KD_SERIES_t]) / (now[KD_SERIES_t] - before[KD_SERIES_t]);

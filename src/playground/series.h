@@ -1,6 +1,6 @@
-/* A playground's numbers over time, as rows: row k is at `begin` + k `interval`, linear between the sub-steps beside
- * it. When a series is full, every second row is dropped and the interval doubled, so that rows span all of the
- * time; whoever knows the span beforehand says it, and has its last row at its end. One thread at a time. */
+/* Time series of a playground's numbers. Row k is at `begin` + k `interval`, interpolated linearly between
+ * sub-steps. When the series is full, every second row is dropped and the interval doubled, so that the rows cover
+ * all of the time. If the span is known beforehand, the last row falls on its end. One thread at a time. */
 #ifndef KD_PLAYGROUND_SERIES_H
 #define KD_PLAYGROUND_SERIES_H
 
@@ -11,7 +11,7 @@
 
 enum { KD_SERIES_ROWS = 4096 };
 
-/* X(name, unit, what it is) */
+/* X(name, unit, description) */
 #define KD_SERIES_COLUMNS(X) \
     X(t, "M", "time") \
     X(bodies, "", "how many there are") \
@@ -35,24 +35,24 @@ enum { KD_SERIES_COLUMNS(KD_SERIES_COLUMN_) KD_SERIES_N };
 
 struct kd_playground_series {
     double begin, interval; /* M */
-    double span;            /* M; 0: open, rows are added for ever */
-    size_t n;               /* rows; 0: it has not begun */
+    double span;            /* M; 0: open-ended */
+    size_t n;               /* number of rows; 0: not begun */
     double rows[KD_SERIES_ROWS][KD_SERIES_N];
 };
 
-/* Begins with the row `now`. span > 0: there are KD_SERIES_ROWS rows over so many M, and none later; 0: it is open,
- * and `interval` > 0 is the first. */
+/* Begins with the row `now`. span > 0: KD_SERIES_ROWS rows over this time in M, and none later. span 0: open-ended,
+ * with `interval` > 0 at first. */
 void kd_series_begin(struct kd_playground_series *series, const double now[KD_SERIES_N], double span, double interval);
-double kd_series_next(const struct kd_playground_series *series); /* time of the next row; INFINITY: there is none */
-/* Adds the rows that lie between two sub-steps, `before` excluded. */
+double kd_series_next(const struct kd_playground_series *series); /* time of the next row; INFINITY if there is none */
+/* Adds the rows between two sub-steps, excluding `before`. */
 void kd_series_add(struct kd_playground_series *series, const double before[KD_SERIES_N],
                    const double now[KD_SERIES_N]);
-/* Whether the row `now`, of the present, comes after the rows: files end with it. */
+/* True if the present row `now` is later than the last row; files then append it. */
 bool kd_series_lacks(const struct kd_playground_series *series, const double now[KD_SERIES_N]);
 const char *kd_series_column(int i);
 
-/* All rows, and `now` where it comes after them: as text/csv with a line of names, or as an NPY array of records; at
- * most KD_SERIES_ROWS. KD_ENOMEM. */
+/* All rows, and `now` if it is later: as text/csv with a line of names, or as an NPY array of records; at most
+ * KD_SERIES_ROWS. KD_ENOMEM. */
 enum kd_status kd_series_csv(const struct kd_playground_series *series, const double now[KD_SERIES_N],
                              struct kd_buffer *out);
 enum kd_status kd_series_npy(const struct kd_playground_series *series, const double now[KD_SERIES_N],

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LIMB 0.6    /* as the default of bodies.limb_darkening */
-#define PER_CELL 6. /* pieces that there are in cells which have any, in the mean and at least */
+#define LIMB 0.6    /* the default of bodies.limb_darkening */
+#define PER_CELL 6. /* minimum mean number of pieces in occupied cells */
 
-/* What an observer of zero angular momentum sees of a velocity by Newton, over it. */
+/* Factor from a Newtonian velocity to that past the observer of zero angular momentum. */
 static double slower(const double v[3], bool approximate)
 {
     const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -50,13 +50,13 @@ void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_sh
         float column = cells * atan2f(y, x);
         column += column < 0 ? turn : 0;
         const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 > 1 &&
-                               r2 < 1e30f; /* the hole is there, or more than the coarsest grid has rows for */
+                               r2 < 1e30f; /* inside the hole, or beyond the rows of the coarsest grid */
         out[i] = somewhere ? (struct kd_show_place) { 0.5f * cells * logf(r2), column < turn ? column : 0 }
                            : (struct kd_show_place) { NAN, NAN };
     }
 }
 
-/* Cells of the coarsest grid that have pieces: how many, and in which columns and rows they are. */
+/* Occupied cells of the coarsest grid: their number, and their columns and rows. */
 struct taken {
     size_t cells, pieces;
     int32_t rows[2];
@@ -67,7 +67,7 @@ enum {
     COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST,
     LOW = -1024,
     HIGH = 3072
-}; /* rows of it: of any r that there is */
+}; /* range of its rows, for any r that can occur */
 
 static bool take(const struct kd_show_place *places, size_t n, struct taken *out)
 {
@@ -90,7 +90,7 @@ static bool take(const struct kd_show_place *places, size_t n, struct taken *out
     return seen;
 }
 
-/* The columns that are left beside the widest gap: where they begin, and how many they are. */
+/* The range of columns outside the widest empty gap: first column and count. */
 static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, uint32_t *count)
 {
     uint32_t widest = 0, run = 0;
@@ -102,13 +102,14 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
             *first = (i + 1) % KD_SHOW_TURN_LEAST;
         }
     }
-    if (widest < 2) /* as good as all round */
+    if (widest < 2) /* a gap this narrow is ignored */
         *first = widest = 0;
     *count = KD_SHOW_TURN_LEAST - widest;
 }
 
-/* Cells are as small as they may be with a handful of pieces in each that has any, by those of the coarsest grid: a
- * stream is narrower than these, and has more. A grid that does not go all round ends a node behind its last cell. */
+/* Chooses the smallest cells that leave enough pieces in each occupied cell. The estimate is from the coarsest grid;
+ * a stream of debris is narrower than its cells, and so fills fewer small ones. A grid that does not go all round
+ * has one more column of nodes at its end. */
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_debris *out)
 {
     struct taken taken;
@@ -132,7 +133,7 @@ void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_
     };
 }
 
-/* Two nodes of one row. */
+/* Deposits on two nodes of one row. */
 static void add(float *left, float *right, float share, float worth, float vr, float vphi)
 {
     float *const to[2] = { left, right }, shares[2] = { worth * (1 - share), worth * share };
@@ -143,7 +144,7 @@ static void add(float *left, float *right, float share, float worth, float vr, f
     }
 }
 
-/* What moves so fast as seen by the observer of zero angular momentum, along e_r and e_phi. */
+/* Velocity past the observer of zero angular momentum, along e_r and e_phi. */
 static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
 {
     const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] },
@@ -245,10 +246,10 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
     return KD_OK;
 }
 
-/* The radius that nine pieces in ten are within, to a hundredth; 0: there are none. */
+/* The radius that contains nine pieces in ten, to one per cent; 0 if there are none. */
 static double most_within(const struct kd_playground_debris *debris)
 {
-    enum { BINS = 4200 }; /* of ln r, to 1e18 M */
+    enum { BINS = 4200 }; /* in ln r, up to 1e18 M */
     uint32_t count[BINS] = { 0 }, all = 0, sum = 0;
     for (uint32_t i = 0; i < debris->used; i++) {
         const float bin = 100 * logf((float)kd_playground_radius(debris->pieces[i].x));

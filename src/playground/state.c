@@ -12,11 +12,11 @@
 #include <string.h>
 
 #define MOST 1e300
-#define LAST (KD_PLAYGROUND_TIME + 1e6) /* M: what comes to the end of time may be a sub-step past it */
-#define OLD_PIECE ((size_t)32)          /* bytes of a piece in a snapshot of a version before this */
-#define WHOLE 9e15                      /* numbers that a double holds exactly */
+#define LAST (KD_PLAYGROUND_TIME + 1e6) /* M: the last sub-step may exceed the end of time */
+#define OLD_PIECE ((size_t)32)          /* bytes of a piece in snapshots of an older version */
+#define WHOLE 9e15                      /* integers up to this are exact as doubles */
 
-/* Numbers by name: of the playground, its debris, a body, a source. */
+/* Tables of named numbers: of the playground, its debris, a body, a source. */
 struct number {
     const char *name;
     size_t offset;
@@ -195,7 +195,7 @@ done:
     return status;
 }
 
-/* What pieces there are, as kd_debris_advance would know it; false: one cannot be. */
+/* Recounts the pieces and checks them; false if one is impossible. */
 static bool look(struct kd_playground_debris *d)
 {
     double haste = 0;
@@ -214,8 +214,8 @@ static bool look(struct kd_playground_debris *d)
         haste += 1 / (r - KD_PLAYGROUND_HORIZON);
         d->alive++;
     }
-    return !d->alive ||
-           (d->haste > 0.5 * haste && d->haste < 1e9); /* it bounds the sub-steps that all of them take at once */
+    /* it determines the sub-steps of all pieces in one stride, so that it must be right */
+    return !d->alive || (d->haste > 0.5 * haste && d->haste < 1e9);
 }
 
 static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *item, struct kd_error *error)
@@ -285,7 +285,7 @@ enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct
     KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST,
                                  cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
     const cJSON *capped = cJSON_GetObjectItemCaseSensitive(gone, "capped_momentum");
-    if (capped) /* older versions have none */
+    if (capped) /* missing in older snapshots */
         KD_TRY(kd_playground_numbers(p->spent.capped_momentum, 3, MOST, capped, "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
         KD_TRY(bad("/state", "bodies", "are not as many as the bodies", error));

@@ -1,5 +1,5 @@
-/* These write and read the part "state" of a snapshot: all that the motion depends on besides settings and bodies.
- * Private to src/playground. */
+/* The "state" of a snapshot: everything that the motion depends on besides settings and bodies. Private to
+ * src/playground. */
 #ifndef KD_PLAYGROUND_STATE_H
 #define KD_PLAYGROUND_STATE_H
 
@@ -8,7 +8,7 @@
 #include <cjson/cJSON.h>
 
 enum kd_status kd_state_write(const struct kd_playground *p, struct kd_json *json);
-/* p has the settings and the bodies of the snapshot. */
+/* p must already have the settings and the bodies of the snapshot. */
 enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct kd_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* Makes one sub-step of all bodies: kick, drift, kick. */
+/* The integrator: a sub-step of all bodies (kick, drift, kick), and strides of geodesics. */
 #include "playground/hole.h"
 #include "playground/playground.h"
 #include "playground/wave.h"
@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-#define PIECE 256 /* steps of geodesics, a microsecond or two each */
+#define PIECE 256 /* steps of geodesics in a piece, a microsecond or two each */
 #define CLEARANCE \
-    1.25 /* the rate aimed at over the least that is allowed: room for the rate of one step to swing about that of the \
-            places */
+    1.25 /* rate aimed at over the minimum: the rate of single steps oscillates about that required at the positions \
+          */
 
 void kd_playground_force(struct kd_playground *p)
 {
@@ -19,7 +19,7 @@ void kd_playground_force(struct kd_playground *p)
     p->forced = true;
 }
 
-/* The rate 1/h that the bound demands of the bodies where they are. */
+/* The rate 1/h that the bound requires at the present positions. */
 static double demanded(const struct kd_playground *p)
 {
     const struct kd_playground_params *s = &p->params;
@@ -33,8 +33,8 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Speeds are held at 1. `others`: other bodies pull it more than the hole does. What the hole's pull brings above c
- * changes no balance of momentum, as the hole has none. */
+/* Caps the speed at 1. `others`: mutual gravity exceeds the hole's. Capping speed that the hole gave changes no
+ * momentum balance, because the hole has no momentum. */
 static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
@@ -47,7 +47,7 @@ static void hold(struct kd_playground *p, struct kd_playground_body *body, bool 
         p->spent.capped_momentum[k] += body->mass * (v - 1) * body->v[k];
 }
 
-/* Adds a loss to a velocity, and books it. */
+/* Applies the acceleration a for share * time, and accounts for the energy lost. */
 static void lose(struct kd_playground *p, struct kd_playground_body *body, const double a[3], double share, double time)
 {
     double work = 0;
@@ -60,7 +60,7 @@ static void lose(struct kd_playground *p, struct kd_playground_body *body, const
     p->spent.radiated -= work;
 }
 
-/* What waves do in `time`: of bound pairs to each other, of all others with the hole. */
+/* Applies gravitational-wave losses over `time`: of bound pairs with each other, of all other bodies with the hole. */
 static void radiate(struct kd_playground *p, double time)
 {
     size_t partners[KD_WAVE_PAIRS_MAX];
@@ -105,8 +105,8 @@ static void kick(struct kd_playground *p, double time)
     }
 }
 
-/* Bodies that have come past the capture radius in this drift are pulled by the hole no more: they are taken after
- * it. */
+/* Moves all bodies on straight lines. The hole does not attract those that pass its capture radius; they are
+ * captured after the step. */
 static void drift(struct kd_playground *p, double time)
 {
     for (size_t i = 0; i < p->n; i++)
@@ -115,7 +115,7 @@ static void drift(struct kd_playground *p, double time)
     p->forced = false;
 }
 
-/* Returns h; 0, and nothing has moved: it is less than the time can tell. */
+/* Returns h, or 0 (state unchanged) if h is below the resolution of t. */
 static double step(struct kd_playground *p)
 {
     kd_playground_force(p);
@@ -126,7 +126,7 @@ static double step(struct kd_playground *p)
     p->rate = rate;
     kick(p, 0.5 * h);
     drift(p, h);
-    p->margin = fmin(2 * h, 1e6); /* two bodies may have come nearer by so much, and be apart again */
+    p->margin = fmin(2 * h, 1e6); /* two bodies may have touched within the step and be apart again */
     kd_playground_force(p);
     kick(p, 0.5 * h);
     p->t += h;
@@ -134,7 +134,7 @@ static double step(struct kd_playground *p)
     return h;
 }
 
-/* Gravity "kerr": bodies are where they are at p->aim, which all have approached, and then so is the playground. */
+/* Gravity "kerr": moves the bodies and the playground to p->aim, which all geodesics have approached. */
 static void arrive(struct kd_playground *p)
 {
     p->t = p->aim;
@@ -200,7 +200,7 @@ void kd_playground_series_begin(struct kd_playground *p, double span)
     kd_series_begin(&p->series, row, span, p->params.h_max);
 }
 
-/* The row before a step of at most `longest`, if the step may lead past the next row of the series. */
+/* Saves the present row if a step of at most `longest` may pass the next row of the series. */
 static void record_before(struct kd_playground *p, double longest)
 {
     p->last_row[KD_SERIES_t] = NAN;
@@ -217,7 +217,7 @@ static void record(struct kd_playground *p)
     kd_series_add(&p->series, p->last_row, now);
 }
 
-/* Debris is where it is at debris.t, which follows t every h_max, or oftener where a piece is near the hole. */
+/* Moves debris to t, once every h_max, or more often if a piece is near the hole. */
 static void advance_debris(struct kd_playground *p)
 {
     struct kd_playground_debris *debris = &p->debris;
@@ -230,11 +230,11 @@ static void advance_debris(struct kd_playground *p)
         kd_debris_advance(debris, p->t, p->params.safety, p->params.feeds);
 }
 
-/* One sub-step, and what comes of it. With nothing but debris left, as far as that may go at once. False: the time
- * cannot tell so little. */
+/* One sub-step and its consequences. If only debris is left, the longest stride that it allows. False: h is below
+ * the resolution of t. */
 static bool go(struct kd_playground *p)
 {
-    record_before(p, p->params.h_max); /* a step is no longer */
+    record_before(p, p->params.h_max); /* no step is longer */
     if (p->n) {
         const double h = step(p);
         if (!(h > 0))
@@ -266,7 +266,7 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
         kd_playground_series_begin(p, 0);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
-    for (size_t i = 0; i < p->n; i++) /* the stride under way would lead farther than this run is to go */
+    for (size_t i = 0; i < p->n; i++) /* the current stride leads beyond the end of this run: return to its start */
         kd_geodesic_back(&p->geodesics[i]);
     p->aim = p->t;
 }
@@ -277,8 +277,7 @@ static bool is_over(const struct kd_playground *p, const struct kd_playground_ru
            p->steps - run->first >= p->params.budget;
 }
 
-/* How long a stride is that half of what is left of the budget is enough for, as far as the bodies' motion now can
- * tell. */
+/* Longest stride for half of the remaining budget, estimated from the present motion. */
 static double affordable(const struct kd_playground *p, uint32_t left)
 {
     double pace = 0;
@@ -287,14 +286,14 @@ static double affordable(const struct kd_playground *p, uint32_t left)
     return pace > 0 ? 0.5 * left / pace : INFINITY;
 }
 
-/* Gravity "kerr", in strides: all bodies approach the stride's end, one after the other, and are there together.
- * Where the budget is spent in between nobody has moved, and the next run goes on towards the same end. */
+/* Gravity "kerr": moves by strides. The geodesics approach the stride's end one after the other; then all bodies
+ * move. If the budget is spent in between, no body has moved, and the next run continues towards the same end. */
 static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
 {
     if (!(p->aim > p->t)) {
         p->aim = fmin(p->t + fmin(run->stride, affordable(p, run->left)), run->end);
         p->approached = 0;
-        run->stuck = !(p->aim > p->t); /* less than the time can tell */
+        run->stuck = !(p->aim > p->t); /* below the resolution of t */
     }
     const uint32_t piece = run->left < PIECE ? run->left : PIECE;
     uint32_t left = piece;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 0.1 /* of its mass: how much more a star has shed when another event tells it */
+#define TOLD 0.1 /* further fraction of its mass that a star sheds between two events */
 
 double kd_tide_radius(double mass, double radius) { return radius * cbrt(1 / mass); }
 
@@ -25,7 +25,7 @@ double kd_tide_share(double b)
     return exp((3.1647 - 6.3777 * b + 3.1797 * b * b) / (1 - 3.4137 * b + 2.4616 * b * b));
 }
 
-/* What it is before the pass, and its debris' source. */
+/* Starts a tidal pass: saves mass and radius, and starts a source of debris. */
 static void begin(struct kd_playground *p, struct kd_playground_body *body)
 {
     body->whole_mass = body->mass;
@@ -39,7 +39,7 @@ static void begin(struct kd_playground *p, struct kd_playground_body *body)
 
 static void end(struct kd_playground_body *body)
 {
-    body->radius = fmax(body->whole_radius * cbrt(1 - body->shed), KD_PLAYGROUND_LEAST); /* as dense as it was */
+    body->radius = fmax(body->whole_radius * cbrt(1 - body->shed), KD_PLAYGROUND_LEAST); /* at constant density */
     body->whole_mass = 0;
 }
 
@@ -58,12 +58,12 @@ static void tell(struct kd_playground *p, const struct kd_playground_body *body,
     kd_playground_event_add(&p->events, event);
 }
 
-/* Sheds what is due. True: nothing is left of it. */
+/* Sheds what is due. True: nothing is left of the star. */
 static bool shed(struct kd_playground *p, struct kd_playground_body *body)
 {
     struct kd_debris_source *source = kd_debris_source_of(&p->debris, body->source);
     const double share = kd_tide_share(body->depth);
-    if (!source) { /* given up for newer ones: go on as a new one would */
+    if (!source) { /* its source was dropped for newer ones: end the pass; another may begin */
         end(body);
         return false;
     }
@@ -71,7 +71,7 @@ static bool shed(struct kd_playground *p, struct kd_playground_body *body)
                    torn = (uint32_t)floor(share * all);
     const uint32_t due = body->whole_mass * (1 - (double)torn / all) < KD_PLAYGROUND_LEAST
                              ? all
-                             : torn; /* what would be left is too little for a body */
+                             : torn; /* the rest would be below a body's minimum mass */
     if (due <= source->pieces)
         return false;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);
@@ -124,6 +124,6 @@ void kd_playground_tides(struct kd_playground *p)
         if (shed(p, body))
             kd_playground_drop(p, --i);
     }
-    if (counted) /* once for all stars: it goes over all pairs */
+    if (counted) /* computed once for all stars, because it visits all pairs */
         p->spent.torn_energy += before - kd_playground_totals(p).energy;
 }

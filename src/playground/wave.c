@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-#define MOST 0.1 /* of the pull: beyond it an orbit has no meaning, and the formula might give energy back */
+#define MOST 0.1 /* maximum loss over the pull: beyond it there is no orbit, and the formula might add energy */
 
-/* By m1 m2 = eta m^2 and m. */
+/* The reaction for m1 m2 = product and the total mass m. */
 static bool react(double product, double m, const double x[3], const double v[3], double amplification, double a[3])
 {
     const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
@@ -72,8 +72,8 @@ void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double 
             }
         }
     }
-    /* A pair that is bound stays; whoever is no half of one has none. Chains (i to j, j to k) end in pairs, which
-     * are looked at whole. */
+    /* A bound pair keeps its partners; all other bodies have none. Chains (i to j, j to k) end in pairs, which are
+     * compared as pairs. */
     for (size_t i = 0; i < n; i++) {
         const size_t j = partners[i];
         if (j < n && i < j && partners[j] == i && !bound(&bodies[i], &bodies[j], softening2))

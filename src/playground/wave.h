@@ -1,8 +1,8 @@
-/* Two masses that go round each other lose energy and angular momentum to gravitational waves, as Peters says on the
- * average over an orbit. Pure functions, any thread; G = c = 1.
+/* Gravitational-wave losses of two bodies in orbit, with Peters' averages over an orbit. Pure functions, any thread;
+ * G = c = 1.
  *
  * The relative acceleration at 2.5 post-Newtonian order, with m = m1 + m2, eta = m1 m2/m^2, x = r n the relative
- * place and v the relative velocity:  a = (8/5) eta (m^2/r^3) [r' n (3 v^2 + 17 m/(3 r)) - v (v^2 + 3 m/r)] (T.
+ * position and v the relative velocity: a = (8/5) eta (m^2/r^3) [r' n (3 v^2 + 17 m/(3 r)) - v (v^2 + 3 m/r)] (T.
  * Damour & N. Deruelle 1981, Phys. Lett. A 87, 81; L. Blanchet 2014, Living Rev. Relativ. 17, 2, eq. 203). On a
  * Kepler orbit its averages are those of P. C. Peters 1964, Phys. Rev. 136, B1224. */
 #ifndef KD_PLAYGROUND_WAVE_H
@@ -11,22 +11,22 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define KD_WAVE_PAIRS_MAX 256 /* bodies among which pairs are looked for; of more each radiates with the hole alone */
+#define KD_WAVE_PAIRS_MAX 256 /* bodies searched for pairs; with more, each radiates with the hole alone */
 
 struct kd_playground_body;
 
-/* *a: the acceleration times `amplification`, held to a tenth of m/r^2; true where it was held. */
+/* *a: the acceleration times `amplification`, limited to a tenth of m/r^2; true if it was limited. */
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* The same of a body of mass m that goes round the hole at x in its potential (hole.h), where a circle has v^2 =
- * r/(r - 2)^2 instead of 1/r: speeds are scaled by (r - 2)/r, and the force too, so that a circle of radius r
- * radiates the power that Peters gives for one of radius r and the masses 1 and m, though the hole stands still. It
- * shrinks faster than his by (r - 2)^3/(r^2 (r - 6)), as its energy (4 - r)/(2 (r - 2)^2) depends less on r than
- * -1/(2 r): 1.3 times at r = 10. */
+/* The same for a body of mass m that orbits the hole at x in its potential (hole.h), where a circular orbit has v^2
+ * = r/(r - 2)^2 instead of 1/r. Speeds are scaled by (r - 2)/r, and the force too, so that a circular orbit of
+ * radius r radiates the power that Peters gives for radius r and masses 1 and m, although the hole is fixed. It
+ * shrinks faster than Peters' orbit by (r - 2)^3/(r^2 (r - 6)), because its energy (4 - r)/(2 (r - 2)^2) depends
+ * less on r than -1/(2 r): 1.3 times at r = 10. */
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* For each of n bodies the index of the one that pulls it most, if that holds for the other, too, and the two are
- * bound to each other; else n. */
+/* For each of n bodies, the index of the body that pulls it most, if that is mutual and the two are bound to each
+ * other; otherwise n. */
 void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double softening, size_t *partners);
 
 #endif

@@ -1,4 +1,4 @@
-/* A quantity is written down like this. Private to src/quantity.
+/* Macros that define a quantity from its tables of parameters and outputs. Private to src/quantity.
  *
  *     #define PARAMETERS(P) P(spin, .unit = "M", .initial = "0.9", ...) P(r, ...)
  *     #define OUTPUTS(O) O(isco, .unit = "M", .fixed = true, .help = "...") ...
@@ -7,7 +7,7 @@
  *     { const struct parameters *p = KD_QUANTITY_IN(in); struct outputs *o = KD_QUANTITY_OUT(out); ... }
  *     KD_QUANTITY(kerr, "kerr", "the hole in numbers", .point_us = 1)
  *
- * gives struct parameters and struct outputs their members, in the order of the tables, all double. */
+ * Struct parameters and struct outputs have a double member for each row, in the order of the tables. */
 #ifndef KD_QUANTITY_DEFINE_H
 #define KD_QUANTITY_DEFINE_H
 
@@ -31,7 +31,7 @@
 #define KD_QUANTITY_IN(in) ((const struct parameters *)(const void *)(in))
 #define KD_QUANTITY_OUT(out) ((struct outputs *)(void *)(out))
 
-/* The file also has `evaluate`, and `sources` and `approximations`, ended by NULL. */
+/* The file must define `evaluate`, and the NULL-terminated lists `sources` and `approximations`. */
 #define KD_QUANTITY(symbol, name_, summary_, ...) \
     const struct kd_quantity kd_quantity_##symbol = { .name = name_, \
                                                       .summary = summary_, \
@@ -44,7 +44,7 @@
                                                       .evaluate = evaluate, \
                                                       __VA_ARGS__ };
 
-/* Many quantities share these rows. */
+/* Parameters shared by several quantities. */
 #define KD_PARAMETER_SPIN(P) \
     P(spin, .unit = "M", .initial = "0.9", .minimum = -1, .maximum = 1, .open = true, \
       .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")
@@ -66,7 +66,7 @@
       .help = "its energy per mass; rest: as infall_from has it") \
     P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
       .help = "its angular momentum per mass")
-/* The motion that these say. */
+/* The motion given by KD_PARAMETER_OBSERVER. */
 #define KD_QUANTITY_MOTION(p) \
     (struct kd_observer_motion) \
     { \
@@ -75,12 +75,12 @@
         .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum, \
     }
 
-/* KD_EINVAL with "/name": "r is 1.2, " and the reason, which ends in what is allowed. */
+/* KD_EINVAL at "/name". The message is "r is 1.2, " and the reason, which should end with what is allowed. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
-/* r at or outside the horizon of spin a, or that error. */
+/* Checks that r is at or outside the hole's horizon; otherwise that error. */
 enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error);
-/* Whether there is such an observer, or the error for /observer_r or the number that is wrong. */
+/* Checks that the observer exists; otherwise an error at /observer_r or at the invalid number. */
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error);
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The next combination, the last parameter fastest; true if one that is not `along` has changed. */
+/* Advances to the next combination, the last parameter fastest. True if a parameter that is not `along` has changed. */
 static bool advance(const struct kd_quantity_request *request, size_t at[KD_QUANTITY_PARAMETERS])
 {
     bool fresh = false;

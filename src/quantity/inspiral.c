@@ -52,7 +52,7 @@ static const char *const approximations[] = {
     NULL,
 };
 
-struct orbit { double total, unit_s, unit_m; /* solar masses, and M of them */ };
+struct orbit { double total, unit_s, unit_m; /* total mass in solar masses; one M of it in seconds and in metres */ };
 
 static struct orbit orbit_of(const struct parameters *p)
 {

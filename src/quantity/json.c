@@ -17,7 +17,7 @@ static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const 
     kd_write(w, "]");
 }
 
-/* The parameters that are ranges, if there are several: their names and counts in the order of the nesting. */
+/* If several parameters are ranges: writes their names and counts, in the order of nesting. */
 static void write_shape(struct kd_writer *w, const struct kd_quantity_request *request)
 {
     const struct kd_quantity *quantity = request->quantity;
@@ -38,7 +38,7 @@ static void write_shape(struct kd_writer *w, const struct kd_quantity_request *r
     kd_write(w, "%s", ranges > 1 ? "]" : "");
 }
 
-/* Whether a range changes the output. */
+/* True if the output depends on a range. */
 static bool varies(const struct kd_quantity_request *request, const struct kd_output *output)
 {
     for (size_t i = 0; i < request->quantity->n_parameters; i++)

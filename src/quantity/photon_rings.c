@@ -53,7 +53,7 @@ static double width_of(const struct memory *m, const struct parameters *p, int o
                            kd_lensing_edge(&m->curve, &m->point, order, m->inner));
 }
 
-/* From below the plane the picture is that from above, upside down. */
+/* From below the plane the picture is mirrored vertically, so the inclination is reflected to above. */
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
     const double horizon = kd_hole(p->spin)->outer;

@@ -1,4 +1,4 @@
-/* Writes docs/physics-quantities.md, from the tables. */
+/* Writes docs/physics-quantities.md from the tables of quantities. */
 #include "quantity/sound.h"
 #include "quantity/text.h"
 

@@ -1,4 +1,4 @@
-/* This program prints docs/physics-quantities.md. */
+/* Program that prints docs/physics-quantities.md. */
 #include "quantity/quantity.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Reads what is asked for: a parameter's value or range from text. */
+/* Parses requests for quantities: a parameter's value or range from text. */
 #include "quantity/quantity.h"
 
 #include "base/decimal.h"
@@ -70,7 +70,7 @@ static bool holds(const struct kd_parameter *p, double value)
     return inside && (!p->whole || value == floor(value));
 }
 
-/* A number and what follows it: NULL if text does not start with one. */
+/* Parses a number; returns what follows it, NULL if text does not start with one. */
 static const char *number(const char *text, double *value)
 {
     size_t n = kd_number_span_typed(text, strlen(text));
@@ -80,7 +80,7 @@ static const char *number(const char *text, double *value)
     return text + n;
 }
 
-/* False for text that is neither a number nor a range of numbers. */
+/* Parses a number or a range of numbers; false for anything else. */
 static bool parse_range(const char *text, struct kd_axis *axis)
 {
     double count = 1;

@@ -50,7 +50,7 @@ static const char *const approximations[] = {
     NULL,
 };
 
-struct memory { double shadow; }; /* its mean radius in M */
+struct memory { double shadow; }; /* mean radius of the shadow, M */
 
 static double shadow_of(const struct parameters *p)
 {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define RATE 48000
-#define SAMPLES_MIN (RATE / 4) /* what is shorter, some players leave out */
+#define SAMPLES_MIN (RATE / 4) /* shorter files are skipped by some players */
 
 static size_t parameter(const struct kd_quantity *quantity, const char *name)
 {
@@ -45,7 +45,7 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     return KD_OK;
 }
 
-/* Bounds are rounded inwards to four digits, so that a value that the message names is accepted. */
+/* Rounds bounds inwards to four digits, so that a value named in the message is itself accepted. */
 static double four_digits(double x, bool up)
 {
     double unit = pow(10, floor(log10(x)) - 3);
@@ -73,8 +73,8 @@ static double parameter_of(const struct kd_quantity_answer *answer, const char *
     return answer->request.axes[parameter(answer->request.quantity, name)].first;
 }
 
-/* Every mode is short enough unstretched: the mode of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e
- * in 4.5 s at 20 Hz. */
+/* Unstretched, every mode is short enough: that of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e in
+ * 4.5 s at 20 Hz. */
 static enum kd_status short_enough(const struct kd_quantity_answer *answer, struct kd_error *error)
 {
     double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");
@@ -95,8 +95,8 @@ static enum kd_status put(struct kd_buffer *out, uint64_t value, int bytes)
     return kd_buffer_append(out, little, (size_t)bytes);
 }
 
-/* The 44 bytes before the samples: one channel of 16 bits (IBM and Microsoft, Multimedia Programming Interface 1.0,
- * 1991). */
+/* Writes the 44 bytes before the samples: one channel of 16 bits (IBM and Microsoft, Multimedia Programming
+ * Interface 1.0, 1991). */
 static enum kd_status put_header(struct kd_buffer *out, size_t samples, size_t behind)
 {
     enum kd_status status;
@@ -116,7 +116,7 @@ done:
     return status;
 }
 
-/* A chunk of a text, with its NUL, and one more where its length is odd. */
+/* Writes a chunk of text with its NUL, padded to an even length. */
 static enum kd_status put_text(struct kd_buffer *out, const char *kind, const char *text)
 {
     const size_t n = strlen(text) + 1;
@@ -130,7 +130,7 @@ done:
     return status;
 }
 
-/* Writes what the sound is into the list of texts that players show. */
+/* Writes a description of the sound into the list of texts that players show. */
 static enum kd_status describe(const struct kd_quantity_answer *answer, struct kd_buffer *out)
 {
     const struct kd_quantity *quantity = answer->request.quantity;

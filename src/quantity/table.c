@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In the order in which they are listed. */
+/* In the order of the listing. */
 /* clang-format off */
 #define QUANTITIES(X) X(kerr) X(shadow) X(deflection) X(potential) X(redshift) X(ring_image) X(photon_rings) \
 X(disk_flux) X(blackbody) X(qnm) X(flamm) X(frame_dragging) \

@@ -1,16 +1,16 @@
-/* All forms of an answer use these functions. Private to src/quantity. */
+/* Formats numbers, values and lists for all forms of an answer. Private to src/quantity. */
 #ifndef KD_QUANTITY_TEXT_H
 #define KD_QUANTITY_TEXT_H
 
 #include "quantity/quantity.h"
 #include "scene/writer.h"
 
-/* A number in the fewest digits; `missing` if it is none. */
+/* Writes a number in the fewest digits; `missing` if it is not finite. */
 void kd_quantity_write_number(struct kd_writer *w, double value, const char *missing);
-/* A parameter's value: a number, or its word between quotes. */
+/* Writes a parameter's value: a number, or its word between quotes. */
 void kd_quantity_write_value(struct kd_writer *w, const struct kd_parameter *parameter, double value,
                              const char *quote);
-/* ["...", ...] of a list ended by NULL. */
+/* Writes a NULL-terminated list as ["...", ...]. */
 void kd_quantity_write_sentences(struct kd_writer *w, const char *const *sentences);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#define ALONE 0.2   /* in a picture that is exposed for it */
-#define BEHIND 0.01 /* bright stars beside a disk, not a white sky */
+#define ALONE 0.2   /* where only the sky shines */
+#define BEHIND 0.01 /* keeps bright stars beside a disk from making the whole sky white */
 
 static bool shines_before(const struct kd_scene *scene)
 {
@@ -20,7 +20,7 @@ double kd_scene_sky_brightness(const struct kd_scene *scene)
     return scene->sky.model != KD_SKY_GRID && shines_before(scene) ? BEHIND : ALONE;
 }
 
-#define DARK 0.25 /* of white: the sky's unit at most, so that space is black between what shines */
+#define DARK 0.25 /* largest brightness of the sky's unit over white, so that space stays black between stars */
 
 double kd_scene_exposure_most(const struct kd_scene *scene)
 {

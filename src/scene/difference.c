@@ -5,16 +5,16 @@
 
 #include <string.h>
 
-/* The fields told so far, and the scene that they have made of the base. */
+/* State of a difference being written: base with the fields written so far applied. */
 struct telling {
     const struct kd_scene *scene;
     struct kd_scene made;
     char between;
-    size_t before; /* bytes of *out before the first */
+    size_t before; /* bytes of *out before the difference */
     struct kd_buffer *out, value;
 };
 
-/* A value as --set takes it: a document's, without its quotes and brackets. */
+/* Turns a document's value into the form of --set: without quotes and brackets. */
 static void strip(char *text)
 {
     char *to = text;
@@ -24,7 +24,7 @@ static void strip(char *text)
     *to = 0;
 }
 
-/* Only what differs is written as text, which would be most of the work: a link looks at 30 presets. */
+/* Compares values before they are written as text, which would be most of the work: a link compares 30 presets. */
 static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_field *field, size_t index)
 {
     if (field->kind == KD_FIELD_ASSET)
@@ -66,7 +66,7 @@ static enum kd_status tell(struct telling *t, const struct kd_field *field, size
     return status ? status : kd_buffer_printf(t->out, "%s=%s", path, value);
 }
 
-/* An element that the base has not is told even where nothing of it differs: its first field makes it. */
+/* An element that the base lacks is written even if it has all defaults: its first field creates it. */
 static enum kd_status tell_fields(struct telling *t, const struct kd_section *section, size_t index)
 {
     enum kd_status status = KD_OK;
@@ -79,7 +79,7 @@ static enum kd_status tell_fields(struct telling *t, const struct kd_section *se
     return status;
 }
 
-/* The style first: it sets other fields, as a document's does. */
+/* The style first: as in a document, it sets other fields. */
 static enum kd_status tell_all(struct telling *t)
 {
     enum kd_status status = KD_OK;

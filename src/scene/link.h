@@ -1,24 +1,24 @@
-/* A link holds a scene as what differs from a preset: "preset=gargantua&spacetime.spin=0.5", as the query of
- * GET /v1/render and the address of the page have it. The size of the picture is not part of it. Pure, any thread. */
+/* Links to scenes. A link is the difference from a preset: "preset=gargantua&spacetime.spin=0.5", as in the query of
+ * GET /v1/render and the address of the page. The size of the picture is not part of it. Pure, any thread. */
 #ifndef KD_SCENE_LINK_H
 #define KD_SCENE_LINK_H
 
 #include "scene/scene.h"
 
-/* Appends the shortest one over all presets and the default scene, and a NUL that out->size does not count: the same
- * scene has the same link. Empty: the default scene. KD_EINVAL with a pointer: the scene names an asset. KD_ENOMEM. */
+/* Appends the shortest link over all presets and the default scene, and a NUL that out->size does not count. Equal
+ * scenes give equal links; the default scene gives "". KD_EINVAL with a pointer: the scene names an asset.
+ * KD_ENOMEM. */
 enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error);
 
-/* Checks that a scene names no asset: who follows a link may be at a server that does not have it. */
+/* Checks that a scene names no asset: the server of the reader may not have it. */
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error);
 
-/* Appends what n fields of a link change of its preset, for people: "camera inclination 60°, camera r 30 M and 3
- * more". */
+/* Describes n changed fields of a link for people: "camera inclination 60°, camera r 30 M and 3 more". */
 struct kd_scene_changed { const char *path, *value; };
 enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t n, struct kd_buffer *out);
 
-/* Makes the scene of a link the one of its preview, so many pixels: of one eye, without a tile, of 2 x 2 rays a
- * pixel, 8 bits a channel, and no lower than a preset is composed for. */
+/* Turns the scene of a link into that of its preview, of this size in pixels: one eye, no tile, 2 x 2 rays a pixel,
+ * 8 bits a channel, and no lower than the presets' aspect. */
 void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height);
 
 #endif

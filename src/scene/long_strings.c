@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARK '\xff' /* in the place of a long string: no byte of UTF-8, so that neither text nor an escape has it */
+#define MARK '\xff' /* placeholder of a long string; never a byte of UTF-8, so that no text or escape contains it */
 #define PIECE ((size_t)1 << 20)
 
-/* The quote that ends the string whose first byte is at `at`; *escapes: it has some. */
+/* Index of the closing quote of the string whose first byte is at `at`; *escapes: whether it contains escapes. */
 static size_t end_of(const char *text, size_t length, size_t at, bool *escapes)
 {
     const char *quote = memchr(text + at, '"', length - at);
@@ -95,7 +95,7 @@ static char *put_utf8(char *to, unsigned code)
     return to;
 }
 
-/* Writes the character of an escape, which the scan has found to be whole. Returns what follows it. */
+/* Decodes one escape, which the scan has validated. Returns what follows it. */
 static const char *unescape(const char *from, char **to)
 {
     static const char names[] = "bfnrt", are[] = "\b\f\n\r\t";
@@ -110,7 +110,7 @@ static const char *unescape(const char *from, char **to)
     return from + (pair ? 12 : 6);
 }
 
-/* Copies a string with escapes, none of which is shorter than what it stands for. */
+/* Copies a string while decoding its escapes. No escape is shorter than the character it stands for. */
 static char *copy_unescaped(char *to, const char *from, size_t n)
 {
     const char *const end = from + n;
@@ -124,7 +124,7 @@ static char *copy_unescaped(char *to, const char *from, size_t n)
     return to;
 }
 
-/* What is still to be put in. */
+/* State of the tree walk: the next string to insert. */
 struct fill {
     const struct kd_long_strings *strings;
     size_t next;
@@ -146,7 +146,7 @@ static bool put(struct fill *f, char **string)
     return true;
 }
 
-/* In the order of the document. It is at most 32 levels deep. */
+/* Inserts in document order. The document is at most 32 levels deep. */
 static bool fill(struct fill *f, cJSON *item)
 {
     for (; item && f->next < f->strings->n; item = item->next) {

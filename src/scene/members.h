@@ -1,5 +1,5 @@
-/* The members of a JSON object in a request: those that are known, each once. Errors name the member, what was given
- * and what is allowed, with the pointer into the request. Any thread. */
+/* Reads the known members of a JSON object in a request, each at most once. Errors name the member, its value and
+ * what is allowed, with the pointer into the request. Any thread. */
 #ifndef KD_SCENE_MEMBERS_H
 #define KD_SCENE_MEMBERS_H
 
@@ -10,24 +10,24 @@
 
 struct kd_member {
     const char *name;
-    const cJSON **to; /* NULL before; stays so if it is not there */
+    const cJSON **to; /* set to the member; must be NULL before, and stays NULL if it is missing */
 };
-/* pointer: that of the object. KD_EINVAL for one that is unknown or there twice. */
+/* pointer: that of the object. KD_EINVAL for a member that is unknown or given twice. */
 enum kd_status kd_members_read(const cJSON *object, const char *pointer, const struct kd_member *members, size_t n,
                                struct kd_error *error);
 
-/* Fails: what stands there is not what is allowed, in words. */
+/* Returns KD_EINVAL: the item is not `allowed`, a description in words. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);
 
-/* A whole number. */
+/* Reads an integer from `least` to `most`. */
 enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out,
                                struct kd_error *error);
 
-/* One of some words, by its number; where it is not there *out stays as it is. */
+/* Reads one of n words as its index. If item is NULL, *out stays unchanged. */
 enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out,
                               struct kd_error *error);
 
-/* Puts the pointer of a part before that of an error in it; gives the status back. */
+/* Prepends the pointer of a part to that of the error; returns the status. */
 enum kd_status kd_member_inside(enum kd_status status, const char *pointer, struct kd_error *error);
 
 #endif

@@ -21,7 +21,7 @@ static const struct {
     { "null", "a word in capitals, which JSON has as null" },
 };
 
-/* The length of the word, or of the sign and the word, at a place. */
+/* Length of the word, with its sign if any, at this place. */
 static size_t span(const char *text, size_t length)
 {
     size_t n = length && *text == '-';

@@ -8,7 +8,7 @@
 #include "physics/waves/qnm.h"
 #include "physics/waves/ringdown.h"
 
-#define TIME_END 1e12 /* of `time` in fields.h, either way */
+#define TIME_END 1e12 /* limit of `time` in fields.h, either sign */
 
 static void turn(struct kd_scene *scene, double degrees)
 {
@@ -38,7 +38,7 @@ void kd_scene_advance(struct kd_scene *scene, double seconds)
         kd_scene_go_on(scene, scene->motion.proper_time_rate * seconds);
 }
 
-/* Says whether the observer moves by its own clock. */
+/* True if the observer moves along its own path. */
 static bool goes_on(const struct kd_scene *scene)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
@@ -134,8 +134,7 @@ struct kd_observer_motion kd_body_motion(const struct kd_body *body)
     return motion;
 }
 
-/* It is the hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings
- * as |a| does. */
+/* m counts about the hole's own axis. With spin a < 0 the disk turns against the hole, which rings as for |a|. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {
     double t = scene->top.time - scene->style.ringdown_time;

@@ -7,7 +7,7 @@
 
 struct kd_number_locale kd_number_locale_enter(void)
 {
-    /* libc keeps this locale ready: nothing is allocated. */
+    /* libc keeps this locale ready: it allocates nothing. */
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     return (struct kd_number_locale) { c, uselocale(c) };
 }
@@ -26,7 +26,7 @@ static size_t digits(const char *text, size_t i, size_t length)
     return i;
 }
 
-/* Goes past the exponent, if there is one; 0 if it has no digits. */
+/* Skips the exponent, if there is one; 0 if it has no digits. */
 static size_t exponent(const char *text, size_t i, size_t length)
 {
     if (i >= length || (text[i] != 'e' && text[i] != 'E'))
@@ -38,7 +38,7 @@ static size_t exponent(const char *text, size_t i, size_t length)
     return end > i ? end : 0;
 }
 
-/* Measures the number that text starts with; open: one of the sides of its point may be empty. */
+/* Length of the number at the beginning of text. open: one side of the decimal point may be empty. */
 static size_t span(const char *text, size_t length, bool open)
 {
     size_t start = length && text[0] == '-', point = digits(text, start, length), end = point, whole = point - start,
@@ -66,7 +66,7 @@ double kd_number_parse(const char *text)
     return value;
 }
 
-/* Writes 1e-07 as 1e-7, and 1e+20 as 1e20. */
+/* Turns 1e-07 into 1e-7, and 1e+20 into 1e20. */
 static void shorten_exponent(char *text)
 {
     char *e = strchr(text, 'e');

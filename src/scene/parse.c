@@ -1,4 +1,4 @@
-/* Scene documents come in as JSON. */
+/* Reads scene documents from JSON. */
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/scan.h"
@@ -12,16 +12,16 @@
 #include <string.h>
 
 struct reader {
-    struct kd_scene scene;      /* a copy, handed over when the whole document is right */
-    bool given[KD_FIELD_COUNT]; /* by the document, in sections that are no lists */
+    struct kd_scene scene;      /* working copy, handed over when the whole document is valid */
+    bool given[KD_FIELD_COUNT]; /* fields given by the document, in sections that are not lists */
     bool seen_section[KD_SECTION_COUNT], seen_version;
-    const struct kd_old_name *old[KD_SECTION_COUNT]; /* by which an element of the list was given */
+    const struct kd_old_name *old[KD_SECTION_COUNT]; /* old name by which an element of the list was given */
     bool seen_old[KD_OLD_NAME_COUNT];
-    bool patch; /* null takes a field, or a section, back to its default */
+    bool patch; /* merge patch: null resets a field or a section to its default */
     struct kd_error *error;
 };
 
-/* An object of the document is a section, an element of a list, or the document itself. */
+/* The object being read: a section, an element of a list, or the document itself. */
 struct object {
     const struct kd_section *section;
     size_t index;
@@ -29,7 +29,7 @@ struct object {
     bool seen[KD_FIELD_COUNT];
 };
 
-/* Each name is taken once: a second one would silently win. */
+/* Rejects a repeated name, which would silently win. */
 static enum kd_status once(struct reader *reader, bool *seen, const char *pointer)
 {
     if (!*seen) {
@@ -43,7 +43,7 @@ static enum kd_status once(struct reader *reader, bool *seen, const char *pointe
     return kd_error_field(reader->error, pointer, "%s is given twice", path);
 }
 
-/* Says what the item is, and what is allowed at this pointer. */
+/* Reports the value found at this pointer and what is allowed there. */
 static enum kd_status not_a(struct reader *reader, const cJSON *item, const char *pointer, const char *allowed)
 {
     char given[KD_VALUE_SIZE], path[KD_PATH_SIZE];
@@ -57,7 +57,7 @@ static enum kd_status not_a(struct reader *reader, const cJSON *item, const char
 
 static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item);
 
-/* The first of an array's items that is no word of the field, is there twice or has no room; NULL: there is none. */
+/* The first item that is not a word of the field, is repeated, or exceeds the room; NULL: all are fine. */
 static const cJSON *read_words(const struct kd_field *field, const cJSON *array, struct kd_words *out)
 {
     *out = (struct kd_words) { 0 };
@@ -114,7 +114,7 @@ static void reset(struct reader *reader, const struct kd_section *section, size_
         reader->given[i] = true;
 }
 
-/* Reads a section, or an element that is there. */
+/* Reads a section, or an existing element of a list. */
 static enum kd_status read_object(struct reader *reader, const struct kd_section *section, size_t index,
                                   const char *pointer, const cJSON *item, bool patch)
 {
@@ -134,7 +134,7 @@ static enum kd_status read_object(struct reader *reader, const struct kd_section
     return status;
 }
 
-/* Elements are made as they are needed; null makes none. */
+/* Reads an element, and creates it if necessary; null does not create one. */
 static enum kd_status read_element(struct reader *reader, const struct kd_section *list, size_t index,
                                    const cJSON *item, bool patch)
 {
@@ -148,7 +148,7 @@ static enum kd_status read_element(struct reader *reader, const struct kd_sectio
     return read_object(reader, list, index, pointer, item, patch);
 }
 
-/* An array takes the place of the whole list. */
+/* An array replaces the whole list. */
 static enum kd_status read_array(struct reader *reader, const struct kd_section *list, const cJSON *array)
 {
     size_t index = 0;
@@ -161,8 +161,7 @@ done:
     return status;
 }
 
-/* {"0": {...}} changes elements by their index, in any order: what it adds to the list must follow that without a
- * gap. */
+/* {"0": {...}} changes elements by index, in any order. New elements must follow the list without a gap. */
 static enum kd_status read_indices(struct reader *reader, const struct kd_section *list, const cJSON *object)
 {
     size_t before = kd_section_size(&reader->scene, list), last = before;
@@ -226,7 +225,7 @@ static enum kd_status read_section(struct reader *reader, const struct kd_sectio
                          : read_object(reader, section, 0, pointer, item, reader->patch);
 }
 
-/* An element by its old name may be beyond the next free index: those between are made too, at their defaults. */
+/* An old name may stand for an element beyond the next free index; the elements between are created with defaults. */
 static enum kd_status read_old(struct reader *reader, const struct kd_old_name *old, const cJSON *item)
 {
     const struct kd_section *list = kd_section_find(old->section);

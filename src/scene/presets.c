@@ -21,9 +21,9 @@
     "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"}," \
     "\"image\":{\"width\":512,\"height\":512}}"
 
-/* Where they are: M87* by S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317), Sagittarius A* by M. J. Reid & A.
- * Brunthaler 2004 (ApJ 616, 872); and the days of the pictures that the Event Horizon Telescope published, 11 and 7
- * April 2017 (ApJL 875, L1; ApJL 930, L12). */
+/* Coordinates: M87* from S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317), Sagittarius A* from M. J. Reid & A.
+ * Brunthaler 2004 (ApJ 616, 872). Dates of the pictures that the Event Horizon Telescope published: 11 and 7 April
+ * 2017 (ApJL 875, L1; ApJL 930, L12). */
 #define M87_(rest) "\"source\":{\"name\":\"m87\",\"ra_deg\":187.7059308,\"dec_deg\":12.3911233" rest "},"
 #define SGRA_(rest) "\"source\":{\"name\":\"sgra\",\"ra_deg\":266.4168371,\"dec_deg\":-29.0078106" rest "},"
 #define M87 M87_("")
@@ -47,7 +47,7 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
-    /* These two are seen at one scale, 214 microarcseconds across. */
+    /* These two have the same scale, 214 microarcseconds across. */
     { "m87", "M87*",
       "The hole of M87 through a beam of 20 microarcseconds, north up, brightness in false colour: as the Event "
       "Horizon Telescope "
@@ -217,7 +217,7 @@ const struct kd_preset kd_presets[] = {
       "Test 5 of those by which programs for the radiation of holes are compared: a thin layer (h = 100/3), orbiting, "
       "optically thick (A = 1e6); 230 GHz",
       true, GOLD("0.9", "\"gold_flattening\":33.333333333333336,\"gold_momentum\":1,\"gold_absorption\":1e6") },
-    /* 200 microarcseconds wide, as ipole's model/riaf has it. */
+    /* 200 microarcseconds wide, as in ipole's model/riaf. */
     { "riaf", "A hot flow at 223 GHz",
       "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as the "
       "program ipole has it",
@@ -228,7 +228,7 @@ const struct kd_preset kd_presets[] = {
       "\"volume\":{\"model\":\"riaf\",\"inner\":1.4479853,\"outer\":100,\"frequency_ghz\":223.005},"
       "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"},"
       "\"image\":{\"width\":512,\"height\":512}}" },
-    /* The torus that GRMHD simulations commonly start from; so dense that it has the 2.4 Jy of Sagittarius A*. */
+    /* The usual initial torus of GRMHD simulations, with the density that gives the 2.4 Jy of Sagittarius A*. */
     { "torus", "A torus at 230 GHz",
       "The torus of Fishbone and Moncrief 1976, in equilibrium, with the mass and the distance of Sagittarius A*: its "
       "synchrotron light at 230 GHz",
@@ -259,8 +259,9 @@ static enum kd_status unknown(const char *name, struct kd_error *error)
 
 void kd_scene_smooth(struct kd_scene *scene)
 {
-    kd_scene_defaults(scene); /* and what SMOOTH says, which a test compares: reading it may find no memory, and others
-                                 are to build upon this */
+    /* Repeats SMOOTH, which a test compares: parsing it could run out of memory, and others build upon this
+     * function. */
+    kd_scene_defaults(scene);
     scene->disk.emission_opacity = 0;
     scene->disk.peak_temperature_k = 5600;
     scene->gas.amplitude = 0;

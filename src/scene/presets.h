@@ -1,4 +1,4 @@
-/* This is the table behind kd_scene_preset. Internal to src/scene. */
+/* The table of presets behind kd_scene_preset. Internal to src/scene. */
 #ifndef KD_SCENE_PRESETS_H
 #define KD_SCENE_PRESETS_H
 
@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 struct kd_preset {
-    const char *name, *label, *title; /* label: a name for people; title: one sentence without a full stop */
-    bool smooth;                      /* merged over the preset "smooth"; else over the defaults */
+    const char *name, *label, *title; /* label: human-readable name; title: one sentence without a full stop */
+    bool smooth;                      /* merged over the preset "smooth", otherwise over the defaults */
     const char *json;
 };
 extern const struct kd_preset kd_presets[];

@@ -1,4 +1,4 @@
-/* Writes docs/scene.md, from the table. */
+/* Writes docs/scene.md from the table of fields. */
 #include "scene/presets.h"
 #include "scene/rules.h"
 #include "scene/style.h"
@@ -61,7 +61,7 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
              field->kind == KD_FIELD_INT && field->words ? "whole number or word" : types[field->kind]);
     kd_write_value(w, field, field->initial);
     kd_write(w, "` | ");
-    const char *whole = "a whole number from "; /* the type column says so */
+    const char *whole = "a whole number from "; /* redundant: the type column says "integer" */
     write_escaped(w, strncmp(allowed, whole, strlen(whole)) ? allowed : allowed + strlen(whole));
     kd_write(w, " | ");
     write_escaped(w, field->help);

@@ -1,4 +1,4 @@
-/* This program prints docs/scene.md. */
+/* Program that prints docs/scene.md. */
 #include "scene/scene.h"
 
 #include <stdio.h>

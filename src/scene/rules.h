@@ -1,4 +1,4 @@
-/* Rules tie fields together: each is a sentence for the reference and the check that enforces it. Any thread. */
+/* Rules that tie fields together: each is a sentence for the reference and the check that enforces it. Any thread. */
 #ifndef KD_SCENE_RULES_H
 #define KD_SCENE_RULES_H
 
@@ -7,8 +7,8 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
-    /* A schema can say it too where the rule is that a whole number is a multiple of one, or that a number is 0 or
-     * at least another; else NULL, NULL, 0, 0. */
+    /* For rules that a JSON Schema can express: an integer is a multiple of `multiple`, or a number is 0 or at least
+     * `above_0`. Otherwise NULL, NULL, 0, 0. */
     const char *section, *name;
     int32_t multiple;
     double above_0;

@@ -1,4 +1,4 @@
-/* Writes the JSON Schema of the scene document, from the table. */
+/* Writes the JSON Schema of the scene document from the table of fields. */
 #include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"
@@ -44,7 +44,7 @@ static void write_words(struct kd_writer *w, const struct kd_field *field)
     kd_write(w, "]");
 }
 
-/* Words that a number may follow are a group of the pattern. */
+/* numbered: the words that may be followed by a number, as a group of the pattern; otherwise the other words. */
 static void write_pattern(struct kd_writer *w, const struct kd_field *field, bool numbered)
 {
     const char *before = numbered ? "(" : "";
@@ -104,8 +104,9 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
         return;
     case KD_FIELD_WORDS: write_many(w, field); return;
     }
-    /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a
-     * number. An enumeration as well: of a const in a union they make code that takes nothing else. */
+    /* The word comes first: client generators use the first type that fits a default, and "infinity" parses as a
+     * number. It is also given as an enumeration: for a const within a union they generate code that accepts nothing
+     * else. */
     kd_write(w, "\"anyOf\":[{\"type\":\"string\",\"const\":");
     kd_write_string(w, field->words);
     kd_write(w, ",\"enum\":[");
@@ -120,7 +121,7 @@ static void write_group(struct kd_writer *w, const struct kd_section *section)
     kd_write(w, ",\"x-group\":\"%s\"", kd_groups[section->group]);
 }
 
-/* Writes what each style sets, by the paths of the fields. */
+/* Writes the fields that each style sets, by path. */
 static void write_styles(struct kd_writer *w, const struct kd_field *names)
 {
     kd_write(w, ",\"x-sets\":{");
@@ -139,7 +140,7 @@ static void write_styles(struct kd_writer *w, const struct kd_field *names)
     kd_write(w, "}");
 }
 
-/* Writes a text "a|b" as a list. */
+/* Writes "a|b" as a JSON array of strings. */
 static void write_list(struct kd_writer *w, const char *text)
 {
     kd_write(w, "[");
@@ -151,7 +152,7 @@ static void write_list(struct kd_writer *w, const char *text)
     kd_write(w, "]");
 }
 
-/* Writes one value, or the list of several. */
+/* Writes one value, or an array of several. */
 static void write_with(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
 {
     const struct kd_field *other = kd_field_find(field->section, control->text);
@@ -233,7 +234,7 @@ static void write_fields(struct kd_writer *w, const struct kd_section *section)
 
 static void write_section(struct kd_writer *w, const struct kd_section *section);
 
-/* Writes what follows a description, and ends its schema. */
+/* Writes the rest of an object's schema after its description, and closes it. */
 static void write_object(struct kd_writer *w, const struct kd_section *section)
 {
     kd_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
@@ -259,7 +260,7 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
         kd_write(w, "}");
 }
 
-/* Writes an old name; x-now is the path that has taken its place. */
+/* Writes an old name; x-now is the present path. */
 static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
 {
     kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",",
@@ -267,7 +268,7 @@ static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
     write_object(w, kd_section_find(old->section));
 }
 
-/* Writes what x-nature and x-group can be: natures with what they mean, groups in the order of the page. */
+/* Writes the values of x-nature and x-group: natures with their meanings, groups in the order of the page. */
 static void write_words_of_fields(struct kd_writer *w)
 {
     kd_write(w, "\"x-natures\":{");
@@ -292,10 +293,10 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     kd_write(w,
              "\"properties\":{"
              "\"version\":{\"type\":\"integer\",\"enum\":[%d],\"const\":%d,\"description\":\"version of this document "
-             "format\"}", /* both: makers of clients write numbers badly that are a const alone */
+             "format\"}", /* both: client generators mishandle numbers given as const only */
              KD_SCENE_VERSION, KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
-        if (strchr(kd_sections[i].name, '.')) /* written with the section that it stands in */
+        if (strchr(kd_sections[i].name, '.')) /* nested sections are written with their parent */
             continue;
         kd_write(w, ",");
         if (*kd_sections[i].name)

@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A path up to its field: the section, or "" for the document itself, and an element of it if that is a list. */
+/* A parsed path without its field: the section ("" for the document itself), and the element if that is a list. */
 struct place {
     const struct kd_section *section;
     size_t index;
     const char *name; /* the rest of the path */
-    bool old;         /* an old name of an element, which may be beyond the next free one */
+    bool old;         /* an old name of an element, which may lie beyond the next free index */
 };
 
 static enum kd_status whole_section(const struct kd_section *section, struct kd_error *error)
@@ -37,7 +37,7 @@ static enum kd_status whole_element(const struct kd_section *list, size_t index,
                           path);
 }
 
-/* The token of the path before its next dot, "" where it has none or is too long; *rest is what follows. */
+/* Splits the path's token before the next dot, "" if there is none or it is too long; *rest is what follows. */
 static void next_token(const char **rest, char out[KD_PATH_SIZE])
 {
     const char *dot = strchr(*rest, '.');
@@ -84,7 +84,7 @@ static enum kd_status find_place(const char *path, struct place *place, struct k
     return place->section->most ? in_list(place, error) : KD_OK;
 }
 
-/* Writes the path with the list and index that have taken the place of an old name. */
+/* Replaces an old name in the path by its list and index. */
 static void renew(const char *path, char out[2 * KD_PATH_SIZE])
 {
     char token[KD_PATH_SIZE];

@@ -1,13 +1,13 @@
-/* This is SHA-256 (FIPS 180-4) as text, by nettle. Any thread. */
+/* SHA-256 (FIPS 180-4) as text, by nettle. Any thread. */
 #ifndef KD_SCENE_SHA256_H
 #define KD_SCENE_SHA256_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Writes 64 hexadecimal digits and a NUL. data may be NULL where size is 0. It takes some 3 ms a MiB. */
+/* Writes 64 hexadecimal digits and a NUL. data may be NULL if size is 0. Takes some 3 ms a MiB. */
 void kd_sha256(const void *data, size_t size, char out[65]);
-/* The digits of a digest that was made by pieces. */
+/* Writes a digest that was computed in pieces. */
 void kd_sha256_text(const uint8_t digest[32], char out[65]);
 
 #endif

@@ -20,7 +20,7 @@ void kd_scene_settle(struct kd_scene *scene, const bool *given)
         scene->camera.field_m = width;
 }
 
-/* Half of the field of view has its tangent at the distance 1. */
+/* At a finite radius: the width spanned by the field of view at the hole's distance. */
 static double width_m(const struct kd_camera *camera)
 {
     return isfinite(camera->r) ? 2 * camera->r * tan(0.5 * camera->fov_deg * (M_PI / 180)) : camera->field_m;

@@ -1,4 +1,4 @@
-/* The positions of the two eyes of a stereo pair. */
+/* Computes the positions of the two eyes of a stereo pair. */
 #include "scene/scene.h"
 
 #include "physics/math/angle.h"
@@ -15,7 +15,7 @@ static struct vec mix(double a, struct vec p, double b, struct vec q)
 
 static double dot(struct vec p, struct vec q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* Local directions e_r, e_theta, e_phi of flat space at a place, in Cartesian coordinates about the hole. */
+/* Local directions e_r, e_theta, e_phi in flat space, in Cartesian coordinates about the hole. */
 struct basis { struct vec r, theta, phi; };
 
 static struct basis basis_at(double u, double s, double azimuth)
@@ -29,8 +29,8 @@ static struct vec outwards(const struct basis *b, const double local[3])
     return mix(1, mix(local[0], b->r, local[1], b->theta), local[2], b->phi);
 }
 
-/* Where a camera looks, and what is up and to the right in its picture, in (e_r, e_theta, e_phi), as
- * render/view/camera.c has it. */
+/* Viewing direction of the camera, and the picture's right and up, in (e_r, e_theta, e_phi), as in
+ * render/view/camera.c. */
 struct view { double ahead[3], right[3], up[3]; };
 
 static struct view view_of(const struct kd_camera *c)
@@ -46,10 +46,11 @@ static struct view view_of(const struct kd_camera *c)
     return v;
 }
 
-/* What a length of 1 along a leg is in coordinates: dr, r dtheta, r sin(theta) dphi; the azimuth of what falls is
- * that of ingoing Kerr-Schild coordinates. From p_mu by Sigma p^r, Sigma p^theta = p_theta and Sigma p^phi = L/sin^2
- * - a E + a (P + w)/Delta with P = E (r^2 + a^2) - a L, w = Sigma p^r of those and 0 of others. At the horizon,
- * where the last is 0/0 of what falls, next to it. */
+/* Converts a unit length along a leg of the tetrad to coordinates: dr, r dtheta, r sin(theta) dphi. For a falling
+ * observer the azimuth is that of ingoing Kerr-Schild coordinates. From p_mu by Sigma p^r, Sigma p^theta = p_theta
+ * and Sigma p^phi = L/sin^2 - a E + a (P + w)/Delta with P = E (r^2 + a^2) - a L, and w = Sigma p^r for a falling
+ * observer, 0 for others. At the horizon, where the last term is 0/0 for a falling observer, it is evaluated next to
+ * it. */
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
     const double a = at->spin, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;

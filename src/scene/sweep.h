@@ -1,16 +1,16 @@
-/* A sweep is a scene with axes: fields, each of which takes some values, and a scene of every combination. Nothing
- * changes a sweep once it has been read: any thread may use it.
+/* A sweep is a scene with axes. An axis is a field with a list of values, and the sweep has a scene for every
+ * combination. A sweep is immutable once read: any thread may use it.
  *
  *     {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15", "disk.model": ["novikov-thorne",
- *       "particles"]}
+ *          "particles"]}
  *
- * Scenes are numbered from 0 on in the order of the axes, the last one fastest, as the elements of an array in C. A
- * field is named by its path, as for kd_scene_set, and the axes set theirs one after the other: a style before all
- * others, since it sets many fields.
+ * Scenes are numbered from 0 in the order of the axes, the last one fastest, as the elements of an array in C. A
+ * field is named by its path, as for kd_scene_set. The axes are applied in order, except that a style comes first,
+ * since it sets many fields.
  *
- * A range START:STOP:STEP is START, START + STEP, ... as far as STOP, which is one of them if a whole number of
- * steps leads there: "10:80:15" is 10, 25, 40, 55, 70, and "10:70:15" the same. START:STOP/N is N values, evenly
- * spaced, of which both ends are the first and the last. They are rounded to 15 digits. */
+ * A range START:STOP:STEP is START, START + STEP, ... up to STOP, which is included if a whole number of steps
+ * reaches it: "10:80:15" is 10, 25, 40, 55, 70, and "10:70:15" is the same. START:STOP/N is N evenly spaced values
+ * including both ends. Values of ranges are rounded to 15 digits. */
 #ifndef KD_SCENE_SWEEP_H
 #define KD_SCENE_SWEEP_H
 
@@ -21,17 +21,17 @@
 #include <cjson/cJSON.h>
 
 enum { KD_SWEEP_AXES = 8 };
-#define KD_SWEEP_MOST 100000 /* scenes: what lists of them hold; what they cost is limited by whoever renders them */
+#define KD_SWEEP_MOST 100000 /* maximum number of scenes, which bounds lists of them; renderers limit the cost */
 
 struct kd_sweep_axis {
     char *path;       /* "camera.inclination_deg" */
     const char *unit; /* of the field: "deg"; "1": a pure number; "": none */
-    bool numeric;     /* all of its values are numbers */
-    bool even;        /* and each is a step more than the one before, to 1e-12 of the larger end */
+    bool numeric;     /* all values are numbers */
+    bool even;        /* the values are evenly spaced, to 1e-12 of the larger end */
     size_t n;
     struct kd_sweep_value {
-        char *text;    /* as kd_scene_set takes it; of an asset its hash, once it is resolved */
-        double number; /* NAN: it is none */
+        char *text;    /* as kd_scene_set takes it; for an asset its hash, once resolved */
+        double number; /* NAN if it is not a number */
     } *values;
 };
 
@@ -42,29 +42,29 @@ struct kd_sweep {
     unsigned scenes;
 };
 
-/* Reads an object of axes over a valid scene. Every value is one that its field takes; whether the scenes are valid
- * says kd_sweep_scene. assets: those that scenes may name; NULL: hashes are taken as they are. KD_EINVAL with the
- * pointer /axes/FIELD/NUMBER, KD_ENOMEM. */
+/* Reads an object of axes over a valid scene. Each value is checked against its field; kd_sweep_scene checks whether
+ * a combination is valid. assets: where names are looked up; NULL: hashes are not looked up. KD_EINVAL with the
+ * pointer /axes/FIELD/NUMBER, KD_ENOMEM. Free *out with kd_sweep_free. */
 enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets,
                              struct kd_sweep **out, struct kd_error *error);
 
-/* The same of a command line: n texts FIELD=VALUE,VALUE,... or FIELD=RANGE. */
+/* The same from a command line: n texts FIELD=VALUE,VALUE,... or FIELD=RANGE. */
 enum kd_status kd_sweep_typed(const char *const *axes, size_t n, const struct kd_scene *base,
                               const struct kd_assets *assets, struct kd_sweep **out, struct kd_error *error);
 void kd_sweep_free(struct kd_sweep *sweep); /* accepts NULL */
 
-/* The value that an axis has in a scene. */
+/* The value of an axis in a scene. */
 const struct kd_sweep_value *kd_sweep_at(const struct kd_sweep *sweep, unsigned scene, size_t axis);
-/* Makes a scene, valid; KD_EINVAL at /axes, with its values, where a combination is not. */
+/* Makes a valid scene. KD_EINVAL at /axes, with the values, if the combination is invalid. */
 enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, struct kd_scene *out,
                               struct kd_error *error);
 
 /* Writes a value as JSON; KD_ENOMEM. */
 enum kd_status kd_sweep_value_json(const struct kd_sweep_value *value, struct kd_buffer *out);
-/* Writes a member: the axes as kd_sweep_read takes them, each a list. */
+/* Writes a member: the axes as kd_sweep_read takes them, each as a list. */
 void kd_sweep_axes_json(const struct kd_sweep *sweep, struct kd_json *json, const char *name);
-/* Writes the name of a scene's file without its end: "000012 spin=0.9 inclination_deg=40". What no file name should
- * hold is "_"; a long one is cut. */
+/* Writes the name of a scene's file without extension: "000012 spin=0.9 inclination_deg=40". Characters unsuitable
+ * for file names become "_"; a long name is cut. */
 enum { KD_SWEEP_NAME = 160 };
 void kd_sweep_name(const struct kd_sweep *sweep, unsigned scene, char out[KD_SWEEP_NAME]);
 

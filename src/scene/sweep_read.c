@@ -1,4 +1,4 @@
-/* Reads the axes of a sweep, from a request or from a command line. */
+/* Reads the axes of a sweep, from a request or a command line. */
 #include "scene/members.h"
 #include "scene/number.h"
 #include "scene/sweep.h"
@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HITS 1e-9 /* of a step: a range that comes so close to its end has hit it */
+#define HITS 1e-9 /* in steps: a range that comes this close to its end has reached it */
 #define EVEN 1e-12
 
 struct reader {
     struct kd_sweep *sweep;
     const struct kd_assets *assets;
     struct kd_error *error;
-    /* of the axis that is being read, the last one */
+    /* the axis being read, the last one of the sweep */
     const struct kd_field *field;
-    size_t index; /* of the element that the field is of */
+    size_t index; /* of the list element that holds the field */
     char pointer[100];
 };
 
@@ -59,13 +59,13 @@ static enum kd_status begin(struct reader *r, const char *path)
     return KD_OK;
 }
 
-/* What a value is once its scene has it: an asset by its hash. */
+/* The text of a value as the scene stores it: an asset by its hash. */
 static const char *resolved(const struct reader *r, const struct kd_scene *scene, const char *text)
 {
     return r->field->kind == KD_FIELD_ASSET ? kd_field_asset(scene, r->field, r->index) : text;
 }
 
-/* at: the pointer to it. */
+/* Appends a value to the axis. at: its pointer. */
 static enum kd_status add(struct reader *r, const char *text, const char *at)
 {
     struct kd_sweep_axis *axis = last(r);
@@ -78,7 +78,7 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
         return kd_error_field(r->error, at, "%.440s", inner.message);
     if (axis->n >= KD_SWEEP_MOST)
         return too_many(r, (double)axis->n + 1);
-    if (!(axis->n & (axis->n - 1))) { /* room for twice as many */
+    if (!(axis->n & (axis->n - 1))) { /* grow to twice the room */
         struct kd_sweep_value *more = realloc(axis->values, (axis->n ? 2 * axis->n : 1) * sizeof *more);
         if (!more)
             return no_memory(r);
@@ -103,7 +103,7 @@ static enum kd_status add_number(struct reader *r, double value, const char *at)
     return add(r, text, at);
 }
 
-/* A range as it is written; by: ':' a step, '/' a count, 0: it is none. */
+/* A parsed range. by: ':' a step, '/' a count, 0: not a range. */
 struct range {
     double from, to, step;
     char by;
@@ -177,7 +177,7 @@ static enum kd_status refuse_twins(struct reader *r)
     return status;
 }
 
-/* All values are there. */
+/* Finishes the axis: checks and classifies its values. */
 static enum kd_status end(struct reader *r)
 {
     struct kd_sweep *s = r->sweep;
@@ -217,7 +217,7 @@ static enum kd_status finish(struct reader *r, enum kd_status status, struct kd_
     return status;
 }
 
-/* "a,b": the words of an image.layers that is one value of a list. */
+/* Joins the words of an image.layers value that is an array: "a,b". */
 static enum kd_status join(struct reader *r, const cJSON *words, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
@@ -288,7 +288,7 @@ done:
     return finish(&r, status, out);
 }
 
-/* "a,b": one value after the other. */
+/* Adds the values of "a,b" one by one. */
 static enum kd_status add_typed(struct reader *r, char *values)
 {
     enum kd_status status = KD_OK;
@@ -304,7 +304,7 @@ static enum kd_status add_typed(struct reader *r, char *values)
     return status;
 }
 
-/* text is FIELD=VALUES, and the reader's own. */
+/* Reads FIELD=VALUES; modifies text. */
 static enum kd_status read_typed(struct reader *r, char *text)
 {
     char *values = strchr(text, '=');

@@ -3,13 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Members of "top" stand in the document itself. */
+/* Members of "top" belong to the document itself; nested sections are named "disk.gas". */
 #define PART_NAME(s, part, whole) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, part) ? #whole "." #part:
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* These say where the rows of each section begin in the scene, in which struct they are, and how far the next
- * element is. */
+/* For each section: the type of its rows, their offset in the scene, and the stride of list elements. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name), STRIDE_##name = 0 };
@@ -52,7 +51,7 @@ const char *const kd_groups[KD_GROUP_COUNT] = {
 #define LIST_FIELDS(name, element, ROWS, group, most, help) FIELDS(name, ROWS, group, help)
 const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
 
-/* An enumerator counts the rows on from section to section: FIRST_ is each one's first row. */
+/* Enumerators that count rows across sections: FIRST_ is the section's first row. */
 #define EXTENT(name, ROWS, group, help) \
     FIRST_##name, LAST_##name = FIRST_##name - 1 + (KD_COUNT_ROWS(name, ROWS, group, help)),
 #define LIST_EXTENT(name, element, ROWS, group, most, help) EXTENT(name, ROWS, group, help)
@@ -194,7 +193,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
     void *at = (char *)scene + field->offset + index * field->stride;
     switch (field->kind) {
     case KD_FIELD_REAL:
-    case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0: equal scenes, equal text */
+    case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0: equal scenes give equal text */
     case KD_FIELD_INT:
     case KD_FIELD_ENUM: *(int32_t *)at = isinf(value) ? 0 : (int32_t)value; break;
     case KD_FIELD_BOOL: *(bool *)at = value != 0; break;
@@ -211,7 +210,7 @@ const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *
     return (const char *)scene + field->offset + index * field->stride;
 }
 
-/* All bytes of the name are written, so that equal scenes are equal bytes. */
+/* Clears all bytes of the name, so that equal scenes have equal bytes. */
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text)
 {
     char *at = (char *)scene + field->offset + index * field->stride;
@@ -275,7 +274,7 @@ int kd_field_word_index(const struct kd_field *field, const char *text)
     return -1;
 }
 
-/* Spells a field: its section, the index in a list and its name, each but the first behind a mark. */
+/* Writes a field's section, list index and name, separated by `mark`. */
 static void spell(const struct kd_field *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
 {
     char element[24] = "";
@@ -295,12 +294,12 @@ void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PA
     spell(field, index, "/", path);
     snprintf(out, KD_PATH_SIZE, "/%.*s", KD_PATH_SIZE - 2, path);
     for (char *c = out; *c; c++)
-        *c = *c == '.' ? '/' : *c; /* a section in another one */
+        *c = *c == '.' ? '/' : *c; /* separator of nested sections */
 }
 
 void kd_scene_defaults(struct kd_scene *scene)
 {
-    /* The padding is cleared too, so that equal scenes are equal bytes. */
+    /* Also clears the padding, so that equal scenes have equal bytes. */
     memset(scene, 0, sizeof *scene);
     for (size_t s = 0; s < KD_SECTION_COUNT; s++)
         for (size_t i = 0; i < (kd_sections[s].most ? kd_sections[s].most : 1); i++)

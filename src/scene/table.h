@@ -1,5 +1,5 @@
-/* This has the rows of scene/fields.h as data: one table that everything about scenes is generated from. Internal to
- * src/scene and its tests. Constant data and pure functions, any thread. */
+/* The rows of scene/fields.h as data: everything about scenes is generated from this table. Internal to src/scene
+ * and its tests. Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_TABLE_H
 #define KD_SCENE_TABLE_H
 
@@ -15,7 +15,7 @@ enum kd_field_kind {
     KD_FIELD_WORDS
 };
 
-/* These words say what a field means and where the page has it: the columns of scene/fields.h. */
+/* The columns nature, place and group of scene/fields.h. */
 enum kd_field_nature { KD_FIELD_PHYSICS, KD_FIELD_MODEL, KD_FIELD_LOOK };
 enum kd_field_place { KD_FIELD_FRONT, KD_FIELD_REST };
 enum kd_section_group { KD_GROUP_LOOK, KD_GROUP_GAS, KD_GROUP_HOLE, KD_GROUP_CAMERA, KD_GROUP_MORE };
@@ -27,28 +27,29 @@ struct kd_field {
     enum kd_field_kind kind;
     enum kd_field_nature nature;
     enum kd_field_place place;
-    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, a text (ASSET),
-                      or struct kd_words */
-    size_t stride; /* from element to element of a list; 0 in a section that is none */
+    /* Offset in struct kd_scene, for a list that of the first element. The type is double, int32_t (INT, ENUM),
+     * bool, text (ASSET) or struct kd_words. */
+    size_t offset;
+    size_t stride; /* bytes between elements of a list; 0 for other sections */
     double initial, minimum, maximum;
     const char *unit; /* "1": a pure number; "" for BOOL, ENUM, ASSET and WORDS */
     const char *help;
-    const char *words; /* WORD: the word for INFINITY; INT: the same, kept as 0, or NULL; ENUM and WORDS: "a|b|c"; NULL
-                          otherwise */
+    /* WORD: the word for INFINITY. INT: likewise, stored as 0, or NULL. ENUM and WORDS: "a|b|c". Otherwise NULL. */
+    const char *words;
 };
 
 struct kd_nature { const char *word, *help; };
 
 struct kd_section {
-    const char *name; /* "" for the document itself: always the last; "disk.gas" for one that stands in another */
+    const char *name; /* "" for the document itself, which is last; "disk.gas" for a nested section */
     const char *help;
     enum kd_section_group group;
     size_t first, count; /* rows in kd_fields */
-    size_t most;         /* elements of a list; 0: this is none */
-    size_t size_at;      /* of a list: where struct kd_scene has the number of its elements, a size_t */
+    size_t most;         /* maximum number of elements of a list; 0: not a list */
+    size_t size_at;      /* for a list: offset in struct kd_scene of its number of elements, a size_t */
 };
 
-/* An element of a list may have had a name of its own before. */
+/* An old name of a list element. */
 struct kd_old_name {
     const char *name, *section;
     size_t index;
@@ -63,7 +64,7 @@ enum {
     KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
 };
 
-/* The longest list has so many elements. */
+/* KD_LIST_MOST is the largest maximum length of a list. */
 #define KD_NO_ROOM(name, ROWS, group, help)
 #define KD_ROOM(name, element, ROWS, group, most, help) char name[most];
 union kd_list_room {
@@ -72,18 +73,18 @@ union kd_list_room {
 };
 enum { KD_LIST_MOST = sizeof(union kd_list_room) };
 
-/* A list has its rows once. Whatever takes a field takes the index of the element beside it: 0 in a section that is
- * no list. */
+/* A list has its rows once. Functions on fields therefore take the index of the element too; it is 0 for other
+ * sections. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 extern const struct kd_field kd_fields[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
-/* Find by name: NULL when there is none; "" is the document itself. Names are case-sensitive. */
+/* Find by name, NULL if there is none; "" is the document itself. Names are case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
-/* Find sections in sections: the one of this name in a section, NULL for none; whether one is in another; its name
- * there; its pointer. */
+/* Nested sections: finds the section `name` within `section`, NULL if there is none; tells whether `section` is
+ * nested in `whole`; gives its name within the parent, and its JSON pointer. */
 enum { KD_PATH_SIZE = 80 };
 const struct kd_section *kd_section_part(const struct kd_section *section, const char *name);
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
@@ -92,22 +93,22 @@ void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]
 const struct kd_field *kd_field_find(const char *section, const char *name);
 const struct kd_old_name *kd_old_name_find(const char *name);
 
-/* Count the elements: those of a list, 1 of a section that is none. To resize takes what a list loses, and what it
- * gains, to the defaults. */
+/* The number of elements of a list; 1 for other sections. Resizing resets the elements that are removed or added to
+ * the defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 /* Sets all fields of one element to their defaults. */
 void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index);
-/* Takes elements whose fields are all at their defaults from the end of a list, down to `least`. An old name of an
- * element says no more of whether there is one. */
+/* Removes elements that have all defaults from the end of a list, down to `least`. The old name of an element does
+ * not say whether it exists. */
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
-/* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an
- * ASSET it says whether there is one; 0 puts it away. WORDS that are one word alone are its index, others NAN. */
+/* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. ASSET: 1
+ * if there is one; writing 0 removes it. WORDS: the index of the word if there is just one, otherwise NAN. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
 
-/* Read and write the text of an ASSET, "" for none. A text to be written is shorter than KD_ASSET_NAME. */
+/* Read and write the text of an ASSET, "" for none. The text must be shorter than KD_ASSET_NAME. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
 
@@ -116,25 +117,25 @@ const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct
 void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index,
                         const struct kd_words *words);
 
-/* True if value may be stored in field: in range, whole where that is asked for, INFINITY where that is a word. */
+/* True if value may be stored in field: in range, an integer where the kind requires it, INFINITY where that is a
+ * word. */
 bool kd_field_holds(const struct kd_field *field, double value);
 
-/* An ENUM has words, and so have WORDS, as the row spells them. The text of a word is not NUL-terminated: print it
- * with %.*s. */
+/* Words of an ENUM or WORDS field. The text of a word is not NUL-terminated: print it with %.*s. */
 struct kd_word {
     const char *text;
     int length;
 };
 int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
-int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: none of them */
+int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: not a word of the field */
 
-/* Finds a field by its dotted path, as kd_scene_set does, and the index of its element, which need not be there yet:
+/* Finds a field by its dotted path, as kd_scene_set does, and the index of its element, which need not exist yet.
  * KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error);
 
-/* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r"; "disk.gas.seed" and
- * "/disk/gas/seed". */
+/* Write a field's path and JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and
+ * "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
 void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 

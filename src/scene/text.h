@@ -1,21 +1,21 @@
-/* These make of text from outside what a message may quote. Any thread. */
+/* Prepares text from outside for quoting in messages. Any thread. */
 #ifndef KD_SCENE_TEXT_H
 #define KD_SCENE_TEXT_H
 
 #include <stddef.h>
 
-/* Copies text for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...".
+/* Copies text for display: control characters and invalid UTF-8 become '?', and what does not fit becomes "...".
  * size is at least 8. */
 void kd_text_clip(char *out, size_t size, const char *text);
 
-/* What stands before item i of n in "a, b or c". */
+/* The separator before item i of n in "a, b or c". */
 const char *kd_text_or(size_t i, size_t n);
 
 /* Appends "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so that the
  * pointer still names its parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);
 
-/* Finds the line and column of a byte of a text, both from 1; columns count characters. */
+/* Line and column of a byte of a text, both from 1; columns count characters. */
 struct kd_text_place { size_t line, column; };
 struct kd_text_place kd_text_place_of(const char *text, size_t at);
 

@@ -21,14 +21,14 @@ static bool continuous(const struct kd_field *field)
     return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD;
 }
 
-/* A number of every key: a field's, or without one the proper time. */
+/* A number that every key has: a field, or the proper time if field is NULL. */
 struct column {
     const struct kd_timeline *timeline;
     const struct kd_field *field;
     size_t index;
-    size_t from; /* the key that t counts from: whole turns of the others are counted from it */
-    bool ratios; /* its logarithm is interpolated */
-    bool turns;  /* it goes the shorter way from key to key: a whole turn makes no difference */
+    size_t from; /* the key that t counts from; whole turns of other keys are counted from it */
+    bool ratios; /* interpolated logarithmically */
+    bool turns;  /* an angle that takes the shorter way from key to key */
     enum kd_interpolation by;
 };
 
@@ -38,7 +38,7 @@ static double given(const struct column *c, size_t key)
     return c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
 }
 
-/* Slopes look as far as this: at a key beside the one that counts, at most two behind it. */
+/* Slopes need values at most two keys beyond the interval. */
 static double value_at(const struct column *c, size_t key)
 {
     double value = given(c, c->turns ? c->from : key);
@@ -54,7 +54,7 @@ static double apart(const struct column *c, size_t key)
     return c->timeline->keys[key + 1].at - c->timeline->keys[key].at;
 }
 
-/* Gives the slope of the straight line from a key to the next; NAN where there is none: a word, or no next. */
+/* Slope of the straight line from a key to the next; NAN if there is no next, or a value is a word. */
 static double secant(const struct column *c, size_t key)
 {
     if (key + 1 >= c->timeline->n_keys)
@@ -63,9 +63,9 @@ static double secant(const struct column *c, size_t key)
     return isfinite(rise) ? rise / apart(c, key) : NAN;
 }
 
-/* The slope at a key that keeps the curve between its neighbours: the weighted harmonic mean of the secants, 0 at a
- * turning point (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie that
- * SLATEC's PCHIM takes). At rest at both ends. */
+/* Monotone slope at a key: the weighted harmonic mean of the secants, 0 at a turning point (Fritsch & Butland, SIAM
+ * J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie, as in SLATEC's PCHIM). The value is at rest at
+ * both ends. */
 static double monotone_slope(const struct column *c, size_t key, double before, double after)
 {
     if (!(before * after > 0))
@@ -74,7 +74,7 @@ static double monotone_slope(const struct column *c, size_t key, double before, 
     return (w0 + w1) / (w0 / before + w1 / after);
 }
 
-/* That of the parabola through a key and its neighbours; of the straight line to the only one. */
+/* Slope of the parabola through a key and its neighbours; with only one neighbour, of the straight line to it. */
 static double parabola_slope(const struct column *c, size_t key, double before, double after)
 {
     if (isnan(before) || isnan(after))
@@ -92,7 +92,8 @@ static double slope(const struct column *c, size_t key)
 static double cubic(const struct column *c, size_t key, double t, double from, double to)
 {
     double h = apart(c, key), m0 = h * slope(c, key), m1 = h * slope(c, key + 1);
-    return from + t * (m0 + t * (3 * (to - from) - 2 * m0 - m1 + t * (m0 + m1 - 2 * (to - from)))); /* Hermite's */
+    /* Hermite's cubic */
+    return from + t * (m0 + t * (3 * (to - from) - 2 * m0 - m1 + t * (m0 + m1 - 2 * (to - from))));
 }
 
 static double between(const struct column *c, size_t key, double t)
@@ -102,7 +103,8 @@ static double between(const struct column *c, size_t key, double t)
         return c->ratios ? exp(from) : from;
     double value = c->by == KD_LINEAR ? from + t * (to - from) : cubic(c, key, t, from, to);
     if (c->by != KD_CATMULL_ROM)
-        value = fmax(fmin(from, to), fmin(fmax(from, to), value)); /* it is between them; its rounding need not be */
+        /* the monotone cubic lies between them, but rounding may exceed */
+        value = fmax(fmin(from, to), fmin(fmax(from, to), value));
     if (c->turns && !(value >= c->field->minimum && value <= c->field->maximum))
         value = remainder(value, 360);
     return c->ratios ? exp(value) : value;
@@ -119,7 +121,7 @@ static bool is_turn(const struct kd_field *field)
     return !strcmp(field->unit, "degrees") && field->maximum - field->minimum >= 360;
 }
 
-/* Catmull and Rom's cubic moves what is the same in two keys, too. */
+/* True if a field keeps its value between two keys. Catmull and Rom's cubic may move even then. */
 static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_field *field, size_t index)
 {
     const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
@@ -127,7 +129,7 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* An element that only one of two keyframes has is at its defaults in the other. */
+/* An element that only one of two keyframes has counts as having all defaults in the other. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {
@@ -182,7 +184,7 @@ static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
            (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
 }
 
-/* Turns the camera as keyframes aim it; to: the next one, or NULL. */
+/* Turns the camera as the keyframes aim it. to: the next keyframe, or NULL. */
 static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to,
                           double t, struct kd_error *error)
 {
@@ -201,7 +203,7 @@ done:
     return status;
 }
 
-/* The last key that is not behind a place; by halves, since a list of scenes has a key each. */
+/* The last key at or before a place, by bisection, since a list of scenes has a key for each. */
 static size_t key_before(const struct kd_timeline *timeline, double at)
 {
     size_t key = 0, end = timeline->n_keys;
@@ -231,7 +233,7 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
-        if (isinf(to->scene.camera.field_uas)) /* from one unit to the other: in M */
+        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units: interpolate in M */
             out->camera.field_uas = INFINITY;
         kd_scene_settle(out, NULL);
         proper_time = between(&clock, key, t);

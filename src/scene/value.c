@@ -59,7 +59,7 @@ static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     }
 }
 
-/* "1 to 3 of a, b_N and c, each once": of as many as there are. */
+/* Writes "1 to 3 of a, b_N and c, each once". */
 static void list_many(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
 {
     int count = kd_field_word_count(field),
@@ -106,7 +106,7 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     }
 }
 
-/* Converts the value to the field's double, NAN if it is of another type or not one of the words. */
+/* Converts the value to the field's double; NAN if it has another type or is not one of the words. */
 static double convert(const struct kd_field *field, const struct kd_value *value)
 {
     bool string = value->kind == KD_VALUE_STRING, number = value->kind == KD_VALUE_NUMBER;
@@ -123,12 +123,12 @@ static double convert(const struct kd_field *field, const struct kd_value *value
         if (value->kind == KD_VALUE_NULL || (string && !*value->text))
             return 0;
         return string && (kd_asset_is_hash(value->text) || kd_asset_is_name(value->text)) ? 1 : NAN;
-    case KD_FIELD_WORDS: return NAN; /* more than a number */
+    case KD_FIELD_WORDS: return NAN; /* not representable as one number */
     }
     return NAN;
 }
 
-/* Says whether a number was wanted. Of a field that takes a word too, only a number in quotes was meant for one. */
+/* True if a number was expected. If the field also takes a word, only a quoted number was meant as a number. */
 static bool wants_number(const struct kd_field *field, const struct kd_value *value)
 {
     if (field->kind != KD_FIELD_ENUM && field->words)

@@ -7,12 +7,13 @@
 
 #include <math.h>
 
-/* So far outside the horizon matter ends: what is at rest there is no longer seen, and a length to there is finite. */
+/* Minimum inner edge over the horizon's radius: matter at rest closer in is no longer visible, and the path length
+ * to there is finite. */
 #define CLEAR 1.01
 #define CLEAR_RADIO \
-    1.0005 /* of what goes as the energy of the light, which grows as one over the square root of the way to there */
+    1.0005 /* for a radio frequency, whose energy in the matter's frame grows as 1/sqrt(distance to the horizon) */
 
-#define TORUS 0.5 /* of where its pressure is largest, as simulations commonly begin */
+#define TORUS 0.5 /* inner edge over the radius of largest pressure, as in common simulations */
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 

@@ -1,5 +1,5 @@
-/* Preloaded under the address sanitizer: libraries stay in memory. The Vulkan loader unloads its drivers, and
- * what they still held would then count as leaked by nobody in particular. */
+/* Preloaded under the address sanitizer: keeps libraries in memory. The Vulkan loader unloads its drivers, and leaks
+ * of an unloaded driver could no longer be attributed and suppressed by name. */
 int dlclose(void *library);
 
 int dlclose(void *library)

@@ -1,5 +1,5 @@
-/* Preloaded: clocks are ahead, as a test says (control.h), for the program and the libraries that it is linked with.
- * Who waits for a time of such a clock waits as long as if nothing were wrong with it. */
+/* Preloaded: puts clocks ahead when a test says so (control.h), for the program and the libraries it is linked with.
+ * Timed waits on such a clock still last as long as without the fault. */
 #include "control.h"
 
 #include <dlfcn.h>

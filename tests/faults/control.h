@@ -1,6 +1,6 @@
-/* What a test says of faults, and what has come of it, in a file that KD_FAULTS names and both have mapped
- * (faults.py has the same fields in the same order). Private to the library that is preloaded into a program under
- * test; any thread. */
+/* Shared memory between a test and the library that is preloaded into the program under test: which faults to
+ * inject, and their counts. It is a file named by KD_FAULTS, which both map (faults.py has the same fields in the
+ * same order). Any thread. */
 #ifndef KD_TESTS_FAULTS_CONTROL_H
 #define KD_TESTS_FAULTS_CONTROL_H
 
@@ -12,57 +12,58 @@ enum { KD_FAULT_BLOCKS = 1 << 16, KD_FAULT_STACKS = 1 << 12 };
 
 /* Operations on files, for files_mask. */
 enum {
-    KD_FAULT_OPEN = 1,   /* what is there, folders too */
-    KD_FAULT_CREATE = 2, /* a file or a folder */
-    KD_FAULT_WRITE = 4,  /* to a regular file, as those below */
+    KD_FAULT_OPEN = 1,   /* an existing file or folder */
+    KD_FAULT_CREATE = 2, /* creates a file or a folder */
+    KD_FAULT_WRITE = 4,  /* to a regular file; also the operations below */
     KD_FAULT_READ = 8,
     KD_FAULT_SYNC = 16, /* folders too */
     KD_FAULT_RENAME = 32,
-    KD_FAULT_CLOSE = 64, /* what was open for writing */
+    KD_FAULT_CLOSE = 64, /* of a file opened for writing */
 };
 
 struct kd_faults {
-    _Atomic int64_t fail_at;     /* allocations before one fails; below 0: none does */
-    _Atomic int64_t fail_for;    /* how many then fail in a row; 0 is as 1 */
+    _Atomic int64_t fail_at;     /* allocations before one fails; negative: none fails */
+    _Atomic int64_t fail_for;    /* number of successive failures; 0 counts as 1 */
     _Atomic int64_t allocations; /* since the start */
-    _Atomic int64_t failed;      /* of them */
-    _Atomic int64_t by_stack;   /* 1: each stack by which an allocation is asked for is noted in `stacks`; else, but for
-                                   0, fail_at counts those by this stack alone */
-    _Atomic int64_t by_library; /* of those: asked for by libmicrohttpd, which then closes the connection */
-    _Atomic int64_t failed_from; /* where the last that failed was asked for, as in `blocks` */
-    _Atomic int64_t files_mask;  /* the operations on files that are counted */
-    _Atomic int64_t files_at;    /* of them before one fails; below 0: none does */
+    _Atomic int64_t failed;      /* number of failed allocations */
+    /* 1: record each stack of an allocation in `stacks`. Another value except 0: fail_at counts only allocations by
+     * that stack. */
+    _Atomic int64_t by_stack;
+    _Atomic int64_t by_library;  /* of those, requested by libmicrohttpd, which then closes the connection */
+    _Atomic int64_t failed_from; /* caller of the last failed one, as in `blocks` */
+    _Atomic int64_t files_mask;  /* bit mask of the file operations that are counted */
+    _Atomic int64_t files_at;    /* operations before one fails; negative: none fails */
     _Atomic int64_t files_for;   /* as fail_for */
-    _Atomic int64_t files_errno; /* with which */
+    _Atomic int64_t files_errno; /* the error to return */
     _Atomic int64_t files_count; /* operations counted since the start */
     _Atomic int64_t files_failed;
-    _Atomic int64_t files_slow; /* 1: files are not opened for reading before it is 0 again; 2: nothing is written down
-                                   or removed (fsync, unlink) */
-    _Atomic int64_t files_waiting;  /* for that */
-    _Atomic int64_t wall_s;         /* how far the clock on the wall is put forward */
-    _Atomic int64_t steady_ms;      /* and the one that nobody sets, */
-    _Atomic int64_t steady_step_ms; /* and how much further each time somebody looks at it */
-    _Atomic int64_t looks;          /* at a clock that was ahead */
-    _Atomic int64_t live;           /* blocks that are not freed: */
+    /* 1: opening a file for reading blocks until this is 0 again. 2: so do fsync and unlink. */
+    _Atomic int64_t files_slow;
+    _Atomic int64_t files_waiting;  /* number of threads blocked by that */
+    _Atomic int64_t wall_s;         /* offset of the wall clock, s */
+    _Atomic int64_t steady_ms;      /* offset of the monotonic clock, ms */
+    _Atomic int64_t steady_step_ms; /* its increase at each reading */
+    _Atomic int64_t looks;          /* readings of a clock that was ahead */
+    _Atomic int64_t live;           /* number of blocks not freed, with the details: */
     struct kd_fault_block {
-        _Atomic uint64_t at; /* 0: none here */
-        _Atomic uint64_t
-            from; /* the number of the object that asked for it << 48, 0 the program, and the return address within */
+        _Atomic uint64_t at; /* address of the block; 0: free slot */
+        /* Caller: the number of the object << 48, 0 for the program, and the return address within it. */
+        _Atomic uint64_t from;
     } blocks[KD_FAULT_BLOCKS];
     struct kd_fault_stack {
-        _Atomic int64_t stack; /* a number made of its return addresses, the same in each process; 0: none here */
+        _Atomic int64_t stack; /* hash of its return addresses, the same in each process; 0: free slot */
         _Atomic uint64_t from; /* as in `blocks` */
         _Atomic int64_t count; /* allocations */
     } stacks[KD_FAULT_STACKS];
 };
 
-extern struct kd_faults *kd_faults; /* never NULL: without a file one that lets nothing fail */
+extern struct kd_faults *kd_faults; /* never NULL: without a file, a default that injects nothing */
 
-/* Whether code at this address is of the program, or of a library that it is linked with, the C library's own aside:
- * not of a driver that it loads. Where: as in `blocks`. */
+/* True if code at this address belongs to the program, or to a library it is linked with except the C library; false
+ * for a driver that it loads. *where: as in `blocks`. */
 bool kd_fault_ours(const void *caller, uint64_t *where);
 
-/* Counts down to the next one that fails. */
+/* Counts down to the next failure; true if this operation must fail. */
 static inline bool kd_fault_next(_Atomic int64_t *at, _Atomic int64_t *in_a_row)
 {
     if (atomic_load(at) < 0)

@@ -1,4 +1,4 @@
-/* Preloaded: operations of the program's own on files fail when a test says so (control.h). */
+/* Preloaded: lets the program's own file operations fail when a test says so (control.h). */
 #include "control.h"
 
 #include <dirent.h>
@@ -190,8 +190,8 @@ static bool is_written(int fd)
     return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && is_file(fd);
 }
 
-/* The descriptor is gone all the same, as where a file system at the far end of a network reports late. To close
- * what was only read has nothing to report. */
+/* A failing close still closes the descriptor, as on a network file system that reports a write error late. Closing
+ * a file that was only read never fails. */
 int close(int fd)
 {
     KD_FAULT_REAL(int, "close", int);

@@ -1,6 +1,6 @@
-/* Preloaded: memory is not there when a test says so (control.h), for the program and the libraries that it is
- * linked with, not for what a Vulkan driver or the C library's loader wants for itself. A thread that cannot be
- * started counts as an allocation that fails. */
+/* Preloaded: lets allocations fail when a test says so (control.h), for the program and the libraries it is linked
+ * with, but not for a Vulkan driver or the dynamic loader. A thread that cannot be started counts as a failed
+ * allocation. */
 #include "control.h"
 
 #include <dlfcn.h>
@@ -17,7 +17,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Of a sanitizer, where there is one. */
+/* Present under a sanitizer only. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
@@ -31,9 +31,9 @@ static struct object {
     bool library; /* libmicrohttpd */
 } objects[OBJECTS];
 static size_t n_objects;
-static bool tells; /* KD_FAULTS_TELL is set: on standard error, of the stack where an allocation fails */
+static bool tells; /* KD_FAULTS_TELL is set: print the stack of each failed allocation */
 
-/* Memory for whoever asks before the real functions are known: dlsym may. */
+/* Memory for allocations before the real functions are known, as by dlsym. */
 static _Alignas(16) unsigned char early[EARLY];
 static _Atomic size_t early_used;
 static void *(*real_malloc)(size_t), *(*real_calloc)(size_t, size_t), *(*real_realloc)(void *, size_t);
@@ -61,7 +61,7 @@ static void *early_block(size_t size)
     return at + size <= EARLY ? early + at : NULL;
 }
 
-/* Those that are there before main: a driver comes later. */
+/* Records the objects loaded before main: a driver comes later. */
 static int note(struct dl_phdr_info *info, size_t size, void *unused_user)
 {
     static const char *const others[] = { "libc.so", "ld-linux", "libstdc++", "libgcc_s",
@@ -93,7 +93,7 @@ __attribute__((constructor)) static void begin(void)
     void *map = fd < 0 ? MAP_FAILED : mmap(NULL, sizeof unused, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     dl_iterate_phdr(note, NULL);
     if (__lsan_disable)
-        __lsan_disable(); /* the first call loads a library, which the loader keeps for good */
+        __lsan_disable(); /* the first call loads a library, which is never unloaded */
     tells = backtrace(stack, 1) && getenv("KD_FAULTS_TELL");
     if (__lsan_enable)
         __lsan_enable();
@@ -114,7 +114,7 @@ bool kd_fault_ours(const void *caller, uint64_t *where)
     return false;
 }
 
-/* A number of the stack, of the frames that are ours: above 1. */
+/* Hash of the stack, of frames in our objects; above 1. */
 static int64_t stack_number(void)
 {
     void *frames[DEEPEST];
@@ -138,10 +138,10 @@ static void note_stack(int64_t number, uint64_t where)
         atomic_fetch_add(&s->count, 1);
         return;
     }
-    abort(); /* there are more stacks than places for them */
+    abort(); /* more stacks than slots */
 }
 
-/* Whether this allocation counts, for those of one stack. */
+/* True if this allocation counts, when only one stack is counted. */
 static bool of_stack(uint64_t where)
 {
     const int64_t wanted = atomic_load(&kd_faults->by_stack), number = wanted ? stack_number() : 0;
@@ -184,8 +184,8 @@ static void *counted(void *block, uint64_t where)
     return block;
 }
 
-/* Searches as far as blocks stray from their slots where a quarter of all is taken. True: it was counted, from
- * where. */
+/* Searches as far as probing can displace blocks at a load of a quarter. True: the block was counted; *where: its
+ * caller. */
 static bool uncount(const void *block, uint64_t *where)
 {
     for (uint64_t i = slot_of(block), n = 0; n < 64; n++) {

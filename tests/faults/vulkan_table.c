@@ -1,5 +1,5 @@
-/* Linked into a kerrd under test (vulkan.py): the table of Vulkan entry points, whose calls fail as a file in
- * KD_VULKAN_FAULTS says, which the test has mapped too. Without that file it is the kerrd that it would be. */
+/* Linked into a kerrd under test (vulkan.py) instead of the table of Vulkan entry points. Its calls fail as a file
+ * named by KD_VULKAN_FAULTS says, which the test maps too. Without that file it is an ordinary kerrd. */
 #include "vk/functions.h"
 
 #include <dlfcn.h>
@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Those that can fail. vkResetDescriptorPool cannot, by the specification. */
+/* Entry points that can fail. vkResetDescriptorPool cannot, by the specification. */
 #define CREATES(X, object) CREATES_AS(X, object, object##CreateInfo)
 #define CREATES_AS(X, object, info) \
     X(Create##object, (VkDevice a, const Vk##info *b, const VkAllocationCallbacks *c, Vk##object *d), (a, b, c, d))
@@ -63,8 +63,8 @@
       (VkDevice a, VkQueryPool b, uint32_t c, uint32_t d, size_t e, void *f, VkDeviceSize g, VkQueryResultFlags h), \
       (a, b, c, d, e, f, g, h))
 
-/* Those that destroy what one of the former has made, object by object: name, parameters, arguments, the object, the
- * entry point that made it. */
+/* Entry points that destroy what one of those above created: name, parameters, arguments, the object, the creating
+ * entry point. */
 #define DESTROYS(X, object) \
     X(Destroy##object, (VkDevice a, Vk##object b, const VkAllocationCallbacks *c), (a, b, c), b, Create##object)
 #define ENDS(X) \
@@ -88,23 +88,23 @@
 enum { ENTRIES(NAME) N_ENTRIES };
 #undef NAME
 
-/* vulkan.py knows this layout: 64-bit words. */
+/* Shared with vulkan.py: 64-bit words. */
 struct control {
-    _Atomic int64_t entry, countdown, code; /* the call of this entry before which the countdown is 0 returns the code,
-                                               and is not made; below 0: none does */
-    _Atomic int64_t injected;               /* how many have */
-    _Atomic int64_t lost; /* a device that has told so does so at every call that can, until there is another one */
-    _Atomic int64_t dead; /* 1: from the next lost device on none can be created */
-    _Atomic int64_t hang; /* 1: what is submitted never ends; 2: the next submission itself does not return */
-    _Atomic int64_t incoherent; /* 1 at the start: memory as on devices whose host has to flush it */
+    /* The call of this entry at which the countdown reaches 0 returns the code and is not made; negative: none. */
+    _Atomic int64_t entry, countdown, code;
+    _Atomic int64_t injected;   /* number of injected failures */
+    _Atomic int64_t lost;       /* a lost device reports so at every call that can, until another device is created */
+    _Atomic int64_t dead;       /* 1: after the next lost device none can be created */
+    _Atomic int64_t hang;       /* 1: submissions never complete; 2: the next submission does not return */
+    _Atomic int64_t incoherent; /* 1 at the start: memory as on devices whose host must flush it */
     _Atomic int64_t calls[N_ENTRIES];
-    _Atomic int64_t objects[N_ENTRIES]; /* that it has made and that are not destroyed; of entry points that make none:
-                                           calls that did not fail */
+    /* Objects created and not yet destroyed; for entry points that create none: successful calls. */
+    _Atomic int64_t objects[N_ENTRIES];
 };
 static struct control unused = { .entry = -1 }, *control = &unused;
 
-/* The driver's own: the same for all devices of one time. The loader takes the driver out with the last of them, and
- * it may come to lie elsewhere. */
+/* The driver's functions: the same for all devices open at a time. The loader unloads the driver with the last of
+ * them and may load it elsewhere later. */
 #define REAL(name, parameters, arguments) static _Atomic(PFN_vk##name) real_##name;
 ENTRIES(REAL)
 #define REAL_END(name, parameters, arguments, object, maker) static _Atomic(PFN_vk##name) real_##name;
@@ -119,7 +119,7 @@ static void __attribute__((noreturn)) wait_for_ever(void)
         nanosleep(&(struct timespec) { .tv_sec = 1 }, NULL);
 }
 
-/* The processor's time is taken, too: one that hardly had it would be waited for again. */
+/* Uses processor time too: a waiter that got hardly any would be waited for again. */
 static VkResult hanging_wait(uint64_t timeout)
 {
     struct timespec begun, now;
@@ -136,7 +136,7 @@ static bool tells_of_loss(int entry)
            entry == AT_QueueSubmit || entry == AT_GetQueryPoolResults;
 }
 
-/* What the call returns instead of what it would; VK_SUCCESS: what it would. */
+/* The code to return instead of calling the driver; VK_SUCCESS: call it. */
 static VkResult fault(int entry)
 {
     atomic_fetch_add(&control->calls[entry], 1);
@@ -170,13 +170,13 @@ static bool hangs(void) { return atomic_load(&control->hang) == 1; }
     static VKAPI_ATTR VkResult VKAPI_CALL faulty_##name parameters \
     { \
         const VkResult result = before(AT_##name); \
-        if (AT_##name == AT_DeviceWaitIdle) { /* a lost device, too, has come to rest when this returns */ \
+        if (AT_##name == AT_DeviceWaitIdle) { /* waits for a lost device too */ \
             const VkResult real = atomic_load(&real_##name) arguments; \
             return result ? result : real; \
         } \
         const VkResult made = result ? result : atomic_load(&real_##name) arguments; \
         if (!made) \
-            atomic_fetch_add(&control->objects[AT_##name], 1); /* pipelines are made one by one */ \
+            atomic_fetch_add(&control->objects[AT_##name], 1); /* pipelines are created one by one */ \
         return made; \
     }
 ENTRIES(DEFINE)
@@ -215,8 +215,8 @@ static VKAPI_ATTR void VKAPI_CALL incoherent_GetPhysicalDeviceMemoryProperties(V
         out->memoryTypes[i].propertyFlags &= ~(VkMemoryPropertyFlags)VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
-/* Under a sanitizer the driver stays where it is when its last device is gone: leaks are looked for at the end, and
- * its own are known by its name. */
+/* Under a sanitizer the driver stays loaded after its last device: leaks are searched at the end, and the driver's
+ * are recognised by its name. */
 static void keep_driver(const struct kd_vk_functions *fn)
 {
 #ifdef __SANITIZE_ADDRESS__
@@ -230,7 +230,7 @@ static void keep_driver(const struct kd_vk_functions *fn)
 #endif
 }
 
-/* After each of the three steps: members that are still ours have been copied from a table of an earlier one. */
+/* After each of the three steps: members that are still ours were copied from an earlier table. */
 static void plant(struct kd_vk_functions *fn)
 {
 #define PLANT(name, parameters, arguments) \

@@ -1,4 +1,4 @@
-/* This reads a token file, and asks for tokens that may be in it: the words of the file. */
+/* Fuzz target: a token file, and look-ups of tokens that may be in it, the file's words. */
 #include "fuzz.h"
 
 #include "server/http/access.h"

@@ -1,9 +1,9 @@
-/* This looks at an asset, as a server does before it keeps one, and reads it as a renderer does: a picture of the
+/* Fuzz target: an asset, checked as by a server before it stores one, and decoded as by a renderer: a picture of the
  * sky, or a grid of matter.
  *
- * Sums that a random change would break are made good first: those of a PNG's chunks. What begins with "grid"
- * becomes an NPZ file: records of a byte, two bytes of length and an array's bytes, or for a header its text alone.
- * The byte is a number of the list of names and, that many times, a way of `ways`. */
+ * Checksums that a mutation would break are repaired first: those of a PNG's chunks. Input that begins with "grid"
+ * becomes an NPZ file: records of a byte, two bytes of length and an array's bytes, or for a header only its text.
+ * The byte is an index into the list of names plus a multiple that selects a value of `ways`. */
 #include "fuzz.h"
 
 #include "image/npy.h"
@@ -15,14 +15,14 @@
 
 #include <math.h>
 
-#define PIXELS (1u << 16) /* of a picture that is decoded too */
+#define PIXELS (1u << 16) /* maximum size of a picture that is decoded too */
 
 static const char *const names[] = { "header",      "r",           "theta",       "phi",       "density",
                                      "temperature", "u_con_r",     "u_con_theta", "u_cov_phi", "u_con_t",
                                      "b_con_r",     "b_con_theta", "b_cov_phi" };
 enum { NAMES = sizeof names / sizeof *names, MEMBERS = 64 };
 
-/* How a member is put into the file, or what is wrong with it there. */
+/* How a member is stored in the file, or which error it has. */
 enum way { STORED, DEFLATED, LONG, METHOD, CHECKSUM, ENCRYPTED, SIZE, PLACE, WAYS };
 
 static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_t *data, size_t size)
@@ -46,7 +46,7 @@ static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_
     kd_buffer_finish(&bytes);
 }
 
-/* Spoils entries of the directory, in the fields of APPNOTE 4.3.12. */
+/* Corrupts entries of the directory, in the fields of APPNOTE 4.3.12. */
 static void spoil(struct kd_buffer *file, const enum way *ways, const uint8_t *values, size_t n)
 {
     static const int fields[WAYS] = { [METHOD] = 10, [CHECKSUM] = 16, [ENCRYPTED] = 8, [SIZE] = 24, [PLACE] = 42 };

@@ -1,6 +1,6 @@
-/* This reads the options of `kerrd serve`: the document of a --config file, a line "---" and variables of the
- * environment, a line each. What is read has values that the table allows, the environment counts before the file,
- * and a file that is written of what counts reads as the same. The list of --cors-origin is read as origins, too. */
+/* Fuzz target: the options of `kerrd serve`, as the document of a --config file, a line "---" and environment
+ * variables, one a line. Values that are read are valid by the table, the environment overrides the file, and a file
+ * written from the effective settings reads back the same. The list of --cors-origin is parsed as origins, too. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -11,7 +11,7 @@
 
 enum { VARIABLES = 32 };
 
-/* What counts of an option is of its kind; judged from the text alone. */
+/* Checks the effective value of an option against its kind, from the text alone. */
 static void check_value(const struct kd_cli_setting *setting, const char *text)
 {
     char *end;
@@ -67,7 +67,7 @@ static cJSON *item_of(const struct kd_cli_setting *setting, const char *text)
                                               : cJSON_CreateString(text);
 }
 
-/* As a file: malloc'd. */
+/* The settings as a file; malloc'd. */
 static char *write_file(const struct kd_settings *settings)
 {
     cJSON *object = cJSON_CreateObject();
@@ -99,7 +99,7 @@ static enum kd_status read_file(struct kd_settings *settings, const char *text, 
     return kd_settings_read_file(settings, path, error);
 }
 
-/* Variables hold any bytes, as names of files do; a document of JSON is UTF-8. */
+/* Environment variables may hold any bytes, as file names do; a JSON document is UTF-8. */
 static bool is_utf8(const struct kd_settings *settings)
 {
     bool valid = true;

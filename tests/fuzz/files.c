@@ -1,4 +1,4 @@
-/* This reads files by their parts: NPY arrays, ZIP members, headers of FITS, Base64. The first byte says which. */
+/* Fuzz target: parts of files, selected by the first byte: NPY arrays, ZIP members, FITS headers, Base64. */
 #include "fuzz.h"
 
 #include "image/exr.h"
@@ -7,7 +7,7 @@
 #include "image/unzip.h"
 #include "playground/base64.h"
 
-/* A header that was read and is written is read as the same array. */
+/* A header that was read and written again reads as the same array. */
 static void read_array(const struct kd_fuzz_text *bytes)
 {
     struct kd_npy array, again;
@@ -71,7 +71,7 @@ static void read_header(const struct kd_fuzz_text *bytes)
     kd_buffer_finish(&out);
 }
 
-/* A header whose texts are these is read as these. */
+/* A header written with these texts reads back with the same texts. */
 static void write_header(const struct kd_fuzz_text *text)
 {
     struct kd_buffer cards = { 0 }, file = { 0 }, back = { 0 };
@@ -82,8 +82,8 @@ static void write_header(const struct kd_fuzz_text *text)
         if (*c < ' ' || *c > '~')
             *c = '?';
     size_t n = strlen(plain);
-    while (n && (plain[n - 1] == ' ' ||
-                 plain[n - 1] == '&')) /* FITS 4.0, 4.2.1: trailing blanks mean nothing, and "&" that there is more */
+    /* FITS 4.0, 4.2.1: trailing blanks are not significant, and "&" marks a continuation */
+    while (n && (plain[n - 1] == ' ' || plain[n - 1] == '&'))
         plain[--n] = 0;
     CHECK(!kd_fits_text(&cards, "SCENE", plain, NULL) && !kd_fits_image(&file, true, &array, &cards),
           "a header cannot be written");

@@ -93,8 +93,7 @@ void kd_fuzz_json(const struct kd_buffer *text)
     cJSON_Delete(root);
 }
 
-/* As kd_field_holds does for the parser, which is what is judged here: once more, from what scene/table.h says of a
- * row. */
+/* Reimplements kd_field_holds, which is under test, from the row of scene/table.h. */
 static bool allows(const struct kd_field *field, double value)
 {
     double most = field->maximum;
@@ -135,8 +134,7 @@ struct kd_capacity kd_fuzz_device(void)
                                   .accuracy = kd_accuracy_built_in() };
 }
 
-/* The scene itself, or one whose names of assets are put away: nobody has resolved them, so that they have no
- * identity. */
+/* The scene itself, or a copy without unresolved names of assets, which have no identity. */
 static struct kd_scene without_names(const struct kd_scene *scene)
 {
     struct kd_scene known = *scene;
@@ -208,7 +206,7 @@ void kd_fuzz_file(const char *name, const void *data, size_t size)
     static struct {
         char name[40];
         int fd;
-    } open_files[4]; /* they stay open: to make one anew takes longer than to read it */
+    } open_files[4]; /* kept open, because creating a file takes longer than reading it */
     size_t i = 0;
     int fd;
     kd_fuzz_folder(&fd);

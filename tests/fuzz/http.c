@@ -1,5 +1,5 @@
-/* This reads the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match,
- * Content-Type, Host, X-Request-Id, Last-Event-ID. No line is needed. */
+/* Fuzz target: the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match,
+ * Content-Type, Host, X-Request-Id, Last-Event-ID. All lines are optional. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -44,7 +44,7 @@ static void check_target(const char *raw, const struct kd_base_path *base)
     kd_target_finish(&target);
 }
 
-/* What begins as a request for health is one as a whole. */
+/* A request that is recognised as a health check by its beginning is one as a whole. */
 static void check_begins(const char *raw, const struct kd_base_path *base)
 {
     struct kd_buffer line = { 0 };
@@ -60,7 +60,7 @@ static void check_begins(const char *raw, const struct kd_base_path *base)
     kd_buffer_finish(&line);
 }
 
-/* Blanks round a list and an entry that is empty change nothing. */
+/* Blanks round a list, and an empty entry, change nothing. */
 static void check_accept(const char *accept, const char *encoding)
 {
     static const char *const types[] = { "image/png", "application/json", "text/csv", "application/x-npy" };
@@ -105,8 +105,8 @@ static void check_others(const char *etag, const char *type, const char *host)
     CHECK(!kd_host_listed("", hosts), "no host is one");
 }
 
-/* A request's own identity is taken where a log and a header can hold it, else another one is made; a number is one
- * where it is written as such. */
+/* A request's own id is used if a log and a header can hold it, otherwise a new one is made. A number is accepted
+ * only in canonical form. */
 static void check_numbers(const char *id, const char *event)
 {
     static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-._+/=";

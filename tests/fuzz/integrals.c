@@ -1,4 +1,4 @@
-/* This reads a request for an integral, the first byte says which: JSON, and line by line as NAME=VALUE. */
+/* Fuzz target: a request for an integral, selected by the first byte: as JSON, and line by line as NAME=VALUE. */
 #include "fuzz.h"
 
 #include "integral/request.h"
@@ -24,7 +24,7 @@ static void check(struct kd_integral_request *request, enum kd_status status, co
     kd_buffer_finish(&out);
 }
 
-/* A comparison has an observation of three stations before it is asked for. */
+/* A comparison gets an observation of three stations first. */
 static void begin(struct kd_integral_request *request, enum kd_integral what)
 {
     static const char seen[] = "#SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz\n"

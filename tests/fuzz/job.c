@@ -1,5 +1,5 @@
-/* This reads the specification of a job. Scenes of its first, middle and last frame are valid, or say between which
- * keyframes they are not. */
+/* Fuzz target: the specification of a job. The scenes of its first, middle and last frame are valid, or the error
+ * names the keyframes between which they are not. */
 #include "fuzz.h"
 
 #include "job/exposure.h"

@@ -1,5 +1,5 @@
-/* This reads what a command line says of a scene, a word a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP,
- * and behind "axis " an axis of a sweep. The line that tells the scene makes the same scene again. */
+/* Fuzz target: scene arguments of a command line, a word a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP,
+ * and after "axis " an axis of a sweep. The line that describes the scene makes the same scene again. */
 #include "fuzz.h"
 
 #include "scene/difference.h"
@@ -54,7 +54,7 @@ static void read_axes(const struct words *words, const struct kd_scene *scene)
     kd_sweep_free(sweep);
 }
 
-/* A name of an asset may be any text, so that it ends wherever a blank does. */
+/* An asset's name may contain blanks, at which the line would be split. */
 static bool has_name(const struct kd_scene *scene)
 {
     for (size_t k = 0; k < KD_FIELD_COUNT; k++)

@@ -1,5 +1,5 @@
-/* This reads the code of a shared scene, as /s/CODE has it: the input is that code, or behind a first byte "=" the
- * text that a code is made of. What is read is a valid scene, whose link is another code of the same scene. */
+/* Fuzz target: the code of a shared scene, as in /s/CODE. The input is that code, or after a first byte "=" the text
+ * that a code is made of. The result is a valid scene, whose link is a code of the same scene. */
 #include "fuzz.h"
 
 #include "image/text_code.h"

@@ -1,4 +1,4 @@
-/* This reads a request for orbits, solves the first of them and goes a little way along. */
+/* Fuzz target: a request for orbits; solves the first of them and takes a few steps along it. */
 #include "fuzz.h"
 
 #include "orbit/request.h"

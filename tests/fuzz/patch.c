@@ -1,13 +1,13 @@
-/* This reads a scene, a line "---" and a merge patch (RFC 7396) of it. A patch that is applied twice is the same as
- * once, gives what the document gives when that is patched, and one that is refused changes nothing. */
+/* Fuzz target: a scene, a line "---" and a merge patch (RFC 7396). Applying a patch twice equals applying it once,
+ * equals patching the document, and a refused patch changes nothing. */
 #include "fuzz.h"
 
 #include "scene/table.h"
 
 #include <cjson/cJSON.h>
 
-/* Whether a patch has members that mean something else than RFC 7396 says: a style sets other fields, an object over
- * a list its elements, and what a list's element was called before is an object of its own. */
+/* True if a patch has members with a meaning beyond RFC 7396: a style sets other fields, an object for a list
+ * changes its elements, and an old name of an element is a member of its own. */
 static bool is_special(const cJSON *patch)
 {
     bool special = false;
@@ -50,7 +50,7 @@ static bool has_asset(const struct kd_scene *scene)
     return has;
 }
 
-/* A scene that was patched is the one that its document makes when that was patched. */
+/* A patched scene equals the scene of its patched document. */
 static void check_document(const struct kd_scene *before, const struct kd_scene *after,
                            const struct kd_fuzz_text *patch)
 {

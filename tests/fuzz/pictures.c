@@ -1,5 +1,5 @@
-/* This reads the scene out of a picture: PNG, FITS, OpenEXR or NPZ, as --from does; and a PNG's pixels and texts,
- * which are written and read again as the same. What is no picture is put into one as its scene. */
+/* Fuzz target: the scene in a picture, PNG, FITS, OpenEXR or NPZ, as for --from; and a PNG's pixels and texts, which
+ * read back the same after writing. Input that is not a picture is wrapped into one as its scene. */
 #include "fuzz.h"
 
 #include "image/png.h"
@@ -26,7 +26,7 @@ static void check_png(const void *data, size_t size)
                                           picture.pixels, picture.text,   picture.n_text };
     status = kd_png_encode(&params, &out, &error);
     if (status)
-        kd_fuzz_refused(status, &error); /* texts with keys that are not ours to write */
+        kd_fuzz_refused(status, &error); /* texts with keys that kerrd may not write */
     else {
         CHECK(!kd_png_decode(out.data, out.size, &again, &error), "a picture that was written cannot be read: %s",
               error.message);

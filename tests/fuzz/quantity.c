@@ -1,5 +1,5 @@
-/* This asks for a quantity, and for orbits, rays and particles by names: a line with its name, then NAME=VALUE a
- * line. Quantities that take little time are computed. */
+/* Fuzz target: requests for a quantity, orbits, rays and particles by names: a line with the kind, then NAME=VALUE a
+ * line. Cheap quantities are computed. */
 #include "fuzz.h"
 
 #include "orbit/request.h"
@@ -34,7 +34,7 @@ static void evaluate(const struct kd_quantity_request *request)
     kd_quantity_answer_finish(&answer);
 }
 
-/* Takes the next NAME=VALUE; *value points into it. False: there is no more. */
+/* Takes the next NAME=VALUE; *value points into it. False if nothing is left. */
 static bool next(const uint8_t **data, size_t *size, struct kd_fuzz_text *line, char **value)
 {
     static char none[] = "";

@@ -1,11 +1,11 @@
-/* This reads a scene from a request as the server does: a target, and behind a line "---" the body of a POST. What
- * is read is a valid scene. */
+/* Fuzz target: a scene in a server request: a target, and after a line "---" the body of a POST. The result is a
+ * valid scene. */
 #include "fuzz.h"
 
 #include "server/asset/store.h"
 #include "server/render/scene_source.h"
 
-static struct kd_asset_store *store; /* without assets; as long as the process */
+static struct kd_asset_store *store; /* without assets; lives as long as the process */
 
 static void begin(void)
 {

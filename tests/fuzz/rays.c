@@ -1,5 +1,5 @@
-/* This reads a request for rays: a JSON document or an NPY array. Closed form, so that it needs no device: what is
- * read is followed too, a few rays of it. */
+/* Fuzz target: a request for rays, as JSON or an NPY array. A few rays are traced too, in closed form, which needs
+ * no device. */
 #include "fuzz.h"
 
 #include "image/npy.h"
@@ -41,7 +41,7 @@ static void follow(const struct kd_rays_request *request)
         check_end(&params, &ends[i], crossings + i * params.orders);
 }
 
-/* A list that was read from JSON is the same as an NPY array. */
+/* A list read from JSON equals the one from an NPY array. */
 static void check_array(const struct kd_rays_request *request)
 {
     const struct kd_npy array = {

@@ -1,6 +1,6 @@
-/* This gives every file of some folders to a target, in the order of their names, and once more: kd_fuzz_replay
- * TARGET FOLDER... It says how many they were, and fails where there are none, or where one holds memory after its
- * second time that it did not hold after its first. */
+/* Runs a target on every file of some folders, in the order of their names, twice: kd_fuzz_replay TARGET FOLDER...
+ * Prints their number. Fails if there are none, or if more memory is allocated after the second run of a file than
+ * after the first. */
 #include "fuzz.h"
 
 #include "../held.h"
@@ -27,7 +27,7 @@ static unsigned run_file(int (*run)(const uint8_t *, size_t), const char *path)
     for (size_t n; (n = fread(part, 1, sizeof part, file)) > 0;)
         CHECK(!kd_buffer_append(&bytes, part, n), "out of memory");
     fclose(file);
-    fprintf(stderr, "%s\n", path); /* the last one, where it ends here */
+    fprintf(stderr, "%s\n", path); /* names the input if the process ends here */
     run(bytes.data, bytes.size);
     const size_t before = kd_held();
     run(bytes.data, bytes.size);

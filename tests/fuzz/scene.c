@@ -1,5 +1,5 @@
-/* This reads a scene: JSON over the default one, and over the preset "smooth". A refusal leaves the scene as it was;
- * what is read is written and read again as the same. */
+/* Fuzz target: a scene as JSON over the default one, and over the preset "smooth". A refused document leaves the
+ * scene unchanged; an accepted one reads back the same after writing. */
 #include "fuzz.h"
 
 static void read_over(const struct kd_scene *before, const struct kd_fuzz_text *text)

@@ -1,6 +1,6 @@
-/* This writes seeds and dictionaries of the targets, made of kerrd's own tables and by its own writers, so that they
- * follow these: kd_fuzz_seeds OUT makes files OUT/TARGET/NAME and OUT/TARGET.dict. The same each time. What cannot
- * be made of tables is in tests/fuzz/corpus. */
+/* Writes seeds and dictionaries of the targets from kerrd's own tables, by its own writers, so that they stay up to
+ * date: kd_fuzz_seeds OUT makes OUT/TARGET/NAME and OUT/TARGET.dict, the same each time. Seeds that tables cannot
+ * give are in tests/fuzz/corpus. */
 #include "fuzz.h"
 
 #include "scene/difference.h"
@@ -36,7 +36,7 @@ static FILE *open_file(const char *folder, const char *name)
     return file;
 }
 
-/* A seed of these bytes, with a text before them. */
+/* A seed of these bytes, preceded by a text. */
 static void put(const char *target, const char *name, const char *before, const void *data, size_t size)
 {
     FILE *file = open_file(target, name);
@@ -49,7 +49,7 @@ static void put_text(const char *target, const char *name, const char *text) { p
 static void word(FILE *dict, const char *text, size_t n)
 {
     if (!n)
-        return; /* libFuzzer takes no empty word */
+        return; /* libFuzzer rejects empty words */
     fputc('"', dict);
     for (size_t i = 0; i < n; i++)
         if (text[i] == '"' || text[i] == '\\' || text[i] < ' ' || text[i] > '~')
@@ -291,7 +291,7 @@ static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned nu
     kd_buffer_finish(&bytes);
 }
 
-/* The smallest grid of matter, as a file and as records of the target's. */
+/* The smallest grid of matter, as a file and as records of the target. */
 static void write_grid(void)
 {
     static const char header[] = "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":0.5,\"azimuth\":\"kerr-schild\","
@@ -323,7 +323,7 @@ static void write_grid(void)
     kd_zip_destroy(zip);
     put("assets", "grid.npz", "", file.data, file.size);
     put("assets", "grid", "grid", records.data, records.size);
-    for (uint8_t way = 1; way < 8; way++) { /* of assets.c: r in each of them */
+    for (uint8_t way = 1; way < 8; way++) { /* ways of assets.c: each for the array r */
         const size_t at = (size_t)(3 + sizeof header - 1);
         char name[16];
         records.data[at] = (uint8_t)(1 + 13 * way);
@@ -380,7 +380,7 @@ static void write_accuracy(void)
     free(table);
 }
 
-/* A file with every option that has a default, and the same options as variables. */
+/* A file with every option that has a default, and the same options as environment variables. */
 static void write_settings(void)
 {
     FILE *dict = open_file("config", ""), *file = open_file("config", "defaults"),

@@ -1,5 +1,5 @@
-/* This reads what kerrd keeps between its starts: the state of a film, a table of accuracy, the record of a job, a
- * line "---" and its request; and a timeline as a session's path has it. The first byte says which. */
+/* Fuzz target: files that kerrd keeps between runs, selected by the first byte: the state of a film, a table of
+ * accuracy, the record of a job, a line "---" and its request; and a timeline of a session's path. */
 #include "fuzz.h"
 
 #include "base/log.h"

@@ -1,5 +1,4 @@
-/* These are the targets of fuzzing, a file each; what each of them reads stands at the head of its file. meson.build
- * has the same list. */
+/* The fuzz targets, one file each; the head of each file describes its input. meson.build has the same list. */
 #ifndef KD_FUZZ_TARGETS_H
 #define KD_FUZZ_TARGETS_H
 
@@ -13,7 +12,7 @@
     TARGET(playground) TARGET(quantity) TARGET(query) TARGET(rays) TARGET(scene) TARGET(state)
 /* clang-format on */
 
-/* Reads an input; ends the process by abort() where what it reads is not as it should be. Always 0. */
+/* Runs a target on an input; aborts if a property does not hold. Always returns 0. */
 #define KD_FUZZ_DECLARE(name) int kd_fuzz_##name(const uint8_t *data, size_t size);
 KD_FUZZ_TARGETS(KD_FUZZ_DECLARE)
 #undef KD_FUZZ_DECLARE

@@ -1,5 +1,5 @@
-/* M87* through a beam of 20 microarcseconds: the ring's diameter, beside that of the picture without a beam,
- * convolved here in double. */
+/* M87* through a beam of 20 microarcseconds: the ring's diameter, compared with that of the picture without beam,
+ * convolved here in double precision. */
 #include "studio.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 enum { W = 320, H = 180 };
 static double unblurred[H][W], between[H][W], wanted[H][W], found[H][W];
 
-/* G M/c^2 of the Sun, of 6.5e9 suns at 16.8 Mpc, on the sky (IAU 2015 B3, IAU 2015 B2). */
+/* One M of 6.5e9 solar masses at 16.8 Mpc, in microarcseconds (IAU 2015 B3, IAU 2015 B2). */
 #define M_UAS (6.5e9 * 1476.6250385 / (16.8e6 * 3.0856775814913673e16) * 206264.80624709636 * 1e6)
 #define PIXEL_UAS (56 * M_UAS / W)
 
@@ -44,7 +44,7 @@ static void convolve(double sigma)
                 wanted[y][x] += weight[abs(k - y)] * between[k][x];
 }
 
-/* Cubic by rows and columns (Catmull and Rom 1974). */
+/* Cubic interpolation by rows and columns (Catmull and Rom 1974). */
 static double at(double p[H][W], double x, double y)
 {
     const int i = (int)floor(x), j = (int)floor(y);
@@ -61,7 +61,7 @@ static double at(double p[H][W], double x, double y)
 
 struct ring { double diameter, scatter; };
 
-/* The mean over directions of the radius of largest brightness about a place, twice, and its scatter (EHT
+/* Ring about a centre: twice the mean over directions of the radius of largest brightness, and its scatter (EHT
  * Collaboration 2019, ApJL 875, L4, section 9). */
 static struct ring about(double p[H][W], double x0, double y0)
 {
@@ -81,7 +81,7 @@ static struct ring about(double p[H][W], double x0, double y0)
     return (struct ring) { 2 * sum, sqrt(fmax(square - sum * sum, 0)) };
 }
 
-/* About the place where the radius scatters least. */
+/* Ring about the centre for which the radius scatters least. */
 static struct ring ring_of(double p[H][W])
 {
     double x = 0.5 * W, y = 0.5 * H;
@@ -96,7 +96,7 @@ static struct ring ring_of(double p[H][W])
     return best;
 }
 
-/* In 16 bits of light: what the style shows in false colour is the same picture. */
+/* In 16 bits of linear light: the style's false colours show the same picture. */
 static void the_ring_has_its_diameter(void **state)
 {
     (void)state;
@@ -127,8 +127,8 @@ static void the_ring_has_its_diameter(void **state)
     kd_frame_finish(&blurred);
 }
 
-/* The style's picture is that in false colour: the same brightness by the lightness L* of its colours (CIE 1976),
- * 100 of which is white. */
+/* The style's picture is the same in false colour: brightness corresponds to the lightness L* of its colours (CIE
+ * 1976), 100 being white. */
 static void the_style_shows_it_by_lightness(void **state)
 {
     (void)state;

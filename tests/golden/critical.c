@@ -1,4 +1,4 @@
-/* The pixels at the critical curve, by more rays than the others: judged by pictures of 8 x 8 rays in every pixel. */
+/* Pixels at the critical curve, which get more rays than others, against pictures with 8 x 8 rays in every pixel. */
 #include "studio.h"
 
 #include "render/view/critical_pixels.h"
@@ -23,7 +23,7 @@ static struct kd_frame shot(const struct kd_scene *base, int samples, int critic
     return studio_render(&scene);
 }
 
-struct distance { double rms, mean, elsewhere; }; /* at the curve; elsewhere the largest */
+struct distance { double rms, mean, elsewhere; }; /* at the curve; elsewhere: the largest error in other pixels */
 
 /* Compares linear light with another picture's. */
 static struct distance distance(const struct kd_frame *a, const struct kd_frame *b,
@@ -64,8 +64,8 @@ static struct kd_scene view(const char *json, double exposure)
     "\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60,\"yaw_deg\":4,\"pitch_deg\":-3,\"roll_deg\":20}"
 #define FAST "\"spacetime\":{\"spin\":0.998}"
 
-/* By each way that a lens map is made. A rim has rays at a few distances from the curve, or at many: the error of a
- * pixel goes with one over their number rather than its root. */
+/* For each way of making a lens map. Along a rim rays have many distances from the curve, so a pixel's error falls
+ * as one over their number instead of its square root. */
 static void against_many_rays(void **state)
 {
     (void)state;
@@ -111,7 +111,7 @@ static void against_many_rays(void **state)
     }
 }
 
-/* What is off costs nothing: no rays, and the same picture to the byte. */
+/* Switched off it costs nothing: no rays, and the same picture to the byte. */
 static void off(void **state)
 {
     (void)state;

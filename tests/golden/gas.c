@@ -1,5 +1,5 @@
-/* What is seen of the gas: the angle at which its light leaves it, against Kerr-Schild geodesics and the metric;
- * that its turbulence keeps the flux; that it turns as gas on orbits does; that one seed is one picture. */
+/* Appearance of the gas: its angle of emission, against Kerr-Schild geodesics and the metric; turbulence conserves
+ * the flux; it rotates as gas on orbits does; one seed gives one picture. */
 #include "photon.h"
 #include "studio.h"
 
@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* -1/g^2 of u^t = 1 at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane; and Omega where
- * its slope in r vanishes, which is a circular geodesic. */
+/* line: -1/g^2 for u^t = 1 at this angular velocity, g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane. A
+ * circular geodesic has the Omega for which its derivative in r vanishes. */
 static double line(double a, double r, double omega)
 {
     return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
@@ -34,8 +34,7 @@ static double orbit_omega(double a, double r)
     return 0.5 * (low + high);
 }
 
-/* The cosine of the angle to the normal of the plane, by the momentum along it over the energy, both in the gas's
- * frame. */
+/* Cosine of the angle to the plane's normal in the gas's frame: the photon's momentum along it over its energy. */
 static double cosine(const struct ks_photon *p, const struct ks_path *path)
 {
     double r = path->r[0], omega = orbit_omega(p->a, r);
@@ -44,8 +43,8 @@ static double cosine(const struct ks_photon *p, const struct ks_path *path)
 
 #define DEPTH 3.0
 
-/* A disk of that optical depth over one that is opaque shows how much each crossing takes: 1 - exp(-depth
- * F/F_max/cos). 16 bits of the dimmest pixels looked at are worth 1e-3. */
+/* The ratio to an opaque disk gives the fraction that a crossing absorbs: 1 - exp(-depth F/F_max/cos). 16 bits
+ * resolve the dimmest pixels judged to 1e-3. */
 static void emission_angle(void **state)
 {
     (void)state;
@@ -98,7 +97,7 @@ static void emission_angle(void **state)
     assert_true(least < 0.15 && most > 0.9);
 }
 
-/* Light of all pixels. */
+/* Total light of all pixels. */
 static double sum_of(const struct kd_scene *scene)
 {
     struct kd_frame f = studio_render(scene);
@@ -112,9 +111,9 @@ static double sum_of(const struct kd_scene *scene)
     return sum;
 }
 
-/* The mean over seeds of an opaque disk's light is that of the smooth one: turbulence moves light about, and neither
- * adds nor takes any. So it is for each number of octaves. Each seed is off by some percent; the mean by so much
- * less, which their scatter says. */
+/* Averaged over seeds, an opaque turbulent disk has the light of the smooth one: turbulence redistributes light
+ * without adding or removing any. This holds for each number of octaves. Each seed deviates by some percent, and the
+ * mean by the error that their scatter implies. */
 static void flux_is_kept(void **state)
 {
     (void)state;
@@ -149,8 +148,8 @@ static bool same_pixels(const struct kd_scene *a, const struct kd_scene *b)
     return same;
 }
 
-/* One scene is one picture, whatever was rendered before it; another seed or time is another one; and what is off
- * does nothing. */
+/* A scene gives the same picture whatever was rendered before; another seed or time gives another one; and switched
+ * off it has no effect. */
 static void one_scene_one_picture(void **state)
 {
     (void)state;
@@ -173,8 +172,8 @@ static void one_scene_one_picture(void **state)
     assert_true(same_pixels(&other, &other));
 }
 
-/* Brightness over that of the smooth disk, less 1: a map of the pattern, 0 in the mean over seeds. Its side is a
- * power of nothing. */
+/* Brightness relative to the smooth disk, minus 1: a map of the pattern with mean 0 over seeds. Its side is not a
+ * power of any integer. */
 enum { SIDE = 60, BANDS = 6 };
 struct map { double at[SIDE][SIDE]; };
 
@@ -220,7 +219,7 @@ static void power_of(const struct map *m, double out[SIDE][SIDE])
         }
 }
 
-/* The band of a wave number, 0 to BANDS - 1; waves along the axes of the picture, where a lattice would show, are a
+/* The band of a wave number, 0 to BANDS - 1. Waves along the axes of the picture, where a lattice would show, have a
  * band of their own. */
 static int band_of(int l, int k)
 {
@@ -240,9 +239,9 @@ static struct kd_scene from_above(void)
         "\"image\":{\"width\":60,\"height\":60,\"samples\":2,\"bit_depth\":16}}");
 }
 
-/* Two hundred seeds are two hundred independent patterns: of their mean, each wave has a two-hundredth of the power
- * that they have. A ring, a seam or a lattice that they had in common would stay. Over n waves the ratio scatters by
- * sqrt(1/n), those of a real map being there twice and neighbours being alike by some 4. */
+/* Two hundred seeds are independent patterns: each wave of their mean has a two-hundredth of their power. A common
+ * ring, seam or lattice would remain. Over n waves the ratio scatters by sqrt(1/n); waves of a real map occur twice,
+ * and neighbours are correlated over some 4. */
 static void nothing_in_common(void **state)
 {
     (void)state;
@@ -284,13 +283,13 @@ static void nothing_in_common(void **state)
         printf("waves of band %d: %.3f of the power that independence leaves, 1 within %.2f\n", band, ratio, allowed);
         assert_true(fabs(ratio - 1) < allowed);
     }
-    for (int k = 0; k < SIDE / 2; k++) /* rings: the mean at each radius, by its own scatter */
+    for (int k = 0; k < SIDE / 2; k++) /* rings: the mean at each radius over its own scatter */
         if (scatter[k] > 0 && !(fabs(profile[k]) < 4.5 * sqrt(scatter[k] / SEEDS)))
             fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
 }
 
-/* The power of the pattern's waves in bands, and how much it changes from a pixel to the next along a radius, which
- * is what winding up would raise: the same at any time, within what patterns differ by. */
+/* The power of the pattern's waves in bands, and its change from pixel to pixel along a radius, which winding up
+ * would increase: constant in time within the scatter of patterns. */
 static void nothing_winds_up(void **state)
 {
     (void)state;
@@ -323,8 +322,8 @@ static void nothing_winds_up(void **state)
         }
 }
 
-/* Seen almost from its plane, the gas varies as much from seed to seed with one ray a pixel as with 64: what a ray
- * cannot resolve has faded to its mean. Without that it is more than half as much again. */
+/* Almost edge-on, the gas varies as much from seed to seed with one ray a pixel as with 64: unresolved structure has
+ * faded to its mean. Without that it would vary by more than half as much again. */
 static void one_ray_varies_as_many(void **state)
 {
     (void)state;

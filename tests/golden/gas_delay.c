@@ -1,4 +1,4 @@
-/* In slow light of gas each pixel shows the turbulence of the time at which its light left; its delay is by
+/* Slow light of gas: each pixel shows the turbulence at the time at which its light was emitted. Delays are from
  * Kerr-Schild geodesics. */
 #include "photon.h"
 #include "studio.h"
@@ -28,8 +28,7 @@ static struct kd_scene view(double spin, double inclination_deg, double r)
     return studio_scene(NULL, json);
 }
 
-/* The disk is opaque: what a pixel shows is its first crossing. 16 bits of the dimmest pixels looked at are worth
- * 1e-3. */
+/* The disk is opaque: a pixel shows its first crossing. 16 bits resolve the dimmest pixels judged to 1e-3. */
 static void pixels_show_when_their_light_left(void **state)
 {
     (void)state;

@@ -1,15 +1,15 @@
-/* Small pictures against the committed ones.
+/* Compares small pictures with the committed ones.
  *
  *     golden DIR            compare
- *     golden --quick DIR    but for those whose kernels SwiftShader compiles for half a minute each
- *     golden --long DIR     these alone
+ *     golden --quick DIR    without those whose kernels SwiftShader compiles for half a minute each
+ *     golden --long DIR     only these
  *     golden --update DIR   write them anew
  *
- * and behind DIR a name, for this picture alone.
+ * A name after DIR selects that picture.
  *
- * A reference holds the exposure it was made with in its scene. Auto exposure is quantised to an eighth of a
- * stop: a pixel at the edge of a bin may move it on another device, and every pixel with it. So the exposure
- * found is compared on its own, and the pixels at the exposure of the reference. */
+ * A reference holds its exposure in its scene. Auto exposure is quantised to an eighth of a stop: on another device
+ * a pixel at the edge of a bin may move it, and every pixel with it. So the exposure found is compared on its own,
+ * and the pixels at the exposure of the reference. */
 #include "studio.h"
 
 #include "image/png.h"
@@ -22,13 +22,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 16 rays a pixel: where an edge goes another way for one ray, a pixel changes by a sixteenth. */
+/* 16 rays a pixel: if one ray falls on the other side of an edge, the pixel changes by a sixteenth. */
 #define SIZE "\"image\":{\"width\":160,\"height\":90,\"samples\":4}"
 
 static const struct shot {
     const char *name, *preset, *json;
-    const char *playground; /* NULL; else JSON of the playground that is shown, */
-    double after;           /* so long after its begin */
+    const char *playground; /* NULL, or JSON of a playground that is shown */
+    double after;           /* time after its beginning */
 } shots[] = {
     { "default", "gas", "{" SIZE "}" },
     { "smooth", "smooth", "{" SIZE "}" },
@@ -111,7 +111,7 @@ static const struct shot {
 };
 #define SHOTS (sizeof shots / sizeof *shots)
 
-/* Each sky as each observer sees it: aberrated, shifted, and in coordinates of its own where the observer falls. */
+/* Each sky for each observer: aberrated, shifted, and for an infalling observer in coordinates of its own. */
 #define SKY(name, model, fields) { name, "{\"model\":\"" model "\"," fields "}" }
 static const struct {
     const char *name, *json;
@@ -179,12 +179,12 @@ static struct kd_frame render(const struct shot *shot, const struct kd_scene *sc
     return frame;
 }
 
-/* The last bits of sqrt, log2 and sin differ between devices: some 1e-6 of a crossing radius. With the rays'
- * places off by 1e-5 the grid, all sharp lines, is at 50 dB and every other picture above 57; with a
- * brightness off by 4 % or a camera off by a tenth of a pixel the pictures are at 32 to 45. */
+/* Last bits of sqrt, log2 and sin differ between devices, which changes crossing radii by some 1e-6. With rays
+ * displaced by 1e-5 the grid, which has only sharp lines, is at 50 dB and every other picture above 57. With a
+ * brightness error of 4 % or a camera error of a tenth of a pixel the pictures are at 32 to 45. */
 #define PSNR_MIN 45.0
-/* One ray of sixteen that takes another colour moves a pixel by up to 24 steps of 255, and at the black edge
- * of a bright ring by more: few pixels, one in 200, may do so. */
+/* If one ray of sixteen gets another colour, a pixel changes by up to 24 steps of 255, and at the black edge of a
+ * bright ring by more. One pixel in 200 may do so. */
 #define FAR (24.0 / 255)
 #define FAR_SHARE 0.005
 #define EXPOSURE_STEP 0.126 /* one bin of the histogram */

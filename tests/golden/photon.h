@@ -1,5 +1,5 @@
-/* This is the photon that a pixel of a picture of one ray a pixel sees, for the Kerr-Schild oracle: of a plane
- * camera, or of a static observer's pinhole. */
+/* The photon seen by a pixel with one ray, for the Kerr-Schild oracle: of a plane camera, or of a static observer's
+ * pinhole. */
 #ifndef KD_TESTS_GOLDEN_PHOTON_H
 #define KD_TESTS_GOLDEN_PHOTON_H
 

@@ -1,6 +1,5 @@
-/* What is seen of the gas that falls from the ISCO: how much of it there is, its redshift, and the delay of its
- * light. Rays by the closed form in double, redshift by contraction with the metric, densities from the flow of
- * particles. */
+/* Appearance of the gas that falls from the ISCO: its density, redshift and delay. Rays are from the closed form in
+ * double precision, redshifts from contraction with the metric, densities from the flow of particles. */
 #include "studio.h"
 
 #include "contraction.h"
@@ -66,9 +65,9 @@ static struct kd_frame shot(struct kd_scene *scene, bool doppler, bool redshift)
     "\"spacetime\":{\"spin\":0.3}," \
     "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
 
-/* The same pixel with and without the factors of g: brightness goes as g^4 whatever the gas is like there. To far
- * away most light leaves the gas outwards, to an observer within it it comes inwards as well. 16 bits: the fourth
- * root of a luminance of 0.01 is known to 1e-4. */
+/* The same pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Far away most
+ * light left the gas outwards; an observer inside also sees light moving inwards. 16 bits: the fourth root of a
+ * luminance of 0.01 is known to 1e-4. */
 static void redshift_of_light(void **state)
 {
     (void)state;
@@ -87,7 +86,7 @@ static void redshift_of_light(void **state)
         { "from among it", AMONG_IT, "" },
         { "from among it, listed", AMONG_IT, ",\"precision\":\"f64\"" },
     };
-    int judged[2][3] = { { 0 } }; /* light that goes inwards, outwards; 1/u^t, g, g u^t */
+    int judged[2][3] = { { 0 } }; /* light moving inwards, outwards; 1/u^t, g, g u^t */
     double worst[3] = { 0 };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         char json[1024];
@@ -114,7 +113,7 @@ static void redshift_of_light(void **state)
                                          studio_luminance(&moved, x, y) };
                 if (!meets_the_plunge(&scene, &ray) || base < 0.01)
                     continue;
-                double r = ray.path.crossing[0].r; /* the near observer's own redshift is in every picture */
+                double r = ray.path.crossing[0].r; /* every picture contains the near observer's own redshift */
                 int sense = ray.path.crossing[0].sense;
                 double ut = kd_plunge_velocity(&plunge, r).ut, g = redshift_of_plunge(a, r, ray.lambda, ray.eta, sense);
                 const double want[] = { 1 / ut, g, g * ut };
@@ -144,10 +143,10 @@ static void redshift_of_light(void **state)
             assert_true(judged[sense][k] > 500);
 }
 
-/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow: so many particles a
- * time through a circle of 2 pi r at u^r, over the particles per area of the disk where it ends. The parcels are
- * few: their Poisson error, 10 000 of them for each seed. Where the depth is below 0.05, for a clumpy gas shines
- * less than an even one: by half the depth. */
+/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow, which is the rate of
+ * particles through a circle of 2 pi r at u^r over the particles per area of the disk at its edge. Parcels are few:
+ * Poisson error of 10 000 for each seed. Depths are below 0.05, since clumpy gas shines less than even gas, by half
+ * the depth. */
 static void surface_density(void **state)
 {
     (void)state;
@@ -167,7 +166,8 @@ static void surface_density(void **state)
         struct kd_frame frame = studio_render(&scene);
         const struct kd_plunging p = kd_plunging_of(&scene);
         double isco = p.curve.isco, n = 1e7, step = 1e-4;
-        /* circles hold (1 - plunging) n; their share per radius at the ISCO, from the radii of shares */
+        /* (1 - plunging) n particles are on circles; their number per radius at the ISCO, from the distribution of
+         * radii */
         double circling =
             (1 - 0.001) * n * step / (kd_particle_radius(&scene, 0.02 + step) - kd_particle_radius(&scene, 0.02));
         double r_there = kd_particle_radius(&scene, 0.02 + step / 2);
@@ -188,16 +188,15 @@ static void surface_density(void **state)
             }
         kd_frame_finish(&frame);
     }
-    for (int k = 1; k < RINGS; k++) { /* the first is too dense throughout */
+    for (int k = 1; k < RINGS; k++) { /* the first ring is too dense */
         double poisson = 1 / sqrt(SEEDS * 1e4 / RINGS), off = got[k] / want[k] - 1;
         printf("phase %g to %g: %+.3f, Poisson error %.3f\n", k / 4.0, (k + 1) / 4.0, off, poisson);
         assert_true(fabs(off) < 3 * poisson + 0.015);
     }
 }
 
-/* Slow light: a pixel of the stream is as in a fast picture of the time at which its light left, for far and near
- * observers; not to the last step, for parcels that lie otherwise between the nodes of the grid are blurred another
- * way. */
+/* Slow light: a pixel of the stream is as in a fast-light picture of the emission time, for far and near observers.
+ * Not to the last step, because parcels at other places between nodes of the grid are blurred differently. */
 static void delay_of_light(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What must hold for any picture, without a reference: symmetries, averages, repetition. */
+/* Properties of any picture, without a reference: symmetries, averages, reproducibility. */
 #include "studio.h"
 
 #include <math.h>
@@ -8,8 +8,7 @@
 
 #include <cmocka.h>
 
-/* Linear light can be read back from these: no film curve, no dither, nothing clipped (g^4 stays below 16),
- * 16 bits. */
+/* Linear light can be recovered from these: no film curve, no dither, no clipping (g^4 stays below 16), 16 bits. */
 #define LINEAR "\"style\":{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false}"
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
@@ -38,8 +37,8 @@ static double light_between(const struct kd_frame *f, uint32_t from, uint32_t to
     return sum;
 }
 
-/* The gas turns towards +phi whatever the hole does: it approaches at alpha < 0. At 75 degrees the g^4 of the
- * two sides differ by far more than a factor of two. */
+/* The gas turns towards +phi whatever the hole's spin: it approaches at alpha < 0. At 75 degrees g^4 differs by far
+ * more than a factor of two between the sides. */
 static void the_approaching_side_is_left(void **state)
 {
     (void)state;
@@ -57,8 +56,8 @@ static void the_approaching_side_is_left(void **state)
     }
 }
 
-/* Each of these pairs is the same rays in another order, up to the last bits; a step of 8 bits is 256 times
- * the step of the 16 that are compared. The disk fades at its edges and nothing else is sharp. */
+/* Each of these pairs is the same rays in another order, up to the last bits; a step of 8 bits is 256 times the step
+ * of the 16 that are compared. The disk fades at its edges, and nothing else is sharp. */
 static void symmetries(void **state)
 {
     (void)state;
@@ -94,14 +93,13 @@ static void symmetries(void **state)
         double d = difference(&a, &b, pairs[i].flip);
         if (!(d <= 1))
             fail_msg("%s: off by %g/255", pairs[i].what, d);
-        assert_true(light_between(&a, 0, a.width) > 1); /* there is something to see */
+        assert_true(light_between(&a, 0, a.width) > 1); /* the picture is not black */
         kd_frame_finish(&a);
         kd_frame_finish(&b);
     }
 }
 
-/* A camera turned clockwise by a quarter has its right-hand side down: a pixel to the right shows what was
- * below. */
+/* A camera turned clockwise by a quarter has its right-hand side down: a pixel on the right shows what was below. */
 static void a_quarter_turn(void **state)
 {
     (void)state;
@@ -120,7 +118,7 @@ static void a_quarter_turn(void **state)
     }
 }
 
-/* And the picture is not blind to them: what the pairs above share is no blank. */
+/* The pictures differ when the symmetry is broken: the pairs above are not equal by being blank. */
 static void asymmetries(void **state)
 {
     (void)state;
@@ -179,8 +177,7 @@ static void a_stop_is_a_factor_of_two(void **state)
     kd_frame_finish(&bright);
 }
 
-/* The same scene gives the same bytes: from a lens map that was kept, and from a renderer that has seen
- * nothing. */
+/* The same scene gives the same bytes: from a cached lens map, and from a fresh renderer. */
 static void the_same_bytes(void **state)
 {
     (void)state;
@@ -203,7 +200,7 @@ static void the_same_bytes(void **state)
     }
 }
 
-/* Area, centre and extent of what is lit, in pixels. */
+/* Area, centre and extent of the bright part, in pixels. */
 struct shape { double area, x, y, xx, yy; };
 static struct shape shape_of(const struct kd_frame *f)
 {
@@ -224,8 +221,8 @@ static struct shape shape_of(const struct kd_frame *f)
     return s;
 }
 
-/* From r = 1000 a disk of 20 M is seen in a perspective of 2 % and the light is bent by another 0.2 %: 3 % in
- * shape. Half a picture height is 0.0115 rad there. */
+/* From r = 1000 a disk of 20 M has a perspective of 2 %, and light is bent by another 0.2 %: 3 % in shape. Half a
+ * picture height is 0.0115 rad there. */
 static void far_away_is_infinity(void **state)
 {
     (void)state;
@@ -252,8 +249,8 @@ static void far_away_is_infinity(void **state)
     }
 }
 
-/* Gas that lets everything pass is no gas: the sky of a scene without a disk. Rays are followed from another
- * crossing on, and the lines of the grid are sharp: a pixel in 200 may differ. */
+/* Fully transparent gas leaves the sky of a scene without a disk. Rays are followed from another crossing on, and
+ * the grid's lines are sharp: one pixel in 200 may differ. */
 static void a_transparent_disk(void **state)
 {
     (void)state;

@@ -10,9 +10,8 @@
 
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
-/* The outline of the shadow for an observer at infinity: (alpha, beta) of the spherical photon orbits
- * (Bardeen 1973), of which the code under test knows nothing. The upper half from left to right in beta >= 0;
- * a = 0 is a circle. */
+/* Outline of the shadow for an observer at infinity: (alpha, beta) of the spherical photon orbits (Bardeen 1973),
+ * independent of the code under test. The upper half, beta >= 0, from left to right; for a = 0 a circle. */
 #define OUTLINE 400
 static int outline(double a, double inclination, double alpha[OUTLINE], double beta[OUTLINE])
 {
@@ -37,7 +36,7 @@ static int outline(double a, double inclination, double alpha[OUTLINE], double b
     return n;
 }
 
-/* Half height of the outline at this alpha, -1 beside it. */
+/* Half height of the outline at this alpha, -1 outside it. */
 static double half_height(const double *alpha, const double *beta, int n, double at)
 {
     for (int i = 0; i + 1 < n; i++) {
@@ -48,8 +47,8 @@ static double half_height(const double *alpha, const double *beta, int n, double
     return -1;
 }
 
-/* Every ray inside the outline is black, every ray outside it sees the sky, which is nowhere black. A
- * twentieth of M aside: the polygon and single precision are some 1e-4. */
+/* Every ray inside the outline is black; every ray outside sees the sky, which is nowhere black. A margin of a
+ * twentieth of M is left out: the polygon and single precision err by some 1e-4. */
 static void the_shadow_has_bardeens_outline(void **state)
 {
     (void)state;
@@ -79,8 +78,8 @@ static void the_shadow_has_bardeens_outline(void **state)
     }
 }
 
-/* Synge 1966: an observer at rest at r sees the hole under sin(angle) = sqrt(27 (1 - 2/r))/r, more than a
- * right angle inside r = 3. Looking away (yaw 180) is looking at the rest of the sky. */
+/* Synge 1966: an observer at rest at r sees the hole with the angular radius sin(angle) = sqrt(27 (1 - 2/r))/r, more
+ * than a right angle inside r = 3. The camera looking away (yaw 180) sees the rest of the sky. */
 static void the_shadow_has_synges_angle(void **state)
 {
     (void)state;
@@ -93,7 +92,8 @@ static void the_shadow_has_synges_angle(void **state)
         { 3.5, 160, 0, "static" }, { 2.5, 150, 180, "static" }, { 2.1, 120, 180, "zamo" },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        double r = cases[k].r, edge = asin(sqrt(27 * (1 - 2 / r)) / r); /* from the hole, or inside 3 from the sky */
+        /* from the hole's direction, or inside 3 from the sky's */
+        double r = cases[k].r, edge = asin(sqrt(27 * (1 - 2 / r)) / r);
         bool away = cases[k].yaw;
         int seen[2] = { 0 };
         struct kd_frame f =
@@ -115,8 +115,8 @@ static void the_shadow_has_synges_angle(void **state)
     }
 }
 
-/* Face on without spin: the direct image of radius r lies at about b = r + 1, of the ISCO at 7; what passes
- * within 5.2 falls in after one crossing. Neither the film curve nor the dither may lift black. */
+/* Face-on without spin: the direct image of radius r is at about b = r + 1, that of the ISCO at 7; a ray within 5.2
+ * falls in after one crossing. Neither the film curve nor the dither may raise black. */
 static void the_hole_in_the_disk_is_black(void **state)
 {
     (void)state;

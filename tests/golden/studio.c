@@ -63,7 +63,7 @@ static const struct kd_assets assets = { NULL, take, give_back, "STUDIO_SKY", NU
 
 int studio_open(void)
 {
-    static struct kd_vk_instance keeper; /* a driver that stays loaded can be named by a leak checker */
+    static struct kd_vk_instance keeper; /* keeps the driver loaded, so that a leak checker can name it */
     struct kd_vk_info *infos;
     struct kd_error error = { 0 };
     size_t n;

@@ -1,5 +1,5 @@
-/* The closed form at the extremes against Taylor series to 20 digits (tests/oracle/null_reference.py extremes): it
- * is what the kernels are judged by. */
+/* The closed form at the extremes against Taylor series to 20 digits (tests/oracle/null_reference.py extremes).
+ * Kernels are judged by the closed form. */
 #include "extremes.h"
 
 #include "physics/null/null_geodesic.h"

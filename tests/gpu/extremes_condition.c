@@ -14,7 +14,7 @@ static struct kd_null_path moved(const struct kd_null_ray *ray, int input, doubl
     inputs(&near, x);
     *x[input] *= 1 + by;
     near.cos_theta = fmax(-1, fmin(1, near.cos_theta));
-    if (input == 3) /* taken from the cosine */
+    if (input == 3) /* computed from the cosine */
         near.sin_theta = 0;
     return kd_null_trace_fast(&near);
 }
@@ -26,7 +26,7 @@ void extreme_condition(const struct kd_null_ray *ray, const struct kd_null_path 
         r[n] = phi[n] = 0;
     for (int k = 0; k < EXTREME_INPUTS; k++) {
         double w = weight ? weight[k] : 1;
-        struct kd_null_path near = moved(ray, k, -step); /* less, of a spin too */
+        struct kd_null_path near = moved(ray, k, -step); /* smaller, also for a spin */
         for (int n = 0; n < path->crossings; n++) {
             const struct kd_null_crossing *x = &path->crossing[n], *y = &near.crossing[n];
             bool lost = n >= near.crossings;
@@ -41,7 +41,7 @@ bool extreme_steady(const struct kd_null_ray *ray, const struct kd_null_path *pa
 {
     for (int k = 0; k < 2 * EXTREME_INPUTS; k++) {
         double by = step * (weight ? weight[k / 2] : 1);
-        if (k / 2 == 2) /* whoever rounds a spin takes the horizon from where it is exact */
+        if (k / 2 == 2) /* callers that round the spin compute the horizon from the rounded value */
             by = fmin(by, 0.1 * (1 - fabs(ray->spin)));
         struct kd_null_path near = moved(ray, k / 2, k % 2 ? by : -by);
         if (near.crossings != path->crossings || near.fate != path->fate || near.status != path->status)

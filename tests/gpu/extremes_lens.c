@@ -1,9 +1,9 @@
-/* The lens maps of pictures at the extremes: every plane finite, radii, azimuths and fates against the closed form,
+/* Lens maps of pictures at the extremes: every plane is finite; radii, azimuths and fates against the closed form,
  * for cameras at infinity and at rest in a locally non-rotating frame next to the horizon.
  *
- * A picture's ray knows its labels as well as a float does: those of a finite camera are differences, E = e_t +
- * e_phi m_phi and L likewise, and cost the digits that cancel there. Rays that are others when all inputs move by a
- * few roundings are unsure. */
+ * A picture's ray has labels of single precision. Those of a finite camera are differences, E = e_t + e_phi m_phi
+ * and L likewise, and lose the digits that cancel there. Rays that change their kind when all inputs move by a few
+ * roundings are unsure. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"
@@ -25,8 +25,7 @@ struct kernel {
     double bound, phi_bound;
 };
 
-/* What docs/accuracy.md says of them; the closed form's series starts at an eighth of the time and loses a digit at
- * order 7. */
+/* As in docs/accuracy.md; the closed form's series starts at an eighth of the time and loses a digit at order 7. */
 static const struct kernel kernels[] = {
     { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
     { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
@@ -56,8 +55,8 @@ static struct kd_scene scene_of(const struct camera *v, int steps)
     return scene;
 }
 
-/* The ray of a pixel with the kernel's own arithmetic, and how much more its labels are off than one rounding; false
- * for E <= 0, which the closed form does not know. */
+/* The ray of a pixel by the kernel's own arithmetic, and the error of its labels over one rounding. False for E <=
+ * 0, which the closed form does not support. */
 static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray,
                    double *weight)
 {
@@ -77,7 +76,7 @@ static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int 
         return true;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
     double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi,
-           l = c->l_t + c->l_phi * m_phi; /* of one who does not fall */
+           l = c->l_t + c->l_phi * m_phi; /* for observers that do not fall */
     ray->alpha = -l / energy;
     ray->beta = -c->p_theta * ky * n / energy;
     ray->outward = kx > 0;
@@ -108,11 +107,11 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         }
     while (found < ORDERS && map[(uint64_t)found * plan->rays] > 0)
         found++;
-    for (int n = 0; n < p.crossings; n++) { /* from the horizon, and on the way out from infinity */
+    for (int n = 0; n < p.crossings; n++) { /* from the horizon, and from infinity for a ray on its way out */
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }
-    /* Some twenty roundings: as many as the chain from a pixel to its labels and the motion has. */
+    /* Some twenty roundings, the length of the chain from a pixel to its labels and the motion. */
     bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
     extreme_condition(ray, &p, 1e-9, weight, gain, phi_gain);
     if (!steady || (p.crossings && gain[p.crossings - 1] > 1e5)) {
@@ -132,8 +131,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
     }
 }
 
-/* A thousandth of M at the edge of the shadow: nothing is sure. In the throat of an extremal hole all rays that come
- * to infinity have L = 2E within 1e-4: half their digits are lost with the labels. */
+/* At a thousandth of M from the shadow's edge nothing is sure. In the throat of an extremal hole all rays from
+ * infinity have L = 2E within 1e-4, which loses half the digits of the labels. */
 static double unsure_most(const struct camera *v)
 {
     return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;
@@ -220,8 +219,8 @@ void extreme_lenses(struct kd_renderer *renderer)
         };
         for (int k = 0; k < 8; k++) {
             char what[48];
-            if (places[k / 2].r <
-                1.000001 * kd_hole(spin)->outer) /* a prograde photon orbit that a float does not part from it */
+            /* single precision does not separate the camera from a prograde photon orbit */
+            if (places[k / 2].r < 1.000001 * kd_hole(spin)->outer)
                 continue;
             snprintf(what, sizeof what, "%s, i %d, %s", spins[a].name, k % 2 ? 90 : 60, places[k / 2].name);
             look_with_all(renderer, &(struct camera) { what, spin, k % 2 ? 90 : 60, places[k / 2].r, places[k / 2].fov,

@@ -1,6 +1,6 @@
-/* Whole pictures at the extremes, from JSON to pixels: of one pixel, of one row or column, in many bands, of a
- * strange shape; with denormal numbers and zeros of either sign; next to the horizon. Radiance and the report
- * finite, radiance not negative, nothing written behind the last pixel's place, and light where light must be. */
+/* Whole pictures at the extremes, from JSON to pixels: one pixel, one row or column, many bands, odd shapes;
+ * denormal numbers and zeros of either sign; next to the horizon. Radiance and the report are finite, radiance is
+ * not negative, nothing is written beyond the last pixel, and light is where it must be. */
 #include "extremes.h"
 
 #include "render/device/internal.h"
@@ -13,7 +13,7 @@
 struct picture {
     const char *what, *json;
     bool lit;         /* some pixel must shine */
-    uint64_t binding; /* bytes of a buffer at most, for many bands; 0: the device's */
+    uint64_t binding; /* maximum bytes of a buffer, to force many bands; 0: the device's */
 };
 
 #define SMALL "\"image\":{\"width\":48,\"height\":27}"
@@ -89,8 +89,8 @@ static const struct picture pictures[] = {
       "deg\":90,"
       "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       true, 0 },
-    /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, which g of an orbit there is divided by, vanishes in 32
-     * bits in some thirty pixels. */
+    /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, the divisor in g of an orbit there, vanishes in single
+     * precision in some thirty pixels. */
     { "inside the orbit of light, E = Omega L",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,"
       "\"field_m\":5e-5},"
@@ -101,7 +101,7 @@ static const struct picture pictures[] = {
       false, 0 },
 };
 
-/* The first floats of a buffer of the device. */
+/* Reads the first floats of a device buffer. */
 static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uint64_t bytes, float *to,
                                 struct kd_error *error)
 {
@@ -119,7 +119,7 @@ static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uin
     return status;
 }
 
-/* Pixels of which the radiance is not a number, or below 0; *lit: some shine. */
+/* Number of pixels whose radiance is negative or not a number; *lit: some are bright. */
 static size_t wrong_light(struct kd_renderer *renderer, const struct kd_plan *plan, bool *lit, struct kd_error *error)
 {
     size_t wrong = 0;

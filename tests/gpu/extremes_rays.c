@@ -1,6 +1,6 @@
-/* Listed rays at the extremes, by the engine in Mino time in both precisions: what it says of them against the
- * closed form, and what it says of itself. The engine may be wrong about a ray if it says so: undecided, or an error
- * that admits it. From a finite radius every second ray starts outwards. */
+/* Listed rays at the extremes, by the engine in Mino time in both precisions, against the closed form and against
+ * their own stated errors. The engine may be wrong about a ray if it says so: undecided, or an error large enough.
+ * From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"
@@ -95,7 +95,7 @@ static void make(const struct view *v, struct list *list)
         else if (k % 6 == 0)
             out[k / 6 % 2] = special[k / 12 % SPECIAL];
         if (kd_rays_check(&params, out, 1, NULL))
-            continue; /* no light with these constants comes to where the observer is */
+            continue; /* no light with these constants reaches the observer */
         struct kd_null_ray ray = ray_of(v, out);
         ray.outward = list->outward[list->n] = !isinf(v->r) && k % 2;
         list->path[list->n++] = kd_null_trace(&ray);
@@ -104,7 +104,7 @@ static void make(const struct view *v, struct list *list)
 
 static bool all_finite(const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
-    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray that tells no number may have no error either */
+    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray without numbers may lack an error too */
     bool ok = (isnan(e->error) ? !told : isfinite(e->error) && e->error >= 0) &&
               (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
     for (uint32_t n = 0; n < e->n_crossings; n++)
@@ -117,7 +117,7 @@ struct tally {
     size_t n;
 };
 
-/* The crossings of one ray that the answer claims to hold. `fault`: what the reference itself may be off by. */
+/* The crossings of one ray that the answer claims to be accurate. fault: error of the reference itself. */
 static void judge_crossings(const struct view *v, const struct kd_null_path *p, const struct kd_ray_end *e,
                             const struct kd_ray_crossing *c, const double *gain, const double *phi_gain,
                             struct tally *t)
@@ -169,7 +169,7 @@ static enum kd_status run(struct kd_renderer *renderer, const struct kd_rays_par
                              error);
     struct kd_ray_labels labels = { list->alpha_beta, list->outward, list->n };
     enum kd_status status = kd_rays_device(renderer, params, &labels, list->crossings, list->ends, NULL, NULL, error);
-    for (size_t i = 0; i < list->n * ORDERS; i++) /* which only kd_rays_trace fills in */
+    for (size_t i = 0; i < list->n * ORDERS; i++) /* filled in only by kd_rays_trace */
         list->crossings[i].g = 1;
     return status;
 }
@@ -186,12 +186,13 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .phi_bound = wide ? 1e-9 : 2e-6,
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
-    /* From next to the horizon a half turn leads far out or back in, with no more steps than elsewhere. */
+    /* From next to the horizon a half turn leads far out or back in, with the same number of steps as elsewhere. */
     if (v->r < 1.1 * kd_hole(v->spin)->outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;
     }
-    /* How near the critical curve a precision decides; extremal holes cost it as much as the last digits do. */
+    /* How close to the critical curve a precision can decide; extremal holes reduce that as much as the last digits
+     * do. */
     if (v->critical > 0)
         row.unsure_most = v->critical < (wide ? 1e-8 : 1e-4) ? 1 : 0.25;
     snprintf(row.what, sizeof row.what, "%s", what);

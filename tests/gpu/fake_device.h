@@ -1,5 +1,5 @@
-/* A device that no driver here shows: lower limits, memory that is not coherent, a device that is lost. It stands
- * between the layer and a real driver, in the table of functions, from `fake_device_on` on. One thread. */
+/* Simulates a device with properties that no driver here has: lower limits, incoherent memory, a lost device. It
+ * stands between the layer and a real driver, in the table of functions, from `fake_device_on` on. One thread. */
 #ifndef KD_TEST_FAKE_DEVICE_H
 #define KD_TEST_FAKE_DEVICE_H
 
@@ -7,14 +7,14 @@
 
 #include "vk/functions.h"
 
-/* 0: as the driver has it. */
+/* 0: the driver's own value. */
 struct fake_device {
     uint32_t groups;                    /* workgroups of a dispatch along x and y */
     uint64_t binding, allocation, heap; /* bytes */
-    uint64_t budget;                    /* of each heap; the device then has VK_EXT_memory_budget */
-    uint32_t texels, uniform;           /* texels and bytes of a binding */
-    bool incoherent; /* no memory is coherent: the host sees a copy, which only flushes and invalidations move */
-    int lost_at;     /* the submission, counted from 1, that loses the device */
+    uint64_t budget;                    /* of each heap; adds VK_EXT_memory_budget to the device */
+    uint32_t texels, uniform;           /* maximum texels and bytes of a binding */
+    bool incoherent; /* no memory is coherent: the host sees a copy, which only flushes and invalidations update */
+    int lost_at;     /* number, from 1, of the submission that loses the device */
 };
 
 static struct fake_device fake;
@@ -102,7 +102,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Extensions(VkPhysicalDevice device, c
     return result;
 }
 
-/* The driver is not told of what it may not have. */
+/* Requests of the fake extension are not passed to the driver. */
 static VKAPI_ATTR VkResult VKAPI_CALL fake_CreateDevice(VkPhysicalDevice device, const VkDeviceCreateInfo *info,
                                                         const VkAllocationCallbacks *allocator, VkDevice *out)
 {
@@ -154,7 +154,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Map(VkDevice device, VkDeviceMemory m
     return result;
 }
 
-/* Whole atoms of the largest size that Vulkan allows, inside the block. */
+/* Checks for whole atoms of the largest size that Vulkan allows, inside the block. */
 static struct fake_memory *fake_range(const VkMappedMemoryRange *range)
 {
     struct fake_memory *m = fake_find(range->memory);
@@ -199,7 +199,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Submit(VkQueue queue, uint32_t n, con
         fn->name = (by); \
     }
 
-/* Called when the instance's functions are there, and again when the device's are. */
+/* Called when the instance's functions are loaded, and again when the device's are. */
 static void fake_plant(struct kd_vk_functions *fn)
 {
     FAKE_REPLACE(GetPhysicalDeviceProperties, fake_Properties)
@@ -220,7 +220,7 @@ static void fake_plant(struct kd_vk_functions *fn)
     FAKE_REPLACE(InvalidateMappedMemoryRanges, fake_Invalidate)
 }
 
-/* Devices that are opened from here on are such. The last one must be closed before the next is described. */
+/* Devices opened from here on are such. All must be closed before the next is described. */
 static inline void fake_device_on(const struct fake_device *device)
 {
     fake = *device;

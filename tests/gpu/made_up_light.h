@@ -1,5 +1,5 @@
-/* Tests of the passes behind light make their light up: it takes the way of a picture's, through the passes beam,
- * expose, bloom and post. */
+/* Synthetic light for tests of the passes after light: it takes the path of a picture's light, through the passes
+ * beam, expose, bloom and post. */
 #ifndef KD_TEST_MADE_UP_LIGHT_H
 #define KD_TEST_MADE_UP_LIGHT_H
 
@@ -11,7 +11,7 @@ enum { MOST = 640 * 360 };
 static float light[3 * MOST]; /* linear sRGB, of as many pixels as the plan has */
 static uint16_t pixels[3 * MOST], others[3 * MOST];
 
-/* The light as pixels of 16 bits, of which the first `lit` rows are ready; returns the exposure that was applied. */
+/* Shows the light as pixels of 16 bits, when its first `lit` rows are complete; returns the exposure applied. */
 static inline double show_light(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t lit, uint16_t *out)
 {
     struct kd_vk *vk = renderer->vk;

@@ -22,8 +22,7 @@ static double random_spin(struct kd_random *random)
     return below(random, 3) ? size : -size;
 }
 
-/* From just outside the place where there is this observer to 1e7 M; what falls is within the outer horizon now and
- * then. */
+/* From just outside the observer's edge to 1e7 M; an infalling observer is sometimes within the outer horizon. */
 static double random_radius(struct kd_random *random, enum kd_observer observer, double spin, double inclination_deg)
 {
     const double u = cos(inclination_deg * (M_PI / 180)), horizon = kd_hole(spin)->outer, inner = kd_hole(spin)->inner;
@@ -37,13 +36,13 @@ static void random_motion(struct kd_random *random, struct kd_camera *c)
 {
     const double speed = fmin(1 - decades(random, -6, 0), 0.999999), u = between(random, -1, 1),
                  phi = between(random, 0, 2 * M_PI);
-    const bool along = below(random, 2); /* an axis, else any direction */
+    const bool along = below(random, 2); /* along an axis, otherwise in any direction */
     c->velocity_r = along ? 0 : speed * u;
     c->velocity_theta = along ? 0 : speed * sqrt(1 - u * u) * cos(phi);
     c->velocity_phi = along ? (below(random, 2) ? speed : -speed) : speed * sqrt(1 - u * u) * sin(phi);
 }
 
-/* side: of its picture, in pixels. */
+/* side: of the picture, in pixels. */
 static void random_camera(struct kd_random *random, int side, struct kd_scene *s)
 {
     static const double angles[] = { 0, 90, 180, 1e-4, 60 };

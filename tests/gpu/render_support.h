@@ -1,4 +1,4 @@
-/* The tests of src/render share this: one renderer under the validation layer, and silence of that layer at the end. */
+/* Shared by the tests of src/render: one renderer under the validation layer, which must report nothing by the end. */
 #ifndef KD_TEST_RENDER_SUPPORT_H
 #define KD_TEST_RENDER_SUPPORT_H
 
@@ -9,9 +9,9 @@
 #include <math.h>
 
 static struct kd_renderer *renderer;
-static const struct kd_assets *renderer_assets; /* what scenes name; set before it is opened */
+static const struct kd_assets *renderer_assets; /* provider of the scenes' assets; set before the renderer is opened */
 
-/* 0: the renderer is there; else the exit status, skipped or failed. */
+/* 0 if there is a renderer, otherwise the exit status, skipped or failed. */
 static inline int open_renderer(void)
 {
     int skip = skip_without_device();
@@ -21,14 +21,14 @@ static inline int open_renderer(void)
     const char *device = getenv("KERRD_TEST_DEVICE");
     struct kd_renderer_params params = {
         .device = device ? device : "auto", .validate = true, .assets = renderer_assets, .passing = true
-    }; /* what a test makes of the costs is not kept for others */
+    }; /* costs learned in a test are not stored for others */
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);
     return 1;
 }
 
-/* Whether kernels can compute in double precision here. If not, say which case is left out for it. */
+/* True if kernels can compute in double precision here; otherwise prints which case is skipped. */
 static inline bool has_float64(const char *what)
 {
     struct kd_capacity capacity;
@@ -51,7 +51,7 @@ static inline struct kd_frame rendered(const struct kd_scene *scene)
     return frame;
 }
 
-/* What a pass of a frame took, ms; NAN: it did not run. */
+/* Time that a pass of a frame took, ms; NAN: it did not run. */
 static inline double timing_of(const struct kd_frame *frame, const char *pass)
 {
     for (size_t i = 0; i < frame->n_timings; i++)
@@ -73,7 +73,7 @@ static inline int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The exit status of a group of which so many tests failed. */
+/* The exit status of a group with this number of failed tests. */
 static inline int close_renderer(int failed)
 {
     if (kd_renderer_validation_messages(renderer)) {

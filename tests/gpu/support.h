@@ -1,4 +1,4 @@
-/* The tests of src/vk share this: a device or a printed skip, kernels, buffers with contents. */
+/* Shared by the tests of src/vk: a device or a printed skip, kernels, buffers with contents. */
 #ifndef KD_TEST_GPU_SUPPORT_H
 #define KD_TEST_GPU_SUPPORT_H
 
@@ -23,7 +23,7 @@
 
 #define SKIPPED 77
 
-/* Assert success, printing the sentence if not. */
+/* Asserts success, and prints the message otherwise. */
 #define OK(call) \
     do { \
         struct kd_error error = { 0 }; \
@@ -32,7 +32,7 @@
             fail_msg("%s: %s: %s", #call, kd_status_name(got), error.message); \
     } while (0)
 
-/* Assert this status and a message that contains `part`. */
+/* Asserts this status, and a message that contains `part`. */
 #define FAILS(status_, part, call) \
     do { \
         struct kd_error error = { 0 }; \
@@ -42,8 +42,8 @@
         assert_null(strchr(error.message, '\n')); \
     } while (0)
 
-/* Keep drivers and layers loaded until the end: with an instance gone the loader unloads them, and a leak
- * checker could not say any more whose a leak is, nor suppress it by name. */
+/* Keeps drivers and layers loaded until the end: with an instance gone the loader unloads them, and a leak checker
+ * could no longer attribute a leak or suppress it by name. */
 static inline void keep_drivers_loaded(void)
 {
     static struct kd_vk_instance keeper;
@@ -148,7 +148,7 @@ static inline void finish(struct kd_vk *vk)
     OK(kd_vk_wait(vk, 0, &error));
 }
 
-/* Run on one device with validation, which must stay silent; that is the last test. */
+/* Runs on one device with validation, which must report nothing; the last test checks that. */
 static inline int run_on_device(struct CMUnitTest *tests, size_t n)
 {
     int skipped = skip_without_device();

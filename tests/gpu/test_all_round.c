@@ -1,5 +1,5 @@
-/* Pictures of all directions have no edges: the light of a star is the same wherever it is seen, on the seam between
- * left and right and at the poles too, and so is the glare of a lens. The hole is so far off that space is flat. */
+/* Pictures of all directions have no edges: the light of a star is the same everywhere, also on the seam between
+ * left and right and at the poles, and so is the glare of a lens. The hole is so far away that space is flat. */
 #include "render/sky/frame.h"
 #include "render/sky/star.h"
 #include "render/view/camera.h"
@@ -29,8 +29,8 @@ static struct kd_scene scene_of(int width, int height)
     return scene;
 }
 
-/* Turns the sky so that Sirius is seen at a place of the picture, in pixels, the middle of the first one at 0: n =
- * Rz(-turn) Ry(-tilt) s. */
+/* Turns the sky so that Sirius appears at this place of the picture, in pixels, the centre of the first one at 0: n
+ * = Rz(-turn) Ry(-tilt) s. */
 static bool put(struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera_exact camera = kd_camera_exact(scene);
@@ -50,7 +50,7 @@ static bool put(struct kd_scene *scene, double x, double y)
     return true;
 }
 
-/* All light of a picture: radiance times the solid angle of each pixel, over the star's flux. */
+/* Total light of a picture: radiance times the solid angle of each pixel, over the star's flux. */
 static double light_of(const struct kd_scene *scene, bool bright)
 {
     struct kd_needs needs = kd_needs_of(scene);
@@ -73,9 +73,9 @@ static double light_of(const struct kd_scene *scene, bool bright)
     return sum * pixel / kd_star_flux(kd_catalogue_star(0).magnitude);
 }
 
-/* Across the seam, at the poles and beside them, by rows from the pole; places at which the sky can be turned so.
- * Pixels are 2.8 degrees wide: next to a pole a map of second order does not hold all of the turn there; and of
- * bright images alone two tiles of 25 degrees disagree about the place at their border by up to 0.2 rays. */
+/* Across the seam, at the poles and beside them, by rows from the pole, at places to which the sky can be turned.
+ * Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn; for bright
+ * images only, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
 static void a_star_anywhere(void **state)
 {
     (void)state;

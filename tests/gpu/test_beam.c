@@ -1,13 +1,13 @@
-/* A telescope's beam, and brightness in false colour: pictures of light that the tests make up, through the passes
- * beam, expose, bloom and post. The oracle adds up a Gaussian over all pixels of the picture, in double. */
+/* A telescope's beam, and brightness in false colour: synthetic light through the passes beam, expose, bloom and
+ * post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
 #include "made_up_light.h"
 
 #include "image/colour_map.h"
 
 #include <math.h>
 
-/* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is there,
- * 0: all. */
+/* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is
+ * complete, 0: all. */
 struct look {
     int width, height, rows, lit;
     double sigma, bloom, exposure;
@@ -36,7 +36,7 @@ static struct kd_scene scene_of(const struct look *look)
     return scene;
 }
 
-/* Light to pixels of 16 bits; the exposure that was applied. */
+/* Shows the light as pixels of 16 bits; returns the exposure applied. */
 static double show(const struct look *look, uint16_t *out)
 {
     struct kd_scene scene = scene_of(look);
@@ -53,7 +53,7 @@ static double show(const struct look *look, uint16_t *out)
     return show_light(&scene, &plan, look->lit ? (uint32_t)look->lit : plan.height, out);
 }
 
-/* Points, thin rings and a ramp, up to the edges: what is hard for a coarse grid. */
+/* Points, thin rings and a ramp, up to the edges: difficult for a coarse grid. */
 static void make_light(int width, int height)
 {
     static const double rings[][4] = { { 0.4, 0.5, 0.23, 1 }, { 0.41, 0.52, 0.31, 0.4 }, { 0.97, 0.1, 0.2, 0.7 } };
@@ -70,7 +70,7 @@ static void make_light(int width, int height)
     }
 }
 
-/* The Gaussian's weights at the middles of n pixels, about one of them; on all whole numbers their sum is 1. */
+/* The Gaussian's weights at the centres of n pixels, about one of them; normalised over all integers. */
 static void weights_of(double *out, int n, int about, double sigma)
 {
     double sum = 0;
@@ -92,9 +92,9 @@ static double convolved(const struct look *look, int at, int channel)
     return sum;
 }
 
-/* Beams from far below a pixel to wider than the picture, in pictures that no cell divides: to 4e-4 of the largest,
- * of which a coarse grid has 3e-4 where all light is within a cell, and 16 bits 3e-5. Corners and edges are among
- * the pixels that are looked at. */
+/* Beams from far below a pixel to wider than the picture, in sizes that no cell divides: to 4e-4 of the largest
+ * value, of which a coarse grid contributes 3e-4 if all light is within a cell, and 16 bits 3e-5. Corners and edges
+ * are among the pixels checked. */
 static void it_is_a_convolution(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void it_is_a_convolution(void **state)
     }
 }
 
-/* One pixel that shines, wherever in its cell it is, is seen as a round Gaussian about its own middle. */
+/* One bright pixel, wherever in its cell, becomes a round Gaussian about its own centre. */
 static void a_point_stays_where_it_is(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void a_point_stays_where_it_is(void **state)
     }
 }
 
-/* Where bands and slices end, and whether cells are texels or storage, changes no byte. */
+/* Positions of bands and slices, and whether cells are texels or storage, change no byte. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -177,8 +177,8 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* The rest of a picture under way is dark: what is lit looks as it would then, and a beam leaves light as it was for
- * the next look. */
+/* The unfinished rest of a picture is dark: finished rows look as they would then, and the beam leaves light
+ * unchanged for the next preview. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void what_is_not_lit_is_dark(void **state)
     }
 }
 
-/* NaN and infinity are no light, and harm nobody. */
+/* NaN and infinity count as no light, without side effects. */
 static void no_numbers_are_no_light(void **state)
 {
     (void)state;
@@ -213,14 +213,15 @@ static void no_numbers_are_no_light(void **state)
     }
 }
 
-/* "auto" makes the brightest place white, to the eighth of a stop that a histogram tells; and no pixel is clipped. */
+/* "auto" makes the brightest place white, to the eighth of a stop that the histogram resolves; no pixel is clipped. */
 static void exposure_is_of_what_the_beam_sees(void **state)
 {
     (void)state;
     for (int coarse = 0; coarse < 2; coarse++) {
         const struct look look = { 301, 200, .sigma = coarse ? 12 : 3, .exposure = INFINITY };
         int most = 0;
-        for (int i = 0; i < 3 * 301 * 200; i++) /* a point, of which less than 0.4 % of the pixels see most */
+        /* a point of which less than 0.4 % of the pixels receive most of the light */
+        for (int i = 0; i < 3 * 301 * 200; i++)
             light[i] = i / 3 == 90 * 301 + 100 ? 7 : 1e-6f;
         show(&look, pixels);
         for (int i = 0; i < 301 * 200; i++)
@@ -229,9 +230,8 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     }
 }
 
-/* Each level of brightness has its colour of the map, also behind a curve and where light has a colour of its own:
- * it is luminance that counts. A table of 1024 is linear between its entries; beyond white and below black the ends
- * stay. */
+/* Each brightness has its colour of the map, also after a tone curve and for coloured light: luminance counts. A
+ * table of 1024 is linear between its entries; beyond white and below black the ends apply. */
 static void brightness_has_the_colour_of_the_map(void **state)
 {
     (void)state;
@@ -258,7 +258,7 @@ static void brightness_has_the_colour_of_the_map(void **state)
     assert_true(worst < 2e-3);
 }
 
-/* What there is none of costs nothing: no bytes, no pass; and a map in false colour has no beam. */
+/* Without a beam there is no cost: no bytes, no pass; a map in false colour has no beam. */
 static void none_is_nothing(void **state)
 {
     (void)state;
@@ -277,7 +277,7 @@ static void none_is_nothing(void **state)
     assert_true(with.device_bytes == without.device_bytes && with.n_passes == without.n_passes && !with.beam.cell);
 }
 
-/* A beam of some pixels in a picture of many: more cells than a device binds. */
+/* A beam of some pixels in a picture of many: more cells than a device can bind. */
 static void too_many_cells_are_refused(void **state)
 {
     (void)state;

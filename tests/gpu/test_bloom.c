@@ -1,12 +1,12 @@
-/* The glare of a lens: pictures of light that the tests make up, through the passes bloom and post. The oracle adds
- * up Gaussians of the stated widths, mirrored at the edges, in double. */
+/* Glare of a lens: synthetic light through the passes bloom and post. The oracle sums Gaussians of the stated
+ * widths, mirrored at the edges, in double precision. */
 #include "made_up_light.h"
 
 #include <math.h>
 
-static bool all_round; /* the pictures are those of all directions */
+static bool all_round; /* pictures of all directions */
 
-/* Light to pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
+/* Shows the light as pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
 {
     struct kd_scene scene;
@@ -53,8 +53,8 @@ static void make_light(int width, int height)
     }
 }
 
-/* What a lens spreads leaves its place and arrives elsewhere: the sum stays, of each channel, also where the picture
- * ends in the middle of it, in sizes that no grid divides. Pixels are rounded to 16 bits, 1e-5 in the mean. */
+/* Spread light leaves its place and arrives elsewhere: the sum of each channel is conserved, also at the picture's
+ * edges and in sizes that no grid divides. Pixels are rounded to 16 bits, 1e-5 on average. */
 static void energy(void **state)
 {
     (void)state;
@@ -77,14 +77,14 @@ static void energy(void **state)
             if (fabs(after / before - 1) > 2e-4)
                 fail_msg("%d x %d, channel %d: %.9g became %.9g", width, height, c, before, after);
         }
-        assert_true(moved > 2e-4 || height < 10); /* or there were nothing to keep */
+        assert_true(moved > 2e-4 || height < 10); /* otherwise there would be nothing to conserve */
     }
 }
 
-/* Which light is spread, as docs/physics says: of a luminance y of white over 0.6, with a knee from 0.2 to 1. */
+/* Which light is spread, as in docs/physics: luminance y over 0.6 of white, with a knee from 0.2 to 1. */
 static double taken(double y) { return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6; }
 
-/* One dimension of a Gaussian over n pixels, of what is at `from`, light beyond the edges mirrored. */
+/* One dimension of a Gaussian over n pixels, for light at `from`; light beyond the edges is mirrored. */
 static double gauss(double from, double at, int n, double sigma)
 {
     double sum = 0;
@@ -96,7 +96,7 @@ static double gauss(double from, double at, int n, double sigma)
     return sum / (sigma * sqrt(2 * acos(-1)));
 }
 
-/* Stretches of light in x and in y, convolved with a Gaussian each way: two passes. */
+/* Convolves with a Gaussian in x and in y: two passes. */
 static void convolve(const double *in, double *out, int width, int height, double sigma)
 {
     static double kernel[512][512], between[MOST];
@@ -123,8 +123,8 @@ static void convolve(const double *in, double *out, int width, int height, doubl
         }
 }
 
-/* Splines of one width each are near to Gaussians of their variance: to 4 % of the largest brightness that is
- * spread, of which about a third is the narrowest of them, and nowhere of another sign. White light on black. */
+/* Splines of one width each approximate Gaussians of their variance: to 4 % of the largest brightness spread, of
+ * which the narrowest has about a third, and nowhere with another sign. White light on black. */
 static void widths(void **state)
 {
     (void)state;
@@ -156,9 +156,9 @@ static void widths(void **state)
     assert_true(worst < 0.04 * most);
 }
 
-/* One point of light is seen as a disk of light that falls off from its middle outwards, the same in all directions
- * to a quarter, where brightness falls off steeply: its lines are circles to a few hundredths. The point is moved
- * within its cell, and on to others. */
+/* A point of light becomes a disk that falls off from its centre outwards, the same in all directions to a quarter
+ * where brightness falls steeply: its contours are circles to a few hundredths. The point is moved within its cell,
+ * and to others. */
 static void a_point(void **state)
 {
     (void)state;
@@ -189,8 +189,8 @@ static void a_point(void **state)
     }
 }
 
-/* What a point of light gives lies round it: its middle is displaced by half a pixel at most, where two pixels are
- * added up first, and by a pixel and a half of four; the widest part meets its mirror image. */
+/* The light of a point is centred on it: displaced by at most half a pixel if two pixels are summed first, by a
+ * pixel and a half for four; the widest part meets its mirror image. */
 static void a_point_stays(void **state)
 {
     (void)state;
@@ -207,9 +207,8 @@ static void a_point_stays(void **state)
                 light[3 * (py * w + px) + c] = 60;
             show(w, h, 1, 0, pixels);
             for (int i = 0; i < w * h; i++) {
-                const double v = i == py * w + px
-                                     ? 0
-                                     : shown(pixels, 3 * i); /* the point itself is clipped: its mirror image is near */
+                /* the point itself is clipped: take its mirror image nearby */
+                const double v = i == py * w + px ? 0 : shown(pixels, 3 * i);
                 sum += v;
                 x += v * (i % w - px);
                 y += v * (i / w - py);
@@ -219,7 +218,7 @@ static void a_point_stays(void **state)
         }
 }
 
-/* Where bands end, and whether cells are texels or storage, changes no byte. */
+/* Positions of bands, and whether cells are texels or storage, change no byte. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -244,7 +243,7 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* Light that is not bright is not touched; NaN and infinity harm nobody. */
+/* Light that is not bright is not touched; NaN and infinity have no side effects. */
 static void others_unharmed(void **state)
 {
     (void)state;
@@ -254,7 +253,7 @@ static void others_unharmed(void **state)
     light[3 * AT] = NAN;
     light[3 * (AT + 900) + 1] = INFINITY;
     show(W, H, 1, 0, others);
-    for (int i = 0; i < 3 * W * H; i++) /* what the two would have spread is missing */
+    for (int i = 0; i < 3 * W * H; i++) /* without the light that the two would have spread */
         assert_true(i / 3 == AT || i / 3 == AT + 900 || abs(pixels[i] - others[i]) <= 40);
     make_light(W, H);
     for (int i = 0; i < 3 * W * H; i++)
@@ -264,14 +263,14 @@ static void others_unharmed(void **state)
     assert_memory_equal(pixels, others, 6 * W * H);
 }
 
-/* A picture of half the size shows the same: its pixels are the means of four of the large one, to 1 % of white. */
+/* A picture of half the size looks the same: its pixels are the means of four of the large one, to 1 % of white. */
 static void any_size(void **state)
 {
     (void)state;
     enum { W = 320, H = 180 };
     make_light(2 * W, 2 * H);
     show(2 * W, 2 * H, 1, 0, others);
-    for (int i = 0; i < 3 * W * H; i++) { /* each float is read before it is written: they move to the front */
+    for (int i = 0; i < 3 * W * H; i++) { /* each float is read before it is overwritten */
         int at = i / 3 / W * 12 * W + i / 3 % W * 6 + i % 3;
         light[i] = (light[at] + light[at + 3] + light[at + 6 * W] + light[at + 6 * W + 3]) / 4;
     }
@@ -287,8 +286,7 @@ static void any_size(void **state)
     assert_true(worst < 0.02);
 }
 
-/* In a picture of all directions light is spread over the seam as elsewhere: the same picture half a turn on is the
- * same. */
+/* In a picture of all directions light spreads across the seam: the picture shifted by half a turn is the same. */
 static void over_the_seam(void **state)
 {
     (void)state;
@@ -296,7 +294,7 @@ static void over_the_seam(void **state)
         int width, height, most;
     } sizes[] = {
         { 384, 192, 2 }, { 640, 320, 2 }, { 638, 360, 100 }, { 250, 300, 100 }
-    }; /* half a turn is no whole number of coarse cells of the latter */
+    }; /* half a turn is not a whole number of coarse cells of the latter */
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const int w = sizes[s].width, h = sizes[s].height;
         int worst = 0, differ = 0;
@@ -313,7 +311,7 @@ static void over_the_seam(void **state)
             uint16_t *out = half ? others : pixels;
             memcpy(others, pixels, sizeof pixels);
             show(w, h, 1, 0, out);
-            for (int i = 0; i < 3 * w * h && !half; i++) /* beside the one with edges */
+            for (int i = 0; i < 3 * w * h && !half; i++) /* compared with the picture with edges */
                 differ = abs(pixels[i] - others[i]) > differ ? abs(pixels[i] - others[i]) : differ;
         }
         all_round = false;
@@ -327,7 +325,7 @@ static void over_the_seam(void **state)
     }
 }
 
-/* Of all that is spread nothing is lost all round, where bands end and cells are read as texels or not. */
+/* In pictures of all directions no spread light is lost, for any bands, with cells read as texels or not. */
 static void all_round_too(void **state)
 {
     all_round = true;

@@ -1,6 +1,6 @@
-/* Bodies met along rays: where their images are, by the Kerr-Schild oracle, which knows no Mino time, and measures
- * how far a ray passes a place by an interval on a wave front; their light; what hides them and what they hide; and
- * numbers without measure. */
+/* Bodies along rays: their images against the Kerr-Schild oracle, which does not use Mino time and measures how
+ * closely a ray passes a place by an interval on a wave front; their light; what they hide and what hides them; and
+ * extreme numbers. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -36,7 +36,7 @@ static struct ks_photon photon_of(const struct kd_scene *scene, double px, doubl
     return ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
 
-/* The first time that the ray meets the scene's first body: b, or more than its radius. */
+/* The first encounter of the ray with the scene's first body; b is more than its radius if there is none. */
 static struct ks_near first_of(const struct kd_scene *scene, double px, double py)
 {
     const struct kd_body *b = &scene->bodies.at[0];
@@ -56,8 +56,7 @@ static const float *intensity(const struct kd_frame *frame)
     return layer->data;
 }
 
-/* Images of order 0 and 1, and of those that have gone round; from infinity, and from near; so many pixels show one
- * at least. */
+/* Images of order 0 and 1, and of higher orders; from infinity, and from nearby. At least this many pixels show one. */
 static const struct view {
     const char *json;
     int lit;
@@ -97,8 +96,8 @@ static const struct view {
       12 },
 };
 
-/* How far an image's edge is from where it should be, in pixels: where the picture and the oracle differ about a
- * pixel, by how b changes there. */
+/* Distance of an image's edge from its expected place, in pixels: where picture and oracle disagree about a pixel,
+ * from the slope of b. */
 static double off_by(const struct kd_scene *scene, int x, int y)
 {
     const double radius = scene->bodies.at[0].radius;
@@ -133,7 +132,7 @@ static void test_places(void **state)
     }
 }
 
-/* The metric at a place of the scene's first body: -g_tt, g_tphi, g_phiphi, all that a motion along phi asks for. */
+/* The metric at the scene's first body: -g_tt, g_tphi, g_phiphi, sufficient for motion along phi. */
 struct metric { double tt, tp, pp; };
 
 static struct metric metric_of(const struct kd_scene *scene)
@@ -145,7 +144,7 @@ static struct metric metric_of(const struct kd_scene *scene)
                              (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2 };
 }
 
-/* 1/g of what turns with Omega, or of what moves along phi past what has no angular momentum. */
+/* 1/g of matter that turns with Omega, or that moves along phi relative to zero angular momentum. */
 static double shift_of(const struct kd_scene *scene, const struct ks_photon *p)
 {
     const struct kd_body *b = &scene->bodies.at[0];
@@ -163,7 +162,7 @@ static double shift_of(const struct kd_scene *scene, const struct ks_photon *p)
     return (p->energy - omega * p->momentum) / sqrt(g.tt - 2 * omega * g.tp - omega * omega * g.pp);
 }
 
-/* Light is that of a black body, to the fourth power of g, by the law of its limb. */
+/* The light is that of a black body, times g^4 and the limb darkening. */
 static void test_light(void **state)
 {
     (void)state;
@@ -191,7 +190,7 @@ static void test_light(void **state)
             const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
             const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / b->radius, c = b->limb_darkening;
             if (x > 0.9)
-                continue; /* the limb falls steeply: its place is judged elsewhere */
+                continue; /* the limb falls steeply; its place is judged elsewhere */
             const double t = b->temperature_k / scene.disk.peak_temperature_k / shift_of(&scene, &photon),
                          limb = (1 - c * (1 - sqrt(1 - x * x))) / (1 - c / 3);
             worst = fmax(worst, fabs(intensity(&frame)[i] / (b->brightness * limb * t * t * t * t) - 1));
@@ -203,7 +202,7 @@ static void test_light(void **state)
     }
 }
 
-/* Which of both is seen, a body or an opaque disk, by whose light left later. */
+/* Of a body and an opaque disk, the one whose light left later is visible. */
 static void test_order(void **state)
 {
     (void)state;
@@ -251,7 +250,7 @@ static void test_order(void **state)
     }
 }
 
-/* Many bodies are seen as each of them is. */
+/* With many bodies each looks as it does alone. */
 static void test_tree(void **state)
 {
     (void)state;
@@ -293,7 +292,7 @@ static void test_tree(void **state)
     }
 }
 
-/* Volumes before a body dim it, and those behind it do nothing. */
+/* A volume in front of a body dims it; one behind has no effect. */
 static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     (void)p, (void)r, (void)u;
@@ -342,7 +341,7 @@ static double layer_at(const struct kd_frame *frame, const char *name, int pixel
     return ((const float *)layer->data)[pixel];
 }
 
-/* Maps of numbers tell of a body where it lies before the disk. */
+/* Layers show a body where it lies in front of the disk. */
 static void test_layers(void **state)
 {
     (void)state;
@@ -353,8 +352,7 @@ static void test_layers(void **state)
     struct kd_frame frame = rendered(&scene);
     int lit = 0;
     for (int i = 0; i < PIXELS; i++) {
-        if (!(intensity(&frame)[i] > 0) ||
-            layer_at(&frame, "r", i) <= 10) /* or the plane before it, between the disk's edges */
+        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* or the disk in front of it */
             continue;
         const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
         const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / 2;
@@ -377,7 +375,7 @@ static void test_layers(void **state)
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &(struct kd_error) { 0 }), KD_EINVAL);
 }
 
-/* Numbers without measure leave no NaN. */
+/* Extreme numbers leave no NaN. */
 static void test_adversarial(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Two ways of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which
- * pass over crossings that no emitter reaches, and pixels of several rays, which look at each crossing. */
+/* Two paths of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which
+ * skip crossings that no emitter reaches, and pixels of several rays, which visit each crossing. */
 #include "render/device/internal.h"
 #include "render/render.h"
 
@@ -90,12 +90,12 @@ static void assert_same_readers(struct kd_scene scene)
     scene.image.bit_depth = 16;
     struct kd_frame of_texels = rendered(&scene);
     other = scene;
-    for (int i = 0; i < 4; i++) { /* as many lens maps as are kept */
+    for (int i = 0; i < 4; i++) { /* as many lens maps as the cache holds */
         other.camera.inclination_deg += 1;
         struct kd_frame between = rendered(&other);
         kd_frame_finish(&between);
     }
-    info->max_texels = 1u << 17; /* as many as the tables of the emitters need, and fewer than a binding holds */
+    info->max_texels = 1u << 17; /* enough for the tables of the emitters, fewer than a binding holds */
     assert_false(kd_kernels_map_as_texels(renderer->vk));
     struct kd_frame of_storage = rendered(&scene);
     info->max_texels = texels;
@@ -105,9 +105,9 @@ static void assert_same_readers(struct kd_scene scene)
     kd_frame_finish(&of_storage);
 }
 
-/* Footprints and light are the same to the byte where the lens map, and what emitters have on the device, are read
- * as texels and as storage: on the grid and on the pixels at the critical curve; of crossings, of the sky, of stars
- * before others and alone, and of particles. */
+/* Footprints and light are the same to the byte whether the lens map and the emitters' buffers are read as texels or
+ * as storage: on the grid and on pixels at the critical curve; for crossings, the sky, stars with others and alone,
+ * and particles. */
 static void test_readers(void **state)
 {
     (void)state;

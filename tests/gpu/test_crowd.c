@@ -1,6 +1,5 @@
-/* A playground in pictures: where the images of its bodies are, and which of them hides which, by the Kerr-Schild
- * oracle; that one of its bodies is seen as one of a scene is, before and behind the disk and the hole; the light of
- * its debris; and crowds that cannot be. */
+/* A playground in pictures: images of its bodies and their order, against the Kerr-Schild oracle; a body looks the
+ * same as one of a scene, in front of and behind the disk and the hole; the light of debris; and invalid crowds. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -12,7 +11,7 @@
 
 enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, MOST = 8, MANY = 4096, FINE = 64 };
 #define RADIUS 0.15
-#define LEAST_K 3000.0 /* bodies are told by their temperatures: one is 2 K hotter than the one before */
+#define LEAST_K 3000.0 /* bodies are identified by their temperatures: each is 2 K hotter than the one before */
 
 static struct kd_scene scene_of(const char *json)
 {
@@ -56,7 +55,7 @@ static struct kd_playground *many(double spin)
                                            .temperature_k = LEAST_K + 2 * i,
                                            .x = { r * s * cos(phi), r * s * sin(phi), r * u },
                                            .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
-        struct kd_error none; /* some motions are as good as on the edge between two kinds: others are drawn */
+        struct kd_error none; /* some motions are at the edge between two kinds: others are drawn */
         i += !kd_playground_add(p, &body, NULL, &none);
     }
     return p;
@@ -70,7 +69,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi,
                             within, MOST, at);
     double least = INFINITY;
-    for (int i = 0; i < n; i++) /* the first that meets it, else the nearest */
+    for (int i = 0; i < n; i++) /* the first that meets it, otherwise the nearest */
         if (least > RADIUS && at[i].b < least) {
             least = at[i].b;
             *delay = at[i].delay;
@@ -78,7 +77,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     return least;
 }
 
-/* The middle of an image near a place; how wide it is. 0: none was found. */
+/* The centre of an image near a place; returns its width, 0 if none is found. */
 static double image_near(const struct kd_scene *scene, const struct kd_seen_body *b, double at[2], double step)
 {
     double delay, least = pass(scene, b, at[0], at[1], 8, &delay);
@@ -131,7 +130,7 @@ static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t 
         const bool there = pass(&scene, &crowd->bodies[which], x, y, 4, &delay) < RADIUS;
         const long seen = isnan(kelvin[i]) ? -1 : lround((kelvin[i] - LEAST_K) / 2);
         bool right = (seen == which) == there;
-        if (there && seen >= 0 && seen != which) { /* another one: it lies before this one */
+        if (there && seen >= 0 && seen != which) { /* another body lies in front of this one */
             assert_true(seen < MANY);
             right = pass(&scene, &crowd->bodies[seen], x, y, 4, &before) < 1.02 * RADIUS && before < delay + 0.1;
             sum->hidden += right;
@@ -172,7 +171,7 @@ static void test_places(void **state)
         const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] },
                      impact = hypot(across[0], across[1]);
         double at[2] = { across[0], across[1] }, size;
-        if (ahead < 0 || impact > 6) { /* light that comes by the hole is bent */
+        if (ahead < 0 || impact > 6) { /* light that passes the hole is bent */
             const double more = impact < 8 && ahead < 0 ? sqrt(impact * impact + 4 * -ahead) : impact + 1;
             at[0] *= more / fmax(impact, 0.1);
             at[1] *= more / fmax(impact, 0.1);
@@ -203,8 +202,8 @@ static struct kd_crowd *one(const struct kd_seen_body *body, size_t n)
     return crowd;
 }
 
-/* What a scene's own body shows, hides and is hidden by is judged in test_bodies.c: one of a playground is the same
- * to the bit. */
+/* test_bodies.c judges what a scene's own body shows, hides and is hidden by; one of a playground is the same to the
+ * bit. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -245,8 +244,8 @@ static void test_as_a_scene_has_it(void **state)
     }
 }
 
-/* A body of temperature 0 is as dark as one of brightness 0: it hides what lies behind it, disk and other bodies, is
- * told with its temperature, and leaves no NaN. One without a radius is told. */
+/* A body of temperature 0 is as dark as one of brightness 0: it hides the disk and bodies behind it, layers show its
+ * temperature, and there is no NaN. One without a radius is reported. */
 static void test_dark(void **state)
 {
     (void)state;
@@ -292,8 +291,8 @@ static void test_dark(void **state)
     kd_frame_finish(&bare);
 }
 
-/* 1/g of what moves with (v_r, v_phi) past the observer of zero angular momentum, by the photon's own components, in
- * the equatorial plane. */
+/* 1/g of matter moving with (v_r, v_phi) relative to the observer of zero angular momentum, from the photon's own
+ * components, in the equatorial plane. */
 static double shift_of(double a, double r, const struct ks_photon *p, double p_z, bool falls, const double v[2])
 {
     const double delta = r * r - 2 * r + a * a, area = (r * r + a * a) * (r * r + a * a) - a * a * delta,
@@ -361,13 +360,13 @@ static void test_debris(void **state)
     }
 }
 
-/* A dark body far from the hole throws back what falls on the side that is seen: the whole integral over the disk,
- * by places ten times as many and with the cosine itself, where light is straight. */
+/* A dark body far from the hole reflects light that falls on the visible side: the full integral over the disk, with
+ * ten times as many places and the cosine itself, where light travels straight. */
 static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
                  radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-    static double heat[FINE]; /* of this scene's disk, whichever body is looked at */
+    static double heat[FINE]; /* of this scene's disk, for all bodies */
     double sum = 0;
     for (int i = 0; i < FINE; i++)
         for (int k = 0; k < FINE; k++) {
@@ -377,7 +376,8 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
             const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] },
                          d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
             const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length,
-                         v = 1 / sqrt(r - 2); /* of a circle in Schwarzschild's metric, past one at rest */
+                         /* circular orbit in Schwarzschild's metric, relative to an observer at rest */
+                v = 1 / sqrt(r - 2);
             const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length,
                          g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);
             sum += cosine > 0 ? t * t * t * t * g * g * g * g * cosine * fabs(at[2]) / length / d2 * r *
@@ -387,8 +387,8 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
     return sum;
 }
 
-/* What falls on one that moves: light by light carried over into its frame by the matrix of the boost, a photon's
- * four components at a time. */
+/* Light that falls on a moving body: transformed into its frame by the matrix of the boost, a photon's four
+ * components at a time. */
 static void test_lit_moving(void **state)
 {
     (void)state;
@@ -411,8 +411,8 @@ static void test_lit_moving(void **state)
                          t = kd_disk_heat(&scene, at);
             const double d[3] = { at * cos(phi) - r * s, at * sin(phi), -r * u },
                          length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), gas = 1 / sqrt(at - 2);
-            /* The photon flies along -d; by the gas it has the energy gamma (1 + v.d), by the body the components of
-             * the boost. */
+            /* The photon flies along -d. For the gas its energy is gamma (1 + v.d); for the body it has the boosted
+             * components. */
             const double k4[4] = { 1, -(s * d[0] + u * d[2]) / length, -(u * d[0] - s * d[2]) / length,
                                    -d[1] / length };
             const double emitted = (1 + gas * (-sin(phi) * d[0] + cos(phi) * d[1]) / length) / sqrt(1 - gas * gas);
@@ -466,7 +466,7 @@ static void test_lit(void **state)
                                                               .temperature_k = 5000,
                                                               .albedo = 0.5 },
                                      1);
-        /* Weakly bent: where it is seen, to a first guess that the picture is wide enough for. */
+        /* Weakly bent: a first guess of its place is enough, since the picture is wide. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
@@ -483,7 +483,7 @@ static void test_lit(void **state)
             sum += layer_of(&frame, "intensity")[p];
             if (x * x + y * y < 1)
                 want += 0.5 / M_PI * falls_on(&scene, at, normal) *
-                        pow(1 - 2 / r, 2); /* and by its own redshift, ^4 of the square root */
+                        pow(1 - 2 / r, 2); /* and its own redshift, ^4 of the square root */
         }
         printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want,
                most);
@@ -493,7 +493,7 @@ static void test_lit(void **state)
     }
 }
 
-/* All of them leave numbers in all pixels. */
+/* Every case gives finite pixels. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -506,8 +506,8 @@ static void test_adversarial(void **state)
         body.velocity[0] = k == 4 ? 1 : k == 5 ? -0.9999999 : 0;
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
-        struct kd_crowd *crowd = one(&body, k == 5 ? 64 : MANY); /* what moves so is long: none of them is passed by */
-        for (size_t i = 0; k == 7 && i < MANY; i++) {            /* everywhere, and everything */
+        struct kd_crowd *crowd = one(&body, k == 5 ? 64 : MANY); /* so fast that it is drawn out: no ray misses it */
+        for (size_t i = 0; k == 7 && i < MANY; i++) {            /* bodies everywhere */
             crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             crowd->bodies[i].phi = 1e3 * chance();
             crowd->bodies[i].radius = 1e3 * pow(chance(), 9);
@@ -524,7 +524,7 @@ static void test_adversarial(void **state)
     }
 }
 
-/* A scene without one costs nothing: no emitter of it is in the plan. */
+/* A scene without a crowd has no cost: the plan has no emitter of it. */
 static void test_off(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Pictures, lists and particles on devices that differ from the one at hand: with low limits, with memory that is
- * not coherent, and lost in the middle. What they answer is to the byte what the device answers by itself. */
+/* Pictures, lists and particles on simulated devices: with low limits, with incoherent memory, and lost in the
+ * middle. The results equal those of the real device byte for byte. */
 #include "fake_device.h"
 
 #include "render/output/particle_list.h"
@@ -10,7 +10,7 @@
 
 enum { WIDTH = 150, HEIGHT = 120, RAYS = 700, ORDERS = 3, PARTICLES = 500 };
 
-/* One of each kind of answer. */
+/* One result of each kind. */
 struct answers {
     struct kd_frame frames[3];
     struct kd_ray_crossing crossings[RAYS * ORDERS];
@@ -113,14 +113,14 @@ static void answer_as(const struct fake_device *device)
     forget(&answers);
 }
 
-/* Fewer groups than a picture has blocks of pixels, also where everything fits one binding. */
+/* Fewer workgroups than a picture has blocks of pixels, also if everything fits one binding. */
 static void test_groups(void **state)
 {
     (void)state;
-    answer_as(&(struct fake_device) { .groups = 40 }); /* 10240 pixels of post.comp; 18000 there are */
+    answer_as(&(struct fake_device) { .groups = 40 }); /* covers 10240 pixels of post.comp; there are 18000 */
 }
 
-/* Buffers smaller than a binding: the last picture has two bands then, and slices of half of one. */
+/* Allocations smaller than a binding: the last picture then has two bands, and slices of half of one. */
 static void test_allocation(void **state)
 {
     (void)state;
@@ -133,12 +133,12 @@ static void test_binding(void **state)
     answer_as(&(struct fake_device) { .binding = 700000 });
 }
 
-/* Fewer texels than a band has: what else reads them reads storage. */
+/* Fewer texels than a band has: kernels then read storage. */
 static void test_texels(void **state)
 {
     (void)state;
     answer_as(
-        &(struct fake_device) { .texels = 8192 }); /* the tables of the emitters are 4608, and 18000 pixels are 13500 */
+        &(struct fake_device) { .texels = 8192 }); /* the tables of the emitters take 4608, and 18000 pixels 13500 */
 }
 
 static void test_incoherent(void **state)
@@ -147,12 +147,12 @@ static void test_incoherent(void **state)
     answer_as(&(struct fake_device) { .incoherent = true });
 }
 
-/* A lost device is abandoned with all that the driver keeps for it; that is no leak to report. */
+/* A lost device is abandoned with all memory of the driver for it; that is not a leak. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
-/* All that a renderer does when its n-th submission loses the device: an error that says so, whatever it was for,
- * and no crash. */
+/* Every operation of a renderer whose n-th submission loses the device ends with an error that says so, and no
+ * crash. */
 static void test_lost(void **state)
 {
     (void)state;
@@ -179,7 +179,7 @@ static void test_lost(void **state)
         __lsan_enable();
 }
 
-/* A heap that the picture does not fit is said before anything is drawn. */
+/* A picture too large for the heap is refused before anything is drawn. */
 static void test_heap(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
-/* What other programs have left of a large heap counts. */
+/* Only what other programs leave of a large heap counts. */
 static void test_budget(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void test_budget(void **state)
     fake_device_off();
 }
 
-/* The limits of most GPUs: 65 535 workgroups, bindings of 4 GiB. */
+/* Limits of most GPUs: 65 535 workgroups, bindings of 4 GiB. */
 static void test_large_pictures(void **state)
 {
     (void)state;

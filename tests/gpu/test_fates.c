@@ -1,12 +1,12 @@
-/* Fates and orders of all rays of small pictures from random cameras: every observer, every spin, all radii and
- * projections; against the closed form in double, and the captured share of the sky against the area inside the
- * critical curve.
+/* Fates and orders of all rays of small pictures from random cameras, of every observer, spin, radius and
+ * projection: against the closed form in double precision, and the captured fraction of the sky against the area
+ * inside the critical curve.
  *
  *   test_fates [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_fates 2000 7
  *
- * Without arguments it is short. A camera's number, which is printed with what is wrong, is FIRST of a run of one. A
- * ray on which two paths in double disagree, or whose crossings come and go when its labels move by 1e-11, judges
- * nothing. */
+ * Without arguments it is short. Failures print a camera's number; use it as FIRST of a run of one. A ray on which
+ * two methods in double precision disagree, or whose crossings come and go when its labels move by 1e-11, is not
+ * judged. */
 #include "random_camera.h"
 #include "render_support.h"
 
@@ -23,7 +23,7 @@ enum { SIDE = 24, RAYS = SIDE * SIDE, MOST_ORDERS = 3 };
 static unsigned cameras = 40, first;
 static uint64_t seed = 36;
 
-/* What the fates and orders of a picture must be; -1: not to be told. */
+/* Expected fates and orders of a picture; -1: undetermined. */
 struct truth {
     double alpha_beta[2 * RAYS];
     bool outward[RAYS];
@@ -31,7 +31,7 @@ struct truth {
 };
 
 /* R(w) = E^2 + A w^2 + 2 K w^3 - D w^4 has no zero between an observer within the horizon and infinity. The photon
- * came in from outside where E + a (aE - L) w^2 is above 0 at the horizon (docs/physics/observers.md). */
+ * came from outside if E + a (aE - L) w^2 is positive at the horizon (docs/physics/observers.md). */
 static int fate_within(const struct kd_camera_exact *c, const struct kd_camera_label *label)
 {
     enum { PLACES = 4000 };
@@ -99,8 +99,8 @@ static void tell(const struct kd_scene *s, unsigned number, const char *what, ui
                   c->yaw_deg, c->pitch_deg, c->roll_deg);
 }
 
-/* The captured part of the sky of an equirectangular picture is what the critical curve encloses, to two pixels of
- * its length. */
+/* The captured part of the sky of an equirectangular picture is the area inside the critical curve, to two pixels
+ * times its length. */
 static void judge_share(const struct kd_scene *scene, unsigned number, const float *fate, struct tally *t)
 {
     const struct kd_camera *c = &scene->camera;
@@ -114,11 +114,11 @@ static void judge_share(const struct kd_scene *scene, unsigned number, const flo
         return;
     const double pixel = 2 * M_PI / SIDE;
     double captured = 0;
-    for (int i = 0; i < RAYS; i++) { /* of half a turn in height */
+    for (int i = 0; i < RAYS; i++) { /* half a turn in height */
         const double up = M_PI / SIDE * (i / SIDE + 0.5) - M_PI / 2;
         captured += fate[i] != KD_FATE_CAPTURED ? 0 : pixel * 2 * sin(M_PI / (2 * SIDE)) * cos(up);
     }
-    /* No longer than the circle of that area about which it lies, but for what is asymmetric. */
+    /* At most the circle of that area, plus the asymmetry. */
     const double length = 2 * M_PI * fmin(1, sin(fmin(m.mean_radius, M_PI / 2))) + 4 * m.asymmetry;
     t->shares++;
     if (fabs(captured - m.area) > 2 * pixel * length + pixel * pixel) {
@@ -165,7 +165,7 @@ static void judge(const struct kd_scene *scene, unsigned number, struct tally *t
     judge_share(scene, number, fate, t);
 }
 
-/* Pictures that were wrong once. */
+/* Pictures that once were wrong. */
 static const struct once {
     double spin, inclination, r;
     enum kd_observer observer;
@@ -213,7 +213,7 @@ static void pictures_that_were_wrong_once(void **state)
         scene.sky.model = KD_SKY_GRID;
         judge(&scene, i, &t);
     }
-    /* Of the run with the seed 7: steps in a near extremal hole lost the second crossing of a ray that circles. */
+    /* From the run with seed 7: steps near an extremal hole lost the second crossing of a circling ray. */
     const unsigned circles = 998;
     struct kd_random random = { 7 + circles * UINT64_C(0x100000001) };
     struct kd_scene scene;

@@ -1,5 +1,5 @@
-/* A device is tested when kerrd meets it, and not again; another driver, another kerrd, a damaged file are as a
- * first time; a device that computes wrongly is said to, loudly, and tested again at each start. */
+/* A device is tested when kerrd first uses it, and not again. Another driver, another kerrd, or a damaged file count
+ * as a first use. A device that computes wrongly causes a warning, and is tested again at each start. */
 #include "render_support.h"
 
 #include "render/selftest/first_start.h"
@@ -56,7 +56,7 @@ static void test_once(void **state)
     read_all(path);
     assert_non_null(strstr(text, "kerrd " KD_VERSION));
 
-    for (int prove = 0; prove < 2; prove++) { /* known to whoever asks, and what passes cost as well */
+    for (int prove = 0; prove < 2; prove++) { /* results are known to every caller, and the passes' costs as well */
         r = start(prove);
         known = kd_renderer_verdict(r);
         assert_true(known->result == KD_PASSED && !known->now && known->checks > 50 && r->capacity.measured);
@@ -96,7 +96,7 @@ static void test_not_this_one(void **state)
     free(path);
 }
 
-/* A device that leaves out all workgroups of a dispatch but the first. */
+/* A device that executes only the first workgroup of a dispatch. */
 static PFN_vkCmdDispatch dispatch;
 static VKAPI_ATTR void VKAPI_CALL only_one(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z)
 {

@@ -1,6 +1,6 @@
-/* Footprints of the lens map against the derivative of the map by the Kerr-Schild oracle, which traces rays a
- * thousandth of a step apart in double precision (tests/oracle). They share no formula: here the singular value
- * comes from the angle that maximises it. */
+/* Footprints of the lens map against finite differences of the Kerr-Schild oracle, which traces rays a thousandth of
+ * a step apart in double precision (tests/oracle). They share no formula: here the singular value comes from the
+ * angle that maximises it. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -21,7 +21,7 @@
 
 struct view {
     const char *name;
-    double a, inclination, r; /* r: INFINITY, or a pinhole camera there */
+    double a, inclination, r; /* r: INFINITY, or a pinhole camera at r */
     double field;             /* M, or degrees */
     int steps;                /* 0: the closed form */
     bool listed;
@@ -90,7 +90,7 @@ static const float *plane(const struct kd_plan *plan, const float *planes, uint3
     return planes + (kd_lens_plane(plan->quantities, plan->orders, quantity) + n) * plan->rays;
 }
 
-/* The photon at (x, y) in steps from the upper left ray. */
+/* The photon at (x, y), in steps from the upper left ray. */
 static struct ks_photon photon(const struct view *v, const struct kd_scene *scene, double x, double y)
 {
     double theta = v->inclination * M_PI / 180, step = v->field / WIDTH;
@@ -113,7 +113,7 @@ struct spot {
     bool there;
 };
 
-/* Where a ray comes to, in M from the middle or as a direction. */
+/* End of a ray, in M from the middle or as a direction. */
 static struct spot spot_of(const struct ks_path *p, int n)
 {
     if (n < ORDERS)
@@ -122,7 +122,7 @@ static struct spot spot_of(const struct ks_path *p, int n)
     return (struct spot) { s * cos(p->sky_phi), s * sin(p->sky_phi), p->u, p->fate == KS_ESCAPED };
 }
 
-/* The change from ray to ray along (dx, dy), in M or radians; NAN where there is none. */
+/* The change from ray to ray along (dx, dy), in M or radians; NAN if undefined. */
 struct change { double x, y, z; };
 static struct change change_of(const struct ks_path *p, const struct ks_path *q, double r, int n)
 {
@@ -135,10 +135,10 @@ static struct change change_of(const struct ks_path *p, const struct ks_path *q,
     return (struct change) { s * (b.x - a.x), s * (b.y - a.y), s * (b.z - a.z) };
 }
 
-/* The footprints of all orders and of the sky at one place; NAN where there is none. */
+/* Footprints of all orders and of the sky at one place; NAN if undefined. */
 struct sizes {
     double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1];
-}; /* and of J J^T: rr over the trace; rf over sqrt(rr ff) */
+}; /* share, tilt: of J J^T: rr over the trace; rf over sqrt(rr ff) */
 
 static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene, double x, double y)
 {
@@ -165,8 +165,8 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
     return out;
 }
 
-/* The least and the largest size here and at the four neighbours; NAN where one of them is missing. A difference
- * over a step is the derivative somewhere on that step: a footprint lies between the two. */
+/* Smallest and largest size here and at the four neighbours; NAN if one of them is missing. A difference over a step
+ * is the derivative somewhere on it, so that a footprint lies between the two. */
 struct range { struct sizes own, least, most; };
 
 static struct range range_at(const struct view *v, const struct kd_scene *scene, double x, double y, double way)
@@ -201,7 +201,7 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
         return;
     }
     t->errors[t->n++] = fabs(got / own - 1);
-    /* The ends are samples, the long axis turns on the way, and the second difference is counted in, which is of
+    /* The ends are samples and the long axis turns between them; the second difference is included, which is of
      * second order as well. */
     if (got < least * (1 - slack - noise) || got > most * (1 + slack + noise)) {
         t->outside++;
@@ -242,8 +242,7 @@ static void test_grid(void **state)
         for (uint32_t y = 0; y < HEIGHT; y += 11)
             for (uint32_t x = 0; x < WIDTH; x += 13) {
                 if (v->ring &&
-                    2 * y + 2 ==
-                        HEIGHT) /* the way to the next row leads across the curve: the map has a crease there */
+                    2 * y + 2 == HEIGHT) /* the step to the next row crosses the curve: the map has a crease there */
                     continue;
                 size_t at = y * WIDTH + x;
                 const struct range range = range_at(v, &scene, x, y, 1);
@@ -261,8 +260,8 @@ static void test_grid(void **state)
         report(v->name, t);
         for (int n = 0; n <= ORDERS; n++)
             assert_true(t[n].outside == 0 && t[n].edges == 0);
-        /* What a picture of many pixels is about: half of the direct image within a two-hundredth, nine tenths
-         * within a thirtieth. */
+        /* Typical of a picture of many pixels: half of the direct image within a two-hundredth, nine tenths within a
+         * thirtieth. */
         assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
         assert_true(t[1].n > 5 && t[ORDERS].n > 5);
         qsort(t[0].shapes, (size_t)t[0].n, sizeof *t[0].shapes, by_value);
@@ -273,7 +272,7 @@ static void test_grid(void **state)
     }
 }
 
-/* The buffers of the map that a picture was made from. */
+/* The cached map that a picture was made from. */
 static const struct kd_lens_map *kept(const struct kd_plan *plan)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
@@ -297,7 +296,7 @@ static float *read_buffer(struct kd_vk_buffer *buffer)
     return out;
 }
 
-/* A picture is traced and lit a few rows at a time: its footprints are those of a map that is traced at once. */
+/* A picture is traced and lit a few rows at a time: its footprints equal those of a map traced at once. */
 static void test_slices(void **state)
 {
     (void)state;
@@ -307,8 +306,8 @@ static void test_slices(void **state)
     static const double rows[] = { 1, 2, 7 };
     for (int i = 0; i < 3; i++) {
         struct kd_frame frame;
-        plan.trace_ns = 40e6 / (rows[i] * WIDTH); /* so many a slice */
-        plan.lens_key[0] = (char)('a' + i);       /* none that is kept */
+        plan.trace_ns = 40e6 / (rows[i] * WIDTH); /* sets the number of rows a slice */
+        plan.lens_key[0] = (char)('a' + i);       /* not in the cache */
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         assert_false(frame.lens_reused);
         float *planes = read_buffer(kept(&plan)->bands.buffers[0]);
@@ -319,8 +318,7 @@ static void test_slices(void **state)
     test_free(whole);
 }
 
-/* Bands end where a buffer does. Beside their ends footprints come from rays on one side, by a formula of the same
- * order. */
+/* Bands end where a buffer does. At their ends footprints use rays on one side, by a formula of the same order. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -338,19 +336,19 @@ static void test_bands(void **state)
             uint32_t row = (uint32_t)(at / WIDTH), in_band = row % 10;
             if (row == 0 || row == HEIGHT - 1 || (in_band != 0 && in_band != 9))
                 assert_true(x == y);
-            else if (x > 0 && x < 3) /* where texture can be seen at all */
+            else if (x > 0 && x < 3) /* where texture is visible at all */
                 t.errors[t.n++] = fabs(y / x - 1);
         }
     qsort(t.errors, (size_t)t.n, sizeof *t.errors, by_value);
     print_message("beside the ends of bands: %d crossings, median %.1e, 90 %% %.1e, 99 %% %.1e, worst %.1e\n", t.n,
                   t.errors[t.n / 2], t.errors[t.n * 9 / 10], t.errors[t.n * 99 / 100], t.errors[t.n - 1]);
-    /* What fades with a footprint would show a line where it is wrong by a tenth. */
+    /* Fading by footprint would show a line where it is wrong by a tenth. */
     assert_true(t.n > 1000 && t.errors[t.n / 2] < 0.01 && t.errors[t.n * 9 / 10] < 0.04);
     test_free(a);
     test_free(b);
 }
 
-/* Rays on the pixels at the critical curve. */
+/* Rays on pixels at the critical curve. */
 static void test_listed_pixels(void **state)
 {
     (void)state;
@@ -389,7 +387,7 @@ static void test_listed_pixels(void **state)
         }
         report(v->name, t);
         for (int n = 0; n <= ORDERS;
-             n++) /* of four rays a pixel those that have none beside them know one direction only */
+             n++) /* of four rays a pixel, those without neighbours determine only one direction */
             assert_true(10 * t[n].outside <= (factors[i] == 2 ? t[n].n : 0));
         assert_true(t[0].n > 40 && t[1].n > 15 && t[ORDERS].n > 10);
         assert_true(t[0].errors[t[0].n / 2] < 0.06 && t[1].errors[t[1].n / 2] < 0.1);
@@ -398,7 +396,7 @@ static void test_listed_pixels(void **state)
     }
 }
 
-/* What needs no footprints has none: no plane, no pass. */
+/* A scene that needs no footprints has no plane and no pass for them. */
 static void test_plan(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* A frame runs the passes of its plan, under their names, and no other; and what they take is what the next plan
- * estimates. */
+/* A frame runs exactly the passes of its plan, under their names; their times become the estimates of the next plan. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -39,7 +38,7 @@ static bool planned(const struct kd_plan *plan, const char *name)
     for (size_t i = 0; i < plan->n_passes; i++)
         if (!strcmp(plan->passes[i].name, name))
             return true;
-    /* "rays": the device's share of a "trace" by listed rays; "kernels": made because they were not there */
+    /* "rays": the device's part of a "trace" by listed rays; "kernels": compiled because they were missing */
     return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") ||
            !strcmp(name, "total");
 }
@@ -57,7 +56,7 @@ static void test_names(void **state)
             if (!planned(&plan, frame.timings[i].name))
                 fail_msg("%s: \"%s\" ran and is not planned", scenes[k], frame.timings[i].name);
         kd_frame_finish(&frame);
-        frame = drawn(scenes[k], &plan); /* with the lens map that is kept */
+        frame = drawn(scenes[k], &plan); /* with the cached lens map */
         assert_true(frame.lens_reused);
         for (int i = 0; i < KD_PASS_COUNT; i++)
             if (kd_passes[i].when == KD_EACH_MAP)
@@ -66,8 +65,8 @@ static void test_names(void **state)
     }
 }
 
-/* Fifteen frames draw a figure that is far off to what their passes take; one that no pass of theirs is measured by
- * stays. The time of a frame has that in it for which others had the cores, what is learned has not. */
+/* Fifteen frames move a wrong estimate to the true cost of their passes; an estimate that they do not measure stays.
+ * The time of a frame includes time in which other processes had the cores; what is learned does not. */
 static void test_learned(void **state)
 {
     (void)state;
@@ -82,7 +81,7 @@ static void test_learned(void **state)
     for (int k = 0; k < 15; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* each of them teaches */
+        renderer->frames = 0; /* every frame updates the estimates */
         frame = drawn(scene, &plan);
         for (size_t i = 0; i < plan.n_passes; i++) {
             learns[plan.passes[i].figure] = true;
@@ -100,8 +99,8 @@ static void test_learned(void **state)
                 learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
 }
 
-/* Stars and the light between them take several times what a disk's light does: they have figures of their own, and do
- * not spoil that of disks. */
+/* Stars and diffuse light take several times as long as a disk's light: they have estimates of their own and do not
+ * change the disks'. */
 static void test_stars_are_learned(void **state)
 {
     (void)state;
@@ -111,7 +110,7 @@ static void test_stars_are_learned(void **state)
     for (int k = 0; k < 10; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* each of them teaches */
+        renderer->frames = 0; /* every frame updates the estimates */
         struct kd_frame frame = drawn("{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"none\"}, "
                                       "\"sky\": {\"model\": \"stars\"}}",
                                       &plan);
@@ -131,8 +130,8 @@ static double estimated(const struct kd_plan *plan, const char *pass)
     return 0;
 }
 
-/* Refining takes as many rays as the picture asks for: what the next one takes is estimated by those before. Of
- * turbulent gas that was a seventh. */
+/* Refinement takes as many rays as the picture needs, estimated from the pictures before. For turbulent gas the
+ * estimate used to be a seventh. */
 static void test_refining_is_learned(void **state)
 {
     (void)state;
@@ -142,7 +141,7 @@ static void test_refining_is_learned(void **state)
     double took = 0, others = 0;
     renderer->capacity.ns[KD_NS_RAY_REFINED] = 1;
     for (int k = 0; k < 10; k++) {
-        renderer->frames = 0; /* each of them teaches */
+        renderer->frames = 0; /* every frame updates the estimates */
         struct kd_frame frame = drawn(scene, &plan);
         if (k >= 5)
             took += timing_of(&frame, "refine") / 5;
@@ -153,12 +152,12 @@ static void test_refining_is_learned(void **state)
     kd_frame_finish(&frame);
     const double estimate = estimated(&plan, "refine");
     print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
-    /* Less the time for which others had the cores: a fifth of it beside eight busy ones, on two. */
+    /* Without the time in which others had the cores: a fifth of it beside eight busy threads on two cores. */
     assert_true(estimate > took / 50 && estimate < 2 * took);
 }
 
-/* A picture is estimated by those of its class, however many others were made meanwhile: the light of a volume takes a
- * hundred times what that of a smooth disk does. */
+/* A picture is estimated from those of its class, whatever else was rendered in between: a volume's light takes a
+ * hundred times that of a smooth disk. */
 static void test_classes_are_learned(void **state)
 {
     (void)state;
@@ -172,7 +171,7 @@ static void test_classes_are_learned(void **state)
     double took = 0;
     for (int k = 0; k < 3; k++)
         for (int other = 0; other < 2; other++) {
-            renderer->frames = k == 0; /* each teaches but the first, in which kernels are compiled */
+            renderer->frames = k == 0; /* all but the first update the estimates, since it compiles kernels */
             struct kd_frame frame = drawn(other ? other_volume : volume, &plan);
             took = other ? took : timing_of(&frame, "march") * 1e6 / (double)(64 * 64);
             kd_frame_finish(&frame);
@@ -183,7 +182,7 @@ static void test_classes_are_learned(void **state)
     kd_frame_finish(&frame);
     const double known = kd_cost_known(&learned, plan.cost_class, KD_PASS_MARCH);
     print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
-    assert_true(known > took / 100 && known < 4 * took); /* less the time for which others had the cores */
+    assert_true(known > took / 100 && known < 4 * took); /* without the time in which others had the cores */
     assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan)) < 1e-6 * known);
 }
 

@@ -1,6 +1,6 @@
-/* Light of jets against integrals along paths of the Kerr-Schild oracle, which knows no Mino time, with the energy
- * that their matter sees from the metric in Boyer-Lindquist coordinates; far from the hole against integrals along
- * straight lines, and the ratio of a jet and its counterjet against special relativity's. */
+/* Light of jets against integrals along paths of the Kerr-Schild oracle, which does not use Mino time, with the
+ * energy in the matter's frame from the Boyer-Lindquist metric; far from the hole against integrals along straight
+ * lines; and the ratio of jet and counterjet against special relativity. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -36,7 +36,7 @@ static double ramp(double x)
     return x * x * (3 - 2 * x);
 }
 
-/* Light of a length in its own frame, at r and a polar angle whose cosine is u. */
+/* Emission per length in its own frame, at r and a polar angle whose cosine is u. */
 static double emitted(const struct kd_jets *j, double r, double u)
 {
     const double x = sqrt((1 - u) * (1 + u)) / fabs(u) / tan(j->opening_deg * M_PI / 180);
@@ -78,9 +78,9 @@ static void test_far_away(void **state)
         "\"lorentz\":1.3,\"opening_deg\":15,\"sheath\":0,\"spectral_index\":-0.5}}",
         "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY
         "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
-        /* it comes at us: what is seen of it is g up to 200, of a difference of 1/20000 */
+        /* it moves towards the observer: g is up to 200, from a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
-        /* and so much brighter for it that g to the 12th is 2^70 */
+        /* so bright that g to the 12th is 2^70 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY
         "\"lorentz\":30,\"opening_deg\":8,\"spectral_index\":10}}",
     };
@@ -126,7 +126,7 @@ static void test_ratio(void **state)
         struct kd_frame frame = rendered(&scene);
         const double v = sqrt(1 - 1 / (lorentz[n] * lorentz[n])), c = cos(inclination[n] * M_PI / 180),
                      want = pow((1 + v * c) / (1 - v * c), 2 + index[n]);
-        for (int y = 0; y < 2; y++) { /* at 2.2e5 and 1.9e5 M: where light neither begins nor ends */
+        for (int y = 0; y < 2; y++) { /* at 2.2e5 and 1.9e5 M, away from the ends of the light */
             const double near = (double)intensity(&frame)[y * WIDTH + WIDTH / 2],
                          away = (double)intensity(&frame)[(HEIGHT - 1 - y) * WIDTH + WIDTH / 2];
             if (!(fabs(near / away / want - 1) < 1e-2))
@@ -137,9 +137,9 @@ static void test_ratio(void **state)
     }
 }
 
-/* As its matter sees it, from the metric: R(r) and the photon's constants give p_r, and whoever has no angular
- * momentum -k.U = Gamma (e - v k_r). Above the plane light of the rays that are judged comes outwards, below it
- * inwards. */
+/* Emission in the matter's frame, from the metric: R(r) and the photon's constants give p_r, and the observer of
+ * zero angular momentum -k.U = Gamma (e - v k_r). On the rays judged, light moves outwards above the plane and
+ * inwards below. */
 static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -185,7 +185,7 @@ static void test_near_the_hole(void **state)
             for (int x = WIDTH / 2 - 1; x <= WIDTH / 2 + 1; x++) {
                 const double alpha = 2.0 * (x - 0.5 * (WIDTH - 1)), beta = -2.0 * (y - 0.5 * (HEIGHT - 1)),
                              got = (double)intensity(&frame)[y * WIDTH + x];
-                if (fabs(beta) < 7.5) /* there a jet is seen on both sides of where rays turn */
+                if (fabs(beta) < 7.5) /* there a jet is seen on both sides of the rays' turning points */
                     continue;
                 const struct ks_light want =
                     ks_along(ks_from_infinity(views[n].spin, cos(views[n].inclination * M_PI / 180), alpha, beta), 4,
@@ -205,7 +205,7 @@ static void test_near_the_hole(void **state)
     printf("near the hole, %d rays: worst %.2g\n", lit, worst);
 }
 
-/* Twice as bright is twice the light; and what is off has no march. */
+/* Twice the brightness gives twice the light; switched off there is no ray marching. */
 static void test_scaling(void **state)
 {
     struct kd_scene scene = scene_of("{\"camera\":{\"field_m\":60},\"jets\":{\"brightness\":0.1}}"), twice = scene;

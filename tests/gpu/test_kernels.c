@@ -1,5 +1,5 @@
-/* Kernels that are noted, and made together on several threads; and that what a frame notes is what it then asks
- * for. */
+/* Kernels that are recorded first, and compiled together on several threads; a frame uses exactly those that it
+ * recorded. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -20,7 +20,8 @@ static uint32_t made(void) { return renderer->vk->n_pipelines; }
 
 static const struct kd_vk_pipeline *post(bool film, bool wide)
 {
-    const struct kd_vk_pipeline *out = (const struct kd_vk_pipeline *)renderer; /* no NULL that nobody wrote */
+    /* a value that nobody wrote, and not NULL */
+    const struct kd_vk_pipeline *out = (const struct kd_vk_pipeline *)renderer;
     OK(kd_kernels_get(&renderer->kernels, renderer->vk, KD_KERNEL_POST, (uint32_t[]) { film, wide }, 2, &out, &error));
     return out;
 }
@@ -51,7 +52,7 @@ static void noted_kernels_are_made_once(void **state)
     assert_int_equal(made(), before + 3);
 }
 
-/* More are asked for than are noted: the others are made when they are needed. */
+/* More are requested than can be recorded: the others are compiled when they are used. */
 static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;
@@ -71,8 +72,8 @@ static void what_cannot_be_made_is_told_later(void **state)
     assert_non_null(strstr(why.message, "broken"));
 }
 
-/* Each kernel that a first frame of a scene makes before it begins is asked for in the frame: its place in the order
- * of use is a later one. */
+/* Each kernel that the first frame of a scene compiles in advance is used in the frame: its place in the order of
+ * use is later. */
 static void a_frame_notes_what_it_needs(void **state)
 {
     (void)state;
@@ -102,7 +103,7 @@ static void a_frame_notes_what_it_needs(void **state)
     }
 }
 
-/* A frame that finds its lens map makes no kernel that would trace it. */
+/* A frame whose lens map is cached compiles no kernel for tracing. */
 static void a_kept_lens_map_is_not_traced(void **state)
 {
     (void)state;
@@ -142,7 +143,7 @@ static bool goes_on(void *user, double fraction)
     return true;
 }
 
-/* Kernels that are compiled beside the device are those that the frame asks for, and the picture is the same. */
+/* Kernels compiled beside the device are those that the frame uses, and the picture is the same. */
 static void compiled_beside_the_device(void **state)
 {
     (void)state;
@@ -200,7 +201,7 @@ static void compiled(struct kd_compilation *c)
     kd_compilation_end(c);
 }
 
-/* The pictures by which a density is found are rehearsed too, on a device that sees no light. */
+/* The pictures that determine a density are rehearsed too, on a device that computes nothing. */
 static void a_density_is_rehearsed(void **state)
 {
     (void)state;
@@ -227,7 +228,7 @@ static bool has_kernel(const char *name)
     return false;
 }
 
-/* The steps that are told of a pixel take two kernels of lists of rays. */
+/* The steps of a pixel's explanation take two kernels of lists of rays. */
 static void steps_of_a_pixel(void **state)
 {
     (void)state;
@@ -258,7 +259,7 @@ static bool lacks(void *user, struct kd_compilation *c, bool aside)
     return !lack.gives_up;
 }
 
-/* Rays that the driver ends before their end take one more kernel, which is compiled by whoever wants to, once. */
+/* If the driver stops rays early, one more kernel is needed, which is compiled once by any thread. */
 static void a_kernel_that_nobody_foresaw(void **state)
 {
     (void)state;
@@ -285,7 +286,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
         assert_int_equal(lack.times, 1);
         assert_int_equal(lack.asides, i == 1);
     }
-    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error)); /* once more, as it is there now */
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error)); /* once more, now that it is there */
     assert_int_equal(lack.times, 1);
     for (int i = 0; i < 3; i++) {
         assert_memory_equal(kd_frame_pixels(&frames[0]), kd_frame_pixels(&frames[i]), 3 * 8 * 2);
@@ -296,7 +297,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
     renderer->lacks = NULL;
 }
 
-/* Lists of rays have their kernels compiled so too, those of a tolerance among them. */
+/* Kernels of lists of rays are compiled in the same way, including those for a tolerance. */
 static void kernels_of_lists_of_rays(void **state)
 {
     (void)state;
@@ -319,7 +320,7 @@ static void kernels_of_lists_of_rays(void **state)
     assert_int_equal(made(), 2);
 }
 
-/* The bodies that a picture shows besides its scene may lose their last other holder before it is rehearsed. */
+/* The last other reference to the bodies beside a scene may be dropped before the rehearsal. */
 static void bodies_are_held_while_kernels_are_compiled(void **state)
 {
     (void)state;

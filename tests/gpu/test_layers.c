@@ -1,9 +1,9 @@
 /* Layers against the Kerr-Schild oracle, which shares no equation with the kernels: it integrates the photon's
- * momentum in Cartesian coordinates, from which g and the angle to the disk's normal follow by the metric of the
- * plane alone. And layers of light against the picture's own linear light.
+ * momentum in Cartesian coordinates; g and the angle to the disk's normal follow from the metric in the plane alone.
+ * Layers of light are compared with the picture's own linear light.
  *
- * How far a number may be off: some last bits of a float, times how much it changes where the ray is changed by as
- * much, which is measured on the oracle itself. */
+ * Tolerance of a number: some last bits of a float, times its change when the ray is changed by as much, which is
+ * measured on the oracle itself. */
 #include "kerr_schild.h"
 #include "image/colour_map.h"
 #include "physics/disk/thin_disk.h"
@@ -41,7 +41,7 @@ static struct kd_scene scene_of(double spin, double inclination, double r, const
     return scene;
 }
 
-/* By the format NPY, which takes any layers. */
+/* For the format NPY, which takes any layers. */
 static struct kd_plan plan_of(struct kd_scene *scene, uint64_t most_bytes)
 {
     struct kd_capacity c;
@@ -69,7 +69,7 @@ static const float *layer(const struct kd_frame *frame, const char *name)
     return found->data;
 }
 
-/* The oracle's path of a pixel's middle, of a ray scaled by so much. */
+/* The oracle's path of a pixel's centre, for a ray scaled by `scale`. */
 static struct ks_path path_of(const struct kd_scene *scene, int pixel, double scale, int crossings, double *energy)
 {
     bool far = isinf(scene->camera.r);
@@ -83,8 +83,8 @@ static struct ks_path path_of(const struct kd_scene *scene, int pixel, double sc
     return ks_trace(photon, crossings);
 }
 
-/* -(ds/dt)^2 on a circle in the plane, and where it pulls neither in nor out: g_tt = -(1 - 2/r), g_tphi = -2a/r,
- * g_phiphi = r^2 + a^2 + 2a^2/r. */
+/* -(ds/dt)^2 on a circle in the plane, and the Omega at which its radial derivative vanishes: g_tt = -(1 - 2/r),
+ * g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r. */
 static double line(double a, double r, double omega)
 {
     return (1 - 2 / r) + 4 * a / r * omega - (r * r + a * a + 2 * a * a / r) * omega * omega;
@@ -100,7 +100,7 @@ static double omega_of(double a, double r)
     return 0.5 * (low + high);
 }
 
-/* What the layers are at a crossing: g, r, phi, delay, emission angle. */
+/* The layers at a crossing: g, r, phi, delay, emission angle. */
 enum { G, R, PHI, DELAY, ANGLE, KINDS };
 static const char *const names[KINDS] = { "g", "r", "phi", "delay", "emission_angle" };
 
@@ -113,7 +113,7 @@ static void expected(const struct kd_scene *scene, const struct ks_path *path, i
     out[PHI] = path->phi[n] + scene->camera.azimuth_deg * M_PI / 180;
     out[DELAY] = path->delay[n];
     out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted,
-                           1)); /* in the plane the unit normal is along z, which the gas does not move in */
+                           1)); /* in the plane the unit normal is along z, in which the gas does not move */
 }
 
 static double apart(int kind, double x, double y)
@@ -121,7 +121,7 @@ static double apart(int kind, double x, double y)
     return kind == PHI ? fabs(remainder(x - y, 2 * M_PI)) : fabs(x - y);
 }
 
-/* Whether a crossing is on the disk; false also where it is so close to an edge that a float may have it on either
+/* True if a crossing is on the disk. *near: it is so close to an edge that single precision may place it on either
  * side. */
 static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
 {
@@ -177,10 +177,8 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
     print_message("\n");
     assert_true(compared > PIXELS / 4);
     for (int i = 0; i < KINDS; i++)
-        assert_true(worst[i] <
-                    (i == DELAY
-                         ? 2e-5
-                         : 4e-6)); /* of g and angles ten times what is seen; delays are by the steps of the profile */
+        /* for g and angles ten times the observed error; delays follow the steps of the profile */
+        assert_true(worst[i] < (i == DELAY ? 2e-5 : 4e-6));
 }
 
 static void test_crossings(void **state)
@@ -242,8 +240,7 @@ static void test_ends(void **state)
 
 static double luminance(const float *rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
-/* Each order has the light that arrives of it; all of them and the sky are the picture's luminance, whatever rays it
- * is the mean of. */
+/* Each order has its light; all of them plus the sky are the picture's luminance, for any number of rays a pixel. */
 static void test_light(void **state)
 {
     (void)state;
@@ -274,8 +271,7 @@ static void test_light(void **state)
     }
 }
 
-/* What arrives of a black body is (g T)^4, T that of the flux at its radius; and an opaque crossing is infinitely
- * deep. */
+/* A black body is seen with (g T)^4, T from the flux at its radius; an opaque crossing has infinite depth. */
 static void test_temperature(void **state)
 {
     (void)state;
@@ -305,7 +301,7 @@ static void test_temperature(void **state)
     }
 }
 
-/* x.y of covariant components in the plane, but for those along r and theta: by the inverse metric. */
+/* x.y of covariant components in the plane, without those along r and theta: by the inverse metric. */
 static double product(double a, double r, double x_t, double x_phi, double y_t, double y_phi)
 {
     double delta = r * r - 2 * r + a * a;
@@ -314,8 +310,8 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
            delta;
 }
 
-/* Gas that falls from the ISCO has a place, a temperature and a g: that of its four-velocity, which keeps the E and
- * L it had there, its radial part by u.u = -1, that of the light by p.p = 0. */
+/* Gas falling from the ISCO has a place, a temperature and a g. g is that of its four-velocity, with the E and L of
+ * the ISCO, the radial part from u.u = -1, and that of the light from p.p = 0. */
 static void test_plunge(void **state)
 {
     (void)state;
@@ -337,7 +333,7 @@ static void test_plunge(void **state)
         double x = path.r[0], l = path.momentum[0];
         double u_r = -sqrt(fmax(-1 - product(a, x, u_t, u_phi, u_t, u_phi), 0)),
                p_r = sqrt(fmax(-product(a, x, p_t, l, p_t, l) - path.p_z[0] * path.p_z[0], 0));
-        double rest = product(a, x, u_t, u_phi, p_t, l); /* both radial parts are by a unit vector */
+        double rest = product(a, x, u_t, u_phi, p_t, l); /* both radial parts are along a unit vector */
         double want = -1 / (rest + u_r * (path.falls[0] ? -p_r : p_r));
         inside++;
         assert_true(fabs(t[k] - 0.7 * scene.disk.peak_temperature_k) < 0.01);
@@ -348,13 +344,13 @@ static void test_plunge(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The same numbers to the bit in many bands, and from a lens map that is kept. */
+/* The same numbers bit for bit in many bands, and from a cached lens map. */
 static void test_bands(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(0.9, 75, INFINITY, "rgb,phi,intensity_1,footprint,fate");
     struct kd_frame whole = frame_of(&scene), again = frame_of(&scene), parts;
-    scene.camera.azimuth_deg = 131; /* another picture, the same map */
+    scene.camera.azimuth_deg = 131; /* another picture with the same map */
     struct kd_frame other = frame_of(&scene);
     scene.camera.azimuth_deg = 130;
     const struct kd_plan plan = plan_of(&scene, 7200);
@@ -364,7 +360,7 @@ static void test_bands(void **state)
     for (size_t i = 0; i < whole.n_layers; i++) {
         size_t bytes = PIXELS * kd_layer_pixel_bytes(&whole.layers[i]);
         assert_memory_equal(whole.layers[i].data, again.layers[i].data, bytes);
-        if (strcmp(whole.layers[i].name, "footprint")) /* at the edges of bands neighbours are to one side */
+        if (strcmp(whole.layers[i].name, "footprint")) /* at the edges of bands neighbours are on one side only */
             assert_memory_equal(whole.layers[i].data, parts.layers[i].data, bytes);
     }
     const float *a = layer(&whole, "phi"), *b = layer(&other, "phi");
@@ -376,7 +372,7 @@ static void test_bands(void **state)
     kd_frame_finish(&other);
 }
 
-/* Fills the plane of fates with those of rays that were given up, in the map that is kept for a plan. */
+/* Marks all rays as given up in the cached map of a plan. */
 static void give_up(const struct kd_plan *plan)
 {
     const float undecided = KD_FATE_UNDECIDED;
@@ -416,12 +412,11 @@ static void assert_same_picture(const char *json, const char *layers)
         kd_frame_finish(&beside);
     }
     kd_frame_finish(&alone);
-    kd_store_empty(&renderer->store); /* with the maps that were changed */
+    kd_store_empty(&renderer->store); /* removes the modified maps */
 }
 
-/* The picture is the same to the bit, whatever layers lie beside it: whether they ask for more of the lens map, and
- * rays that are given up on their way to a sky that is not there. The delay alone is left out: for it rays are
- * followed in another way. */
+/* The picture is the same bit for bit whatever layers accompany it, even if they need more of the lens map, and for
+ * rays given up on their way to an absent sky. Only the delay is left out: it follows rays differently. */
 static void test_picture_beside(void **state)
 {
     (void)state;
@@ -438,7 +433,7 @@ static void test_picture_beside(void **state)
     }
 }
 
-/* One map alone is the picture: each pixel has the colour of its number, none is black; in 8 bits as in 16. */
+/* A single layer is the picture: each pixel has the colour of its number, none is black; in 8 bits as in 16. */
 static void test_false_colour(void **state)
 {
     (void)state;
@@ -469,7 +464,7 @@ static void test_false_colour(void **state)
     }
 }
 
-/* One end of the scale may be set beyond all numbers: they are all at the near end of the colours. */
+/* One end of the scale may be set beyond all numbers: all are then at the near end of the colours. */
 static void test_ends_beyond(void **state)
 {
     (void)state;
@@ -488,8 +483,7 @@ static void test_ends_beyond(void **state)
     }
 }
 
-/* Whatever layer, whatever numbers it holds: a picture with a legend comes of it, from a hole that does not turn as
- * well. */
+/* Any layer with any numbers gives a picture with a legend, also for a hole without spin. */
 static const float *numbers_of(const struct kd_frame *frame, const char *name)
 {
     const struct kd_layer *layer = kd_frame_layer(frame, name);
@@ -497,8 +491,7 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* Rays so near to one another that 32 bits do not tell them apart have no footprint, rather than one of 0; others
- * have one. */
+/* Rays too close to be distinguished in 32 bits have no footprint instead of one of 0; others have one. */
 static void test_tiny_fields(void **state)
 {
     (void)state;
@@ -518,7 +511,7 @@ static void test_tiny_fields(void **state)
         scene.camera.yaw_deg = views[v].yaw_deg;
         struct kd_frame frame = frame_of(&scene);
         const float *is = numbers_of(&frame, views[v].layer);
-        int there = 0; /* not all of a picture is disk */
+        int there = 0; /* not the whole picture is disk */
         for (int i = 0; i < PIXELS; i++) {
             there += is[i] > 0;
             if (views[v].there ? is[i] <= 0 : !isnan(is[i]))

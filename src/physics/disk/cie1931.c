@@ -1,6 +1,6 @@
-/* This table holds the CIE 1931 2-degree colour-matching functions, 360 to 830 nm in steps of 5 nm. Source: CIE
- * 018:2019, "The basis of physical photometry", and CIE data set doi:10.25039/CIE.DS.xvudnb9b (the values are facts
- * of the standard). Columns: x-bar, y-bar, z-bar. */
+/* CIE 1931 2-degree colour-matching functions, 360 to 830 nm in steps of 5 nm. Source: CIE 018:2019, "The basis of
+ * physical photometry", and CIE data set doi:10.25039/CIE.DS.xvudnb9b (the values are facts of the standard).
+ * Columns: x-bar, y-bar, z-bar. */
 #include "physics/disk/colour.h"
 
 const double kd_cie1931[KD_CIE1931_COUNT][3] = {

@@ -15,7 +15,8 @@ static double planck(double wavelength, double temperature)
 struct kd_colour_xyz kd_colour_blackbody(double temperature)
 {
     struct kd_colour_xyz sum = { 0, 0, 0 };
-    for (int i = 0; i < KD_CIE1931_COUNT; i++) { /* the functions vanish at both ends: the sum is a trapezoid */
+    /* the functions vanish at both ends, so that the sum is the trapezoidal rule */
+    for (int i = 0; i < KD_CIE1931_COUNT; i++) {
         double b =
             planck((KD_CIE1931_FIRST_NM + i * KD_CIE1931_STEP_NM) * 1e-9, temperature) * KD_CIE1931_STEP_NM * 1e-9;
         sum.x += b * kd_cie1931[i][0];
@@ -46,10 +47,12 @@ struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
         return (struct kd_colour_rgb) { 1 / 0.2126, 0, 0 };
     struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { xyz.x / xyz.y, 1, xyz.z / xyz.y });
     double low = fmin(c.r, fmin(c.g, c.b));
-    if (low < 0) { /* grey of luminance 1 is (1, 1, 1): c + s (1 - c) with the least s that lifts `low` to 0 */
+    /* mix with the grey (1, 1, 1) of luminance 1: c + s (1 - c), with the least s that raises `low` to 0 */
+    if (low < 0) {
         double s = low / (low - 1);
         c = (struct kd_colour_rgb) { c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };
-        c = (struct kd_colour_rgb) { fmax(c.r, 0), fmax(c.g, 0), fmax(c.b, 0) }; /* the lifted one by rounding */
+        /* rounding may leave it slightly below 0 */
+        c = (struct kd_colour_rgb) { fmax(c.r, 0), fmax(c.g, 0), fmax(c.b, 0) };
     }
     return c;
 }

@@ -9,29 +9,30 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 6 }; /* of an interpolation */
+enum { POINTS = 6 }; /* nodes of an interpolation */
 #define NEAREST \
-    0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the \
-           image no longer changes */
-#define NODES 1e-7  /* of ln r, at the nodes */
-#define PLACE 1e-12 /* at a place that is asked for by itself */
-#define BENDS 10.   /* by how much of itself a slope changes for a change of ln r, at most */
+    0.1 /* M, minimum distance of the origin of u from the ISCO; otherwise, above a = 0.9995, all nodes would lie at \
+           the horizon, where the image no longer changes */
+#define NODES 1e-7  /* error of ln r at the nodes */
+#define PLACE 1e-12 /* error of ln r at a single requested place */
+#define BENDS 10.   /* maximum relative change of a slope for a change of ln r */
 #define DRIFTS \
-    0.2 /* what a slope is off by where only that of flat space is known; elsewhere by so much of what the rings \
-           before did not tell of the place */
-#define FLATTEST 0.1  /* slopes that are met lie between this and its inverse */
-#define MOVED 0.3     /* by how much of R the angles before may move a guess */
-enum { HISTORY = 5 }; /* rings of nodes that a slope is made from, besides the last */
+    0.2 /* error of a slope: this much, if only that of flat space is known, else this fraction of the error of the \
+           extrapolation from the rings before */
+#define FLATTEST 0.1  /* the slopes that occur lie between this and its inverse */
+#define MOVED 0.3     /* maximum correction of a guess, in R, from the angles before */
+enum { HISTORY = 5 }; /* rings of nodes before the last that a slope is computed from */
 
 struct ellipse { double x0, y0, a, b; };
 
-/* The centre lies above the origin by so much of what the far side is higher than the near one is deep. Near edge on
- * the far side is a hump with low wings: each line from the centre meets a ring once if the centre lies below all of
- * the hump's tangents. From the middle between both sides (0.5) it met some rings above 86.5 degrees three times. */
+/* Height of the centre above the origin, as a fraction of the difference between the far side's height and the near
+ * side's depth. Near edge-on the far side is a hump with low wings. Each line from the centre meets a ring only once
+ * if the centre lies below all tangents of the hump. With the centre midway between both sides (0.5), lines met some
+ * rings three times above 86.5 degrees. */
 #define LIFTED 0.1
 
-/* About where the ring is seen: the near side as in flat space, the far side as a thin lens lifts it, b (b - r cos
- * i) = 4 r, with sin(i)^4 so that face on nothing is lifted. */
+/* Approximate ellipse of the ring's image: the near side as in flat space, the far side as a thin lens lifts it, b
+ * (b - r cos i) = 4 r, with a factor sin(i)^4 so that nothing is lifted face-on. */
 static struct ellipse around(const struct kd_disk_image *image, double r)
 {
     double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
@@ -66,13 +67,12 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* d ln r/d ln R where it is looked for, and by how much of itself that may be off: by `drift`, and `bend` times the
- * error of ln r that the place has. */
+/* d ln r/d ln R at the starting point, and its relative error: `drift`, plus `bend` times the error of ln r there. */
 struct slope { double value, drift, bend; };
 
-/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is the one given, kept within what brackets
- * the root. A last step is not looked at where what is left after it, by how the slope changes on the way, is below
- * `exact`. `slope`: 1 in flat space; its value is left as the last one met. */
+/* Solves ln(r_0/r) = 0 in ln R from a guess, by the secant method within a bracket; the first slope is given. The
+ * last step is not verified if the remaining error, estimated from the change of the slope, is below `exact`.
+ * `slope`: 1 in flat space; on return its value is the last secant's slope. */
 static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r,
                  double exact, double *log_stretch, struct slope *slope)
 {
@@ -104,11 +104,11 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
         }
         x = next;
     }
-    *log_stretch = before; /* rounding keeps it from coming nearer: next to an extremal hole */
+    *log_stretch = before; /* rounding prevents convergence next to an extremal hole */
     return fabs(f_before) < 1e-6;
 }
 
-/* From up to five rings before at this angle, by the polynomial through them. */
+/* Extrapolates from up to five rings before at this angle, by the polynomial through them. */
 static double guess(const struct kd_disk_image *image, int k, int j)
 {
     double a = image->stretch[k - 1][j];
@@ -123,7 +123,7 @@ static double guess(const struct kd_disk_image *image, int k, int j)
     return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
 }
 
-/* How an ellipse grows with ln r: its half axes by so much of themselves, its centre by so many M. */
+/* Change of an ellipse with ln r: relative for the half axes, in M for the centre. */
 static struct ellipse growth_of(const struct kd_disk_image *image, double r)
 {
     const double step = 1e-4;
@@ -132,9 +132,9 @@ static struct ellipse growth_of(const struct kd_disk_image *image, double r)
                               (out.b - in.b) / (step * (out.b + in.b)) };
 }
 
-/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, where the ring and its neighbours are
- * about known. A place moves with ln r by p_L and with chi by p_chi, along which R changes by the shares `swells`
- * and `turns` of itself: the slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
+/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, with approximate values of the ring and
+ * its neighbours. A place moves with ln r by p_L and with chi by p_chi; R changes along these by the relative rates
+ * `swells` and `turns`. The slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
 static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch,
                        double swells, double turns)
 {
@@ -144,7 +144,7 @@ static double slope_at(const struct ellipse *e, const struct ellipse *growth, co
     return 1 / across;
 }
 
-/* The ring of nodes k, from the rings of nodes before. */
+/* State while ring k of the nodes is made from the rings before. */
 struct making {
     int k;
     double r, rate; /* dk/d ln r */
@@ -152,7 +152,8 @@ struct making {
     double guessed[KD_DISK_IMAGE_ANGLES];
 };
 
-/* Slopes at the last of some nodes by backward differences, the last first: sums of nabla^m/m, m = 1 ... so many. */
+/* Slopes at the last of several nodes by backward differences, the last node first: sums of nabla^m/m, m = 1 ...
+ * order. */
 static const double backward[HISTORY][HISTORY + 1] = {
     { 1, -1 },
     { 1.5, -2, 0.5 },
@@ -161,8 +162,7 @@ static const double backward[HISTORY][HISTORY + 1] = {
     { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
 };
 
-/* By how much guesses from the rings before were off: at the angle at hand, as far as the last three angles tell,
- * and at these. */
+/* Errors of the guesses from the rings before: extrapolated to the present angle, and at the last three angles. */
 struct miss { double next, last[3]; };
 
 static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j,
@@ -177,7 +177,7 @@ static struct slope slope_of(const struct kd_disk_image *image, const struct mak
                    backward[1][0] * off->next + backward[1][1] * off->last[0] + backward[1][2] * off->last[1];
     double value =
         slope_at(&m->e, &m->growth, direction, stretch, swells * m->rate / stretch, turns * per_radian / stretch);
-    if (!(value > FLATTEST && value < 1 / FLATTEST)) /* rings guessed so badly tell nothing */
+    if (!(value > FLATTEST && value < 1 / FLATTEST)) /* too inaccurate to be useful */
         return (struct slope) { 1, INFINITY, 0 };
     double drift = fabs(m->rate * off->next) + per_radian * fabs(off->next - 2 * off->last[0] + off->last[1]);
     return (struct slope) { value, DRIFTS * drift, BENDS + weight[0] * fabs(m->rate) };
@@ -237,7 +237,7 @@ static void weigh(double x, double weight[POINTS])
     }
 }
 
-/* The ring's R at its angles' nodes. */
+/* R of the ring at the angles of the nodes. */
 static void between_rings(const struct kd_disk_image *image, double r, int skip, double *row)
 {
     double at = node_of_radius(image, r) / skip, weight[POINTS];

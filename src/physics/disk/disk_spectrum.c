@@ -10,20 +10,20 @@
 
 enum { PANELS = 32, GAUSS = 3 };
 #define TABLE \
-    0.125 /* of what every second node of the table would change: it errs with the sixth power of its step at best, so \
-             that twice the step shows 63 times what is left (line_profile.c counts the same) */
-/* cos i below which halved sums do not yet err with the square of their cells: random ones were off by up to 2.1 times
- * what they told (tests/unit/told_spectra.c), and four times that is told. */
+    0.125 /* factor on the change from every second node of the table: its error falls at best as the sixth power of \
+             the step, so twice the step shows 63 times the error (as in line_profile.c) */
+/* cos i below which the error of sums does not yet fall as the square of the cells. There, random sums had errors of
+ * up to 2.1 times the estimate (tests/unit/told_spectra.c), so that four times the estimate is reported. */
 #define EDGE_ON 0.1
-#define APART 1e-3 /* of the way to the horizon, for the image's slope */
+#define APART 1e-3 /* of the distance to the horizon, for slopes of the image */
 
-/* A ring of the integral: J = |d(alpha, beta)/d(ln r, chi)| at each angle. */
+/* A ring of the integral, and its neighbours for J = |d(alpha, beta)/d(ln r, chi)| at each angle. */
 struct ring {
     double alpha[KD_DISK_IMAGE_ANGLES], beta[KD_DISK_IMAGE_ANGLES], below[2][KD_DISK_IMAGE_ANGLES],
         above[2][KD_DISK_IMAGE_ANGLES];
 };
 
-/* The slope along a ring, from four neighbours: to the fourth order. */
+/* Fourth-order derivative along a ring from four neighbours. */
 static double along(const double *x, int j, int n)
 {
     double near = x[(j + 1) % n] - x[(j + n - 1) % n], far = x[(j + 2) % n] - x[(j + n - 2) % n];
@@ -37,10 +37,10 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
-/* What makes Int limb mu dmu = 1/2, as it is of 1. Of ln(1 + 1/mu): 1/2. */
+/* Normalises Int limb mu dmu to 1/2, its value for limb = 1. For ln(1 + 1/mu) it is 1/2 already. */
 static double limb_scale(enum kd_line_limb limb) { return limb == KD_LIMB_LAOR ? 0.5 / (0.5 + 2.06 / 3) : 1; }
 
-/* Adds a ring's light, by weight of ln r. */
+/* Adds a ring's light; weight: its width in ln r. */
 static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, double r,
                      double weight, int skip, int n, const double *frequencies, int n_f, struct ring *ring, double *sum)
 {
@@ -59,12 +59,13 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
         double part = weight * stretch_of(ring, apart, j, n) * (2 * M_PI / n) * kd_line_limb(p->limb, light.mu) *
                       limb_scale(p->limb);
         double x = KD_H_J_S / (KD_K_J_K * t * light.g);
-        for (int i = 0; i < n_f; i++) /* g^3 B_nu(nu/g) is B_nu(nu) of g T: Planck's law, but for 2 h nu^3/c^2 */
+        /* g^3 B_nu(nu/g) is B_nu(nu) at the temperature g T: Planck's law without the factor 2 h nu^3/c^2 */
+        for (int i = 0; i < n_f; i++)
             sum[i] += part / expm1(x * frequencies[i]);
     }
 }
 
-/* How closely an integral looks: `coarse` times fewer points, and every `skip`th node of the table. */
+/* Resolution of an integral: `coarse` times fewer points, and every `skip`th node of the table. */
 struct looks { int coarse, skip; };
 
 static void integrate(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, struct looks looks,
@@ -77,8 +78,8 @@ static void integrate(const struct kd_disk_image *image, const struct kd_disk_sp
     for (int i = 0; i < panels; i++)
         for (int k = 0; k < GAUSS; k++) {
             kd_pause();
-            double s =
-                (i + 0.5 + 0.5 * at[k]) / panels; /* ln r = ln inner + span s^2: T goes like the root of r - r_isco */
+            /* ln r = ln inner + span s^2, since T varies as the square root of r - r_isco. */
+            double s = (i + 0.5 + 0.5 * at[k]) / panels;
             add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share[k] / panels, looks.skip, n,
                      frequencies, n_f, ring, sum);
         }

@@ -1,12 +1,11 @@
-/* This is the spectrum of a thin disk that shines as black bodies do, as an observer at a distance receives it.
- * Double precision; any thread.
+/* Spectrum of a thin disk of black bodies, as a distant observer receives it. Double precision; any thread.
  *
  *   F_nu = (M/D)^2 Int g^3 B_nu(nu/g, f T)/f^4 limb(mu) dalpha dbeta      sigma T^4 = F(r)
  *
- * F of Page & Thorne 1974, ApJ 191, 499 (thin_disk.h), from the ISCO or beyond; f is the colour correction (Shimura &
- * Takahara 1995, ApJ 445, 780), with which the light keeps its energy. Li et al. 2005, ApJS 157, 335, eq. 6. The
- * integral goes over the disk's image (disk_image.h): even steps in chi, which converge exponentially, and Gauss's
- * points in the root of ln(r/inner). */
+ * F is that of Page & Thorne 1974, ApJ 191, 499 (thin_disk.h), from the ISCO or beyond. f is the colour correction
+ * (Shimura & Takahara 1995, ApJ 445, 780); it conserves the energy of the light. Li et al. 2005, ApJS 157, 335, eq.
+ * 6. The integral over the disk's image (disk_image.h) uses even steps in chi, which converge exponentially, and
+ * Gauss points in the square root of ln(r/inner). */
 #ifndef KD_PHYSICS_DISK_DISK_SPECTRUM_H
 #define KD_PHYSICS_DISK_DISK_SPECTRUM_H
 
@@ -15,13 +14,14 @@
 
 struct kd_disk_spectrum_params {
     double inner, outer;                     /* M */
-    double mass_msun, distance_pc, mdot_edd; /* of the accretion rate: thin_disk.h */
+    double mass_msun, distance_pc, mdot_edd; /* mdot_edd: accretion rate as in thin_disk.h */
     double colour_correction;
     enum kd_line_limb limb; /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
 };
 
-/* W m^-2 Hz^-1 at each frequency, in Hz. *error: relative, the largest, estimated by half as many points, where the
- * flux is above 1e-6 of its maximum. KD_ENOMEM; KD_EINVAL: what came out is no number. */
+/* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error, estimated from half as
+ * many points, over frequencies whose flux exceeds 1e-6 of the maximum. KD_ENOMEM; KD_EINVAL: the result is not a
+ * number. */
 enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *params,
                                 const double *frequencies, int n, double *flux, double *error_out,
                                 struct kd_error *error);

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define EXACT 1e-11 /* of ln r */
+#define EXACT 1e-11 /* error of ln r */
 
 /* Delta/(h^2 + a^2): the square of the source's redshift to infinity. */
 static double source_redshift2(const struct kd_hole *hole, double h)
@@ -28,7 +28,7 @@ static double mismatch(const struct kd_hole *hole, double h, double delta, doubl
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* delta of the light that meets the ring, from a guess: secants, kept within what brackets it. */
+/* Solves for the delta of the light that meets the ring, from a guess, by the secant method within a bracket. */
 static bool find(const struct kd_hole *hole, double h, double r, double slope, double *delta)
 {
     double low = 0, high = M_PI, x = *delta, before = NAN, f_before = NAN;
@@ -59,7 +59,7 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, doub
             delta += fmin(lamp->step / slope, 0.5 * (M_PI - delta));
         if (!find(hole, h, r, slope, &delta))
             return false;
-        /* The slope of ln r in delta, which grows like r/h: the step goes with its inverse. */
+        /* The slope of ln r in delta grows as r/h, so the step is scaled by its inverse. */
         double near = 1e-4 * fmin(1, 1 / slope) * fmin(delta, M_PI - delta);
         slope = (mismatch(hole, h, delta + near, r) - mismatch(hole, h, delta - near, r)) / (2 * near);
         if (!(slope > 0) || !isfinite(slope))

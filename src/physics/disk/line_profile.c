@@ -8,16 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.03   /* of ln r between rings, in the mean */
-#define EDGE_ON 0.1 /* cos i below which rough sums do not yet err with the square of their cells */
-#define BRIGHT 0.5  /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
+#define STEP 0.03   /* mean spacing of rings in ln r */
+#define EDGE_ON 0.1 /* cos i below which the error of coarse sums does not yet fall as the square of their cells */
+#define BRIGHT 0.5  /* spacing of rings at the brighter edge over the mean; at the other edge 2 minus this */
 enum {
     FEWEST = 64,
     MOST = 512,
     COARSEST = 16,
+    /* FEWEST, MOST: rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED: parts of a
+     * line at which sums are compared. */
     LOOKED = 128
-}; /* rings; how many times fewer of them, and of angles, the roughest sum looks at; parts of a line that it is looked
-      at by */
+};
 
 double kd_line_limb(enum kd_line_limb limb, double mu)
 {
@@ -40,14 +41,14 @@ static double emissivity(const struct kd_line_params *p, const struct kd_lamppos
     return kd_lamppost_at(lamp, r);
 }
 
-/* A ring as it is seen: places, energies, and how bright; the first direction once more at the end. */
+/* A ring's image: places, energies and brightness; the first direction is repeated at the end. */
 struct ring {
     double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1],
         light[KD_DISK_IMAGE_ANGLES + 1];
 };
 
-/* What the cells between two rings send: the light of each, and its energies, which are those of a parallelogram
- * over which g is linear: centre -+ (narrow +- wide)/2. */
+/* The cells between two rings: the light of each, and its distribution of energies, which is that of a parallelogram
+ * with linear g: corners at centre -+ (narrow +- wide)/2. */
 struct strip {
     double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES],
         wide[KD_DISK_IMAGE_ANGLES];
@@ -55,8 +56,8 @@ struct strip {
 
 struct sum {
     const double *edges;
-    int bins, last; /* the bin that was met last: neighbours are near */
-    double *in;     /* each bin */
+    int bins, last; /* last bin that received light: neighbouring cells fall nearby */
+    double *in;     /* light in each bin */
     double total;
 };
 
@@ -70,8 +71,8 @@ static int bin_of(struct sum *s, double g)
     return s->last = at;
 }
 
-/* The energies of a cell, g linear over a parallelogram: the share of it below an energy is square in that at both
- * ends and straight between. */
+/* Distribution of energies in a cell with linear g over a parallelogram. The fraction below an energy is quadratic
+ * at both ends and linear between. */
 struct spread {
     double low, narrow, all, slope, steep; /* all: narrow + wide; slope: 1/wide; steep: 1/(2 narrow wide) */
 };
@@ -106,10 +107,10 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
     }
 }
 
-/* A chord between nodes h apart lies off the curve by -h^2 f''/12 in the mean. Nodes that are moved by a twelfth of
- * their second difference leave the fourth power of h; next to the horns of a profile, where g is stationary along a
- * ring, that is worth twice as many directions. No node is moved by more than half of itself where it must not
- * change its sign. */
+/* A chord between nodes h apart deviates from the curve by -h^2 f''/12 on average. Shifting nodes by a twelfth of
+ * their second difference leaves an error of order h^4. At the horns of a profile, where g is stationary along a
+ * ring, that is worth twice as many directions. Where f must stay positive, a node changes by no more than half of
+ * itself. */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];
@@ -139,10 +140,10 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
     straighten(ring->light, n, true);
 }
 
-/* The cells between ring x and ring y, ln r of which differs by `apart`. Across a cell light falls as a power of r,
- * and area grows with the edges and with the width, which is about as r itself: their product by Simpson's rule,
- * between the ends the geometric mean of light. The mean of g, weighed by that, is off its middle by a twelfth of
- * the products of its steps and those of light. */
+/* Fills the cells between ring x and ring y, `apart` in ln r. Across a cell light is a power of r, and the area
+ * grows with its edges and its width, which is about proportional to r. Their product is integrated by Simpson's
+ * rule, with the geometric mean of light in the middle. The light-weighted mean of g differs from its middle value
+ * by a twelfth of the products of its steps and those of light. */
 static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
 {
     for (int j = 0; j < n; j++) {
@@ -179,10 +180,10 @@ struct work {
     struct strip strip;
 };
 
-/* How closely an integral looks: rings and angles `coarse` times fewer, and every `skip`th node of the table. */
+/* Resolution of an integral: `coarse` times fewer rings and angles, and every `skip`th node of the table. */
 struct looks { int coarse, skip; };
 
-/* Adds the rings from p->inner to p->outer, between which the emissivity has no break. */
+/* Adds the rings from p->inner to p->outer; the emissivity has no break in between. */
 static void add_rings(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
                       struct looks looks, struct work *work, struct sum *s)
 {
@@ -192,7 +193,7 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
         m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
     struct ring *rings = work->rings;
     bool outwards = emissivity(p, lamp, p->outer) * p->outer * p->outer >
-                    emissivity(p, lamp, p->inner) * p->inner * p->inner; /* by ring of equal ln r */
+                    emissivity(p, lamp, p->inner) * p->inner * p->inner; /* light of a ring of equal width in ln r */
     double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
         kd_pause_every((uint64_t)i, 4);
@@ -205,7 +206,7 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
     }
 }
 
-/* Where an emissivity breaks there is a ring: cells that had the break within them would err by where it lies. */
+/* Puts a ring at the break of an emissivity; otherwise the error would depend on the break's position within a cell. */
 static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
                       struct looks looks, struct work *work, struct sum *s)
 {
@@ -219,18 +220,18 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     add_rings(image, &outside, lamp, looks, work, s);
 }
 
-/* Edges of the sums: those asked for, and between and beyond them as many more as the error needs. Where two sums are
- * told apart at a few edges alone they may agree there by chance. */
+/* Edges of the sums: the requested ones, and as many more between and beyond them as the error estimate needs. Two
+ * sums compared at a few edges only may agree there by chance. */
 struct edges {
     double *at;
-    int n, bins;       /* n edges asked for; bins of the sums */
-    const double *own; /* those asked for */
+    int n, bins;       /* number of requested edges; bins of the sums */
+    const double *own; /* the requested edges */
     int first;         /* own[0] is at[first] */
 };
 
 struct range { double low, high; };
 
-/* The energies of the line, roughly: those of a few rings in a few directions. */
+/* Approximate range of energies of the line, from a few rings in a few directions. */
 static struct range energies(const struct kd_disk_image *image, const struct kd_line_params *p)
 {
     enum { RINGS = 8, AROUND = 32 };
@@ -248,7 +249,7 @@ static struct range energies(const struct kd_disk_image *image, const struct kd_
     return range;
 }
 
-/* Edges from `from` on and before `to`: the first one, and within the line one every LOOKED-th part of it. */
+/* Adds edges from `from` to before `to`: the first one, and within the line one at every LOOKED-th part of it. */
 static int divide(double from, double to, const struct range *line, double *at)
 {
     double low = fmax(from, line->low), high = fmin(to, line->high);
@@ -275,7 +276,7 @@ static struct edges edges_of(const struct range *line, const double *own, int bi
     return e;
 }
 
-/* How far two sums differ in the cumulative share from the first edge asked for, at the edge where they do most. */
+/* Largest difference of two sums' cumulative shares, counted from the first requested edge. */
 static double apart(const struct edges *edges, const struct sum *x, const struct sum *y)
 {
     double off = 0, most = 0, first = 0;
@@ -289,7 +290,7 @@ static double apart(const struct edges *edges, const struct sum *x, const struct
     return most;
 }
 
-/* The shares of the bins asked for, of those that the sum has. */
+/* Combines the bins of the sum into the requested ones. */
 static void gather(const struct edges *edges, const struct sum *s, double *share)
 {
     for (int i = 0, at = edges->first; i < edges->n - 1; i++)
@@ -297,14 +298,16 @@ static void gather(const struct edges *edges, const struct sum *s, double *share
             share[i] += s->in[at] / s->total;
 }
 
-enum { LEVELS = 5 }; /* looks: 16, 8, 4, 2 and 1 times fewer rings and angles */
+enum { LEVELS = 5 }; /* 16, 8, 4, 2 and 1 times fewer rings and angles */
 
-/* Sums ever closer until the error is as small as it may be: at least three, of which the last one is the answer, in
- * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
- * difference three quarters are counted. Near edge on, where they do not yet, all of it is, and of four sums at least.
- * Two sums may come nearer by chance, wherever they are looked at: so no less is counted than a quarter of what the
- * halving before shows. The table errs with the sixth power of its step, so that twice the step shows 63 times what is
- * left: an eighth is counted, and near edge on a quarter. */
+/* Refines sums until the error is within the tolerance or no finer sum exists. There are at least three; the last
+ * one, sums[*n], is the answer. Returns the estimated error.
+ *
+ * The error of the cells falls as the square of their size, so that halving changes the sum by three times the
+ * remaining error: three quarters of the difference are reported, for safety. Near edge-on, where this does not hold
+ * yet, the whole difference is reported, from at least four sums. Two sums may agree by chance, so at least a
+ * quarter of what the halving before suggests is reported. The error of the table falls as the sixth power of its
+ * step, so that twice the step shows 63 times the error: an eighth is reported, and near edge-on a quarter. */
 static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
                        const struct kd_lamppost *lamp, const struct edges *edges, struct work *work,
                        struct sum sums[LEVELS + 1], int *n)

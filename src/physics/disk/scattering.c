@@ -4,7 +4,7 @@
 
 #define PI 3.14159265358979323846
 
-/* Nodes of Gauss and Legendre's rule. In the variable s, mu = s^2, H has no infinite slope at mu = 0 that counts:
+/* Nodes of Gauss-Legendre quadrature. In the variable s, mu = s^2, the infinite slope of H at mu = 0 is harmless:
  * errors are some 1e-9. */
 enum { NODES = 48, ROUNDS = 400 };
 struct rule { double mu[NODES], weight[NODES]; };
@@ -14,7 +14,7 @@ static struct rule gauss(void)
     struct rule rule;
     for (int i = 0; i < NODES; i++) {
         double x = cos(PI * (i + 0.75) / (NODES + 0.5)), slope = 1;
-        for (int k = 0; k < 60; k++) { /* Newton, on the recurrence of the polynomials */
+        for (int k = 0; k < 60; k++) { /* Newton's method, by the recurrence of the polynomials */
             double p = x, before = 1;
             for (int n = 2; n <= NODES; n++) {
                 const double next = ((2 * n - 1) * x * p - (n - 1) * before) / n;
@@ -34,8 +34,8 @@ static struct rule gauss(void)
     return rule;
 }
 
-/* H(mu) of the characteristic function `scale` (1 - mu^2), by 1/H = sqrt(1 - 2 psi0) + the integral of psi(m) m
- * H(m)/(mu + m), psi0 that of psi (section 38, equation 12), from its values at the nodes. */
+/* H(mu) for the characteristic function psi = scale (1 - mu^2): 1/H = sqrt(1 - 2 psi0) + the integral of psi(m) m
+ * H(m)/(mu + m), psi0 being the integral of psi (section 38, equation 12), from its values at the nodes. */
 static double h_at(const struct rule *rule, const double *h, double scale, double root, double mu)
 {
     double sum = root;
@@ -46,8 +46,8 @@ static double h_at(const struct rule *rule, const double *h, double scale, doubl
     return 1 / sum;
 }
 
-/* Where all light is scattered, 2 psi0 = 1, plain iteration swings about the answer: the mean of two rounds does
- * not. */
+/* With conservative scattering, 2 psi0 = 1, plain iteration oscillates about the solution; the mean of two rounds
+ * does not. */
 static void solve(const struct rule *rule, double scale, double root, double h[NODES])
 {
     for (int i = 0; i < NODES; i++)
@@ -65,8 +65,8 @@ static void solve(const struct rule *rule, double scale, double root, double h[N
     }
 }
 
-/* I_l = 3/8 F q/sqrt(2) H_l and I_r = 3/8 F 1/sqrt(2) H_r (mu + c), H_l and H_r those of 3/4 (1 - mu^2) and 3/8 (1 -
- * mu^2) (section 68, equation 139; F is pi times the flux). Straight up both are the same, q H_l(1) = (1 + c)
+/* I_l = 3/8 F q/sqrt(2) H_l and I_r = 3/8 F 1/sqrt(2) H_r (mu + c), H_l and H_r belonging to 3/4 (1 - mu^2) and 3/8
+ * (1 - mu^2) (section 68, equation 139; F is pi times the flux). At mu = 1 both are equal, q H_l(1) = (1 + c)
  * H_r(1), and q^2 = 2 (1 - c^2): so c = (2 k - 1)/(2 k + 1), k = (H_l(1)/H_r(1))^2. */
 void kd_scattered_light(const double *mu, size_t n, struct kd_scattered *out)
 {

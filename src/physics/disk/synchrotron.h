@@ -1,42 +1,42 @@
-/* These numbers of synchrotron light are the same everywhere in a picture: the kernels have the rest
+/* Constants of synchrotron emission that are the same for a whole picture; the kernels compute the rest
  * (shaders/emit/synchrotron.glsl). Pure, any thread. */
 #ifndef KD_PHYSICS_DISK_SYNCHROTRON_H
 #define KD_PHYSICS_DISK_SYNCHROTRON_H
 
-/* The kernels' units: e^2/c cm^-3 GHz (e in Gaussian units) of emissivity, W m^-3 Hz^-1 sr^-1, and that over 2h
- * GHz^3/c^2 of absorptivity, 1/m. */
+/* The kernels' units. Emissivity: e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1. Absorptivity: that
+ * over 2h GHz^3/c^2, in 1/m. */
 double kd_synchrotron_light_unit(void);
 double kd_synchrotron_depth_unit(void);
 
-/* Electrons whose number goes as gamma^-p from gamma_min to gamma_max shine with j = light nu_c sin(theta) (nu/(nu_c
- * sin(theta)))^(-(p - 1)/2) and take away alpha = depth (nu/(nu_c sin(theta)))^(-(p + 2)/2)/nu, in those units for n
- * in cm^-3 and nu, nu_c in GHz (A. Pandya et al. 2016, ApJ 822, 34, equations 33 and 34). p above 1. */
+/* Electrons with a power law gamma^-p from gamma_min to gamma_max emit j = light nu_c sin(theta) (nu/(nu_c
+ * sin(theta)))^(-(p - 1)/2) and absorb alpha = depth (nu/(nu_c sin(theta)))^(-(p + 2)/2)/nu, in those units for n in
+ * cm^-3 and nu, nu_c in GHz (A. Pandya et al. 2016, ApJ 822, 34, equations 33 and 34). p > 1. */
 struct kd_synchrotron_power { double log2_light, log2_depth; };
 struct kd_synchrotron_power kd_synchrotron_power(double p, double gamma_min, double gamma_max);
 
-/* Electrons of a kappa distribution whose width is w = Theta (kappa - 3)/kappa, for kappa above 3 (equations 35 to
- * 44, which hold for kappa up to 7.5): with z = kappa w and X = nu/(nu_c z^2 sin(theta)), in the same units, by the
- * least of a law for low and one for high frequencies,
+/* Electrons of a kappa distribution of width w = Theta (kappa - 3)/kappa, kappa > 3 (equations 35 to 44, valid for
+ * kappa up to 7.5). With z = kappa w and X = nu/(nu_c z^2 sin(theta)), in the same units, a low-frequency and a
+ * high-frequency law
  *
  *   j: nu_c sin(theta) light (X^(1/3) | X^(-(kappa - 2)/2)),   alpha: depth/(nu z^3) (F(z) X^(-2/3) | X^(-(kappa +
  *     1)/2)),
  *
- * joined as (low^-s + high^-s)^(-1/s). All but s are log2. */
+ * are joined as (low^-s + high^-s)^(-1/s). All members except s (`_sharp`) are log2. */
 struct kd_synchrotron_kappa { double light_low, light_high, light_sharp, depth_low, depth_high, depth_sharp; };
 struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa);
 
-/* Q and V of the same (equations 35 to 44), over I's law for low or for high frequencies, log2 but for s: Q has 1/2
- * of j's for low ones and 25/48 of alpha's; V has over w those numbers times (sin^-n - 1)^m, n and m being 12/5 and
- * 12/25, 5/2 and 11/25 for j and 57/25 and 223/500, 41/20 and 1/2 for alpha, times X^(-7/20) for low and X^(-1/2)
- * for high frequencies; alpha's for high ones is over w^(116/125). V of j is joined as I is. */
+/* Q and V of the same (equations 35 to 44), relative to I's low-frequency or high-frequency law; log2 except for s.
+ * Q has 1/2 of j's for low ones and 25/48 of alpha's; V has over w those numbers times (sin^-n - 1)^m, n and m being
+ * 12/5 and 12/25, 5/2 and 11/25 for j and 57/25 and 223/500, 41/20 and 1/2 for alpha, times X^(-7/20) for low and
+ * X^(-1/2) for high frequencies; alpha's for high ones is over w^(116/125). V of j is joined as I is. */
 struct kd_synchrotron_kappa_polarised {
     double light_q_high, light_q_sharp, light_v_low, light_v_high, depth_q_high, depth_q_sharp, depth_v_low,
         depth_v_high, depth_v_sharp;
 };
 struct kd_synchrotron_kappa_polarised kd_synchrotron_kappa_polarised(double kappa);
 
-/* Gives log2 of F(z) = z^a 2F1(a, kappa + 1; a + 1; -z), a = kappa - 1/3, at n places log2(z) = first + i step, from
- * below -8. */
+/* Gives log2 of F(z) = z^a 2F1(a, kappa + 1; a + 1; -z), a = kappa - 1/3, at the n points log2(z) = first + i step.
+ * first must be below -8. */
 void kd_synchrotron_kappa_table(double kappa, double first, double step, int n, double *out);
 
 #endif

@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-/* One logarithm of Page & Thorne's eq. 15n; log1p because the bracket cancels to second order at the ISCO. */
+/* One of the logarithms in Page & Thorne's eq. 15n; by log1p, because the bracket cancels to second order at the
+ * ISCO. */
 static double log_term(double a, double x, double x0, double root, double other1, double other2)
 {
     if (root == 0) /* a = 0: (root - a)^2 / root -> 0 */
@@ -23,7 +24,7 @@ double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r)
     if (!(r > r0))
         return 0;
     double x = sqrt(r), x0 = sqrt(r0), dx = (r - r0) / (x + x0);
-    /* Roots of x^3 - 3x + 2a; the middle one by a sine, exact as a -> 0. */
+    /* Roots of x^3 - 3x + 2a; the middle one as a sine, which is accurate for a -> 0. */
     double x1 = 2 * cos((acos(a) - M_PI) / 3), x2 = 2 * sin(asin(a) / 3), x3 = -2 * cos(acos(a) / 3);
     double bracket = dx - 1.5 * a * log1p(dx / x0) - log_term(a, x, x0, x1, x2, x3) - log_term(a, x, x0, x2, x1, x3) -
                      log_term(a, x, x0, x3, x1, x2);
@@ -37,16 +38,15 @@ double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r)
     return r > r0 ? 3 / (8 * M_PI * r * r * r) * (1 - sqrt(r0 / r)) : 0;
 }
 
-/* The flux is B(x)/(x^4 (x^3 - 3x + 2a)) but for constants, with x = sqrt(r) = 1 + y, x0 = sqrt(r_isco), d = 1 - a
- * and
+/* Up to constants the flux is B(x)/(x^4 (x^3 - 3x + 2a)), with x = sqrt(r) = 1 + y, x0 = sqrt(r_isco), d = 1 - a and
  *
  *   B' = (x^4 - 6x^2 + 8ax - 3a^2)/(x (x^3 - 3x + 2a))      x^3 - 3x + 2a = y^2 (y + 3) - 2d
  *
- * (15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself has
- * all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, of which y - y0 is a factor. */
+ * (eq. 15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself
+ * keeps all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, which has the factor y - y0. */
 struct rise {
-    double a, y0, gap; /* from x0 to the nearest root of x^3 - 3x + 2a, the photon orbit's */
-    double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth for a hole that is nearly extremal too */
+    double a, y0, gap; /* distance of x0 from the nearest root of x^3 - 3x + 2a, that of the photon orbit */
+    double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth even for a nearly extremal hole */
 };
 
 static double below(double a, double y) { return y * y * (y + 3) - 2 * (1 - a); }
@@ -65,7 +65,7 @@ static double share(double along, double left, const void *context)
     return r->turns * (beyond + r->gap) * slope_of_bracket(r->a, r->y0, beyond);
 }
 
-/* Above 0 where the flux grows, at x0 + span. */
+/* Positive where the flux grows with r, at x0 + span. */
 static double growth(const void *user, double span)
 {
     struct rise r = *(const struct rise *)user;
@@ -78,7 +78,7 @@ double kd_disk_peak_page_thorne(const struct kd_hole *hole)
 {
     double x0 = sqrt(kd_kerr_isco(hole));
     struct rise r = { .a = hole->a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(hole)) };
-    /* Below 2.1 r_isco for all spins, and for an extremal hole at the ISCO. */
+    /* The maximum is below 2.1 r_isco for all spins, and at the ISCO for an extremal hole. */
     double x = x0 + kd_root(growth, &r, 1e-7 * x0, 0.5 * x0);
     return x * x;
 }
@@ -93,10 +93,10 @@ double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda)
     return 1 / (kd_kerr_ut(hole, r) * (1 - kd_kerr_omega(hole, r) * lambda));
 }
 
-/* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma the sign of p^r, with the radial
- * potentials R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r is known in closed
- * form, which does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the
- * horizon; multiplied out by P U + sqrt(R S) it does not. */
+/* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma being the sign of p^r, with the radial
+ * potentials R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r has a closed form that
+ * does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the horizon;
+ * multiplied by its conjugate P U + sqrt(R S) it does not. */
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards)
 {
     const double a = hole->a;

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* ln h but for a constant, equation 3.6 by the lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma
- * and U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 is U^2 (1 + U^2) g_phiphi/lapse^2. The shader has the same
+/* ln h up to a constant: equation 3.6 with lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma and
+ * U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 equals U^2 (1 + U^2) g_phiphi/lapse^2. The shader uses the same
  * constant (emit/plasma.glsl). */
 static double enthalpy(const struct kd_hole *hole, double l, double r, double u)
 {
@@ -28,7 +28,7 @@ static double orbit(double a, double r)
     return (r * x + a) * (r * r - 2 * a * x + a * a) / (r * x * (r * x - 3 * x + 2 * a));
 }
 
-/* Where ln h vanishes between a place in it and one outside. */
+/* Radius where ln h vanishes, between one inside the torus and one outside, by bisection. */
 static double outer_of(const struct kd_torus *torus, const struct kd_hole *hole, double within, double beyond)
 {
     for (int i = 0; i < 60; i++) {

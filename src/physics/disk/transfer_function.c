@@ -4,22 +4,22 @@
 
 #include <math.h>
 
-/* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy tells alpha, and along a line of one alpha the radius
- * r(beta) that is seen falls from the near side to its least and grows again on the far side. A ring is seen at
- * alpha twice if that least is below r, and its ends are where it is r. This holds next to edge on as well, where
- * the image of the far side stands steeply over that of the near one. */
+/* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy determines alpha. Along a line of constant alpha the
+ * visible radius r(beta) decreases from the near side to a minimum and grows again on the far side. A ring is seen
+ * at alpha twice if that minimum is below r; at the ring's ends it equals r. This holds also next to edge-on, where
+ * the image of the far side stands steeply over that of the near side. */
 
-#define SHORTER 0.61803398874989485 /* of a golden section: (sqrt(5) - 1)/2 */
-#define LEAST_WIDTH 1e-8            /* of the line, at the least radius, whose own error is the square of that */
-#define APART 1e-4 /* of the way between both places, for the slope of r: central differences leave its square */
+#define SHORTER 0.61803398874989485 /* ratio of the golden section: (sqrt(5) - 1)/2 */
+#define LEAST_WIDTH 1e-8 /* relative width of the bracket of the minimum, whose error is the square of that */
+#define APART 1e-4       /* of the distance of both places, for central differences, which err with its square */
 
 struct line {
     const struct kd_disk_image *image;
     double r, alpha;
-    int side; /* of the ends: 1: alpha > 0, red */
+    int side; /* of the ends; 1: alpha > 0, red */
 };
 
-/* The radius at beta beside that of the ring; infinite light is far out. */
+/* Visible radius at beta less that of the ring; light from infinity counts as far out. */
 static double off(const void *user, double beta)
 {
     const struct line *s = user;
@@ -27,10 +27,10 @@ static double off(const void *user, double beta)
     return (isfinite(r) ? r : 1e300) - s->r;
 }
 
-/* As far as the line goes upwards and downwards: there r is larger than the ring's. */
+/* End of the line upwards and downwards: there r exceeds the ring's. */
 static double reach(const struct line *s) { return 2 * s->r + 20; }
 
-/* The beta of the least radius; any where it is below the ring's, if that is enough. */
+/* The beta of the minimum radius; if below_is_enough, any beta whose radius is below the ring's. */
 static double least(const struct line *s, bool below_is_enough)
 {
     double low = -reach(s), high = reach(s), a = high - SHORTER * (high - low), b = low + SHORTER * (high - low),

@@ -1,30 +1,30 @@
-/* This is Cunningham's transfer function of a thin disk: how a ring is seen, by energy. Double precision; pure, any
- * thread. G = c = M = 1.
+/* Cunningham's transfer function of a thin disk: the image of a ring by energy. Double precision; pure, any thread.
+ * G = c = M = 1.
  *
  *   f(g*, r) = g sqrt(g* (1 - g*)) |d(alpha, beta)/d(g*, r)|/(pi r)      g* = (g - g_min)/(g_max - g_min)
  *
  * Cunningham 1975, ApJ 202, 788; Speith, Riffert & Ruder 1995, Comput. Phys. Commun. 88, 109, eq. 1. A ring shows
  * each g between the ends twice, on the near and on the far side of the hole, and a line is F(g) dg = sum over both
- * of pi r f g^2 epsilon/sqrt(g* (1 - g*)) dg* dr (photons: line_profile.h). Here places are found by rays that lead
- * there, and the determinant is 1/(|dg/d alpha| |dr/d beta|), the first at one r and in closed form, the second at
- * one alpha by differences of such rays. */
+ * of pi r f g^2 epsilon/sqrt(g* (1 - g*)) dg* dr (photons: line_profile.h). Places are found by rays that meet the
+ * ring. The determinant is 1/(|dg/d alpha| |dr/d beta|): the first factor at constant r in closed form, the second
+ * at constant alpha by finite differences of rays. */
 #ifndef KD_PHYSICS_DISK_TRANSFER_FUNCTION_H
 #define KD_PHYSICS_DISK_TRANSFER_FUNCTION_H
 
 #include "physics/disk/disk_image.h"
 
-/* Where a ring is bluest and reddest. */
+/* The bluest and the reddest point of a ring. */
 struct kd_transfer_ring {
     double r, g_min, g_max;
-    double alpha[2], beta[2]; /* where: its red end, its blue end */
+    double alpha[2], beta[2]; /* their places: red end, blue end */
 };
 
-/* False where all of it has one energy: face on. */
+/* False if the ring has a single energy: face-on. */
 bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_transfer_ring *ring);
 
 struct kd_transfer { double f, mu, alpha, beta; };
-/* The near side and the far side; 0 < g_star < 1; f to some 1e-6. False where no such place was found, which has not
- * been seen. */
+/* Results for the near side and the far side; 0 < g_star < 1; f is accurate to some 1e-6. False if such a place is
+ * not found, which has not been observed. */
 bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star,
                     struct kd_transfer out[2]);
 

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* The next quarter turn is taken off while the angle still is degrees, where nothing is rounded by it. `first`:
- * cosines begin a quarter turn ahead of sines. 0 + : no negative zero. */
+/* Quarter turns are removed in degrees, where this is exact. `first`: 1 for cosines, which lead sines by a quarter
+ * turn. 0 + avoids a negative zero. */
 static double turned(double degrees, int first)
 {
     int quarter;

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Squared relative spread below which the seventh-degree series is exact to 1e-17: its first term left out is
- * of the eighth degree with a coefficient below 1/20, and 0.0095^8 / 20 = 3e-18. */
+/* Squared relative spread below which the seventh-degree series is accurate to 1e-17: the first omitted term is of
+ * the eighth degree with a coefficient below 1/20, and 0.0095^8 / 20 = 3e-18. */
 static const double spread2 = 9e-5;
 
 /* Each step brings the arguments four times closer; arguments 1e300 apart take some 12 steps. */
@@ -16,7 +16,7 @@ static struct kd_carlson_arg arg_of(double x, double y, double z)
     return (struct kd_carlson_arg) { sqrt(x), ry + rz, ry * rz };
 }
 
-/* x + lambda, and the arguments of the next step. */
+/* Duplicates the arguments for the next step; returns x + lambda. */
 static double duplicate(struct kd_carlson_arg *s)
 {
     double g = s->first * (s->first + s->sum) + s->root, h = sqrt(g);
@@ -109,7 +109,7 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
         if (converged(x, yz) && y_z * y_z < spread2)
             break;
         double rp = sqrt(p), d = (rp + s.first) * (p + rp * s.sum + s.root);
-        /* 1 + e is a product of positive terms, whatever rounding makes of e */
+        /* 1 + e is a product of positive terms; rounding must not make it negative */
         sum += scale / d * rc_unit(fmax(delta / (d * d), -1 + 1e-16));
         p = 0.25 * (p + s.first * s.sum + s.root);
         duplicate(&s);

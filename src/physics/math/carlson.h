@@ -1,15 +1,14 @@
-/* Computes Carlson's symmetric elliptic integrals by duplication. Double precision, pure functions, any thread,
- * no units.
+/* Carlson's symmetric elliptic integrals by duplication. Double precision, pure functions, any thread, no units.
  *
  *   R_F(x,y,z)   = 1/2 Int_0^inf dt / sqrt((t+x)(t+y)(t+z))
  *   R_C(x,y)     = R_F(x,y,y)
  *   R_J(x,y,z,p) = 3/2 Int_0^inf dt / ((t+p) sqrt((t+x)(t+y)(t+z)))
  *   R_D(x,y,z)   = R_J(x,y,z,z)
  *
- * Sources: B. C. Carlson 1995, Numer. Algorithms 10, 13 (duplication, R_J's sum of R_C); DLMF 19.36(i) (the series
- * that ends it, to the seventh degree: the argument spread at which it starts leaves less than 1e-17); DLMF 19.20.14
- * (negative p). Relative error a few 1e-16, measured below 2e-15 over 1e-10 ... 1e10. Outside a function's domain
- * the result is NaN; where the integral diverges, INFINITY. */
+ * Sources: B. C. Carlson 1995, Numer. Algorithms 10, 13 (duplication, R_J's sum of R_C); DLMF 19.36(i) (the final
+ * series, to the seventh degree: the spread of arguments at which it starts leaves an error below 1e-17); DLMF
+ * 19.20.14 (negative p). Relative error a few 1e-16, measured below 2e-15 over 1e-10 ... 1e10. Outside a function's
+ * domain the result is NaN; where the integral diverges, INFINITY. */
 #ifndef KD_PHYSICS_MATH_CARLSON_H
 #define KD_PHYSICS_MATH_CARLSON_H
 
@@ -27,8 +26,8 @@ double kd_carlson_rj(double x, double y, double z, double p);
 /* x, y >= 0, at most one of them 0; z > 0. */
 double kd_carlson_rd(double x, double y, double z);
 
-/* The same where y and z are either real and >= 0 or complex conjugates, in real arithmetic: only sums that are real
- * then are kept,
+/* The same where y and z are either real and >= 0 or complex conjugates, in real arithmetic: only the sums that are
+ * real in both cases are stored,
  *
  *   first = sqrt(x),   sum = sqrt(y) + sqrt(z),   root = sqrt(y z),
  *
@@ -36,8 +35,8 @@ double kd_carlson_rd(double x, double y, double z);
  *
  *   first' = sqrt(g)/2,   root' = sum sqrt(g)/4,   sum' = sqrt(sum (sum + 2 first + 2 sqrt(g)))/2,
  *
- * from y + lambda = (sqrt(y) + sqrt(x))(sqrt(y) + sqrt(z)): nothing is subtracted, so that y and z on the verge of
- * meeting, or of vanishing, cost no digits. Domain: first >= 0, sum > 0, root >= 0, at most one of x, y, z zero. */
+ * from y + lambda = (sqrt(y) + sqrt(x))(sqrt(y) + sqrt(z)). Nothing is subtracted, so that nearly equal, or nearly
+ * vanishing, y and z lose no digits. Domain: first >= 0, sum > 0, root >= 0, at most one of x, y, z zero. */
 struct kd_carlson_arg { double first, sum, root; };
 
 double kd_carlson_rf_arg(struct kd_carlson_arg arg);

@@ -1,6 +1,6 @@
-/* These are constants of nature in SI units. CODATA 2018: E. Tiesinga et al. 2021, Rev. Mod. Phys. 93, 025010; those
- * without an error are exact by the definition of the units (SI 2019). Nominal solar values: IAU 2015 resolution B3
- * (A. Prsa et al. 2016, AJ 152, 41). Lengths: IAU 2012 resolution B2, IAU 2015 resolution B2. */
+/* Physical constants in SI units. CODATA 2018: E. Tiesinga et al. 2021, Rev. Mod. Phys. 93, 025010; those without an
+ * error are exact by the definition of the units (SI 2019). Nominal solar values: IAU 2015 resolution B3 (A. Prsa et
+ * al. 2016, AJ 152, 41). Lengths: IAU 2012 resolution B2, IAU 2015 resolution B2. */
 #ifndef KD_PHYSICS_MATH_CONSTANTS_H
 #define KD_PHYSICS_MATH_CONSTANTS_H
 
@@ -27,7 +27,7 @@
 #define KD_YEAR_S 31557600.0              /* Julian year, IAU */
 #define KD_MICROARCSECOND_RAD 4.84813681109535994e-12 /* pi / 6.48e11 */
 
-/* M = G m / c^2 and G m / c^3 of a solar mass. */
+/* G m / c^2 and G m / c^3 of a solar mass: M in metres and in seconds. */
 #define KD_M_SUN_M (KD_GM_SUN_SI / (KD_C_M_S * KD_C_M_S))
 #define KD_M_SUN_S (KD_M_SUN_M / KD_C_M_S)
 

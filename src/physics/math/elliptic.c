@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* phi = turns pi + rest, |rest| <= pi/2. */
+/* phi = turns pi + rest, |rest| <= pi/2; s and c are sine and cosine of the rest. */
 struct reduced { double turns, s, c; };
 
 static struct reduced reduce(double phi)
@@ -55,13 +55,13 @@ double kd_elliptic_pi_complete(double n, double m)
     return kd_carlson_rf(0, 1 - m, 1) + (n == 0 ? 0 : n * kd_carlson_rj(0, 1 - m, 1, 1 - n) / 3);
 }
 
-/* Level n of the arithmetic-geometric mean belongs to the modulus k_n = (a_n - b_n)/(a_n + b_n) of the level
- * before. With c = cn/sn the descending transformation (DLMF 22.7.2-4) reads, going up,
+/* Level n of the arithmetic-geometric mean has the modulus k_n = (a_n - b_n)/(a_n + b_n) of the level before. With c
+ * = cn/sn the descending transformation (DLMF 22.7.2-4) reads, going up,
  *
  *   c_n = c_{n+1} dn_{n+1} a_{n+1}/a_n        dn_n = (b_n + a_{n+1} c_{n+1}^2)/(a_n + a_{n+1} c_{n+1}^2)
  *
- * and nothing is subtracted: near m = 1, where the recursion on the amplitude loses half its digits, cn and
- * dn keep theirs. */
+ * and nothing is subtracted. So near m = 1, where the recursion on the amplitude loses half its digits, cn and dn
+ * keep theirs. */
 struct kd_jacobi kd_jacobi(double u, double m, double m1)
 {
     if (!(m >= 0 && m1 >= 0))
@@ -73,7 +73,7 @@ struct kd_jacobi kd_jacobi(double u, double m, double m1)
     double a[16], b[16];
     int n = 0;
     a[0] = 1, b[0] = sqrt(m1);
-    /* Converges quadratically: a relative difference of 1e-8 is 1e-17 at the next level. 15 levels do m1 =
+    /* Converges quadratically: a relative difference of 1e-8 is 1e-17 at the next level. 15 levels suffice for m1 =
      * 1e-300. */
     for (; n < 15 && fabs(a[n] - b[n]) > 1e-8 * a[n]; n++) {
         a[n + 1] = 0.5 * (a[n] + b[n]);

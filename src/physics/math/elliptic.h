@@ -1,16 +1,16 @@
-/* Computes Legendre's elliptic integrals and Jacobi's elliptic functions, in the parameter m = k^2. Double
- * precision, pure functions, any thread, no units.
+/* Legendre's elliptic integrals and Jacobi's elliptic functions, in the parameter m = k^2. Double precision, pure
+ * functions, any thread, no units.
  *
  *   F(phi|m)    = Int_0^phi dx / sqrt(1 - m sin^2 x)
  *   E(phi|m)    = Int_0^phi sqrt(1 - m sin^2 x) dx
  *   Pi(n;phi|m) = Int_0^phi dx / ((1 - n sin^2 x) sqrt(1 - m sin^2 x))
  *
- * Any m with m sin^2 < 1 on the way, negative too; any real phi, by quasi-periodicity, where m < 1. Outside: NaN. Pi
- * past a pole (n sin^2 > 1, |phi| <= pi/2) is Cauchy's principal value. Relative error a few 1e-16 times the
+ * Domain: any m, also negative, with m sin^2 < 1 on the path; any real phi, by quasi-periodicity, if m < 1. Outside:
+ * NaN. Pi past a pole (n sin^2 > 1, |phi| <= pi/2) is Cauchy's principal value. Relative error a few 1e-16 times the
  * conditioning.
  *
- * Sources: DLMF 19.25(i) (in terms of Carlson's integrals), 22.20(ii) and 22.7(i) (Jacobi's functions by
- * the arithmetic-geometric mean and descending Landen transformations). */
+ * Sources: DLMF 19.25(i) (in terms of Carlson's integrals), 22.20(ii) and 22.7(i) (Jacobi's functions by the
+ * arithmetic-geometric mean and descending Landen transformations). */
 #ifndef KD_PHYSICS_MATH_ELLIPTIC_H
 #define KD_PHYSICS_MATH_ELLIPTIC_H
 
@@ -18,15 +18,16 @@ double kd_elliptic_f(double phi, double m);
 double kd_elliptic_e(double phi, double m);
 double kd_elliptic_pi(double n, double phi, double m);
 
-/* Complete: phi = pi/2. K is INFINITY at m = 1. */
+/* Complete integrals, phi = pi/2. K is INFINITY at m = 1. */
 double kd_elliptic_k(double m);
 double kd_elliptic_e_complete(double m);
 double kd_elliptic_pi_complete(double n, double m);
 
 struct kd_jacobi { double sn, cn, dn; };
 
-/* Jacobi's functions of u, 0 <= m <= 1. m1 = 1 - m is a parameter of its own, because near m = 1 the difference has no
- * digits. Relative error of each a few 1e-16 for |u| < K, besides that of an ulp or two in u. Domain |u| <= 2K. */
+/* Jacobi's functions of u, 0 <= m <= 1. m1 = 1 - m is a separate argument, because near m = 1 the difference has no
+ * digits. Relative error of each a few 1e-16 for |u| < K, in addition to that of an ulp or two in u. Domain |u| <=
+ * 2K. */
 struct kd_jacobi kd_jacobi(double u, double m, double m1);
 
 /* The amplitude: sn = sin(am); |u| <= 2K. */

@@ -1,4 +1,4 @@
-/* Finds the real roots of a real polynomial in an interval. Double precision, pure functions, any thread. */
+/* Real roots of a real polynomial in an interval. Double precision, pure functions, any thread. */
 #ifndef KD_PHYSICS_MATH_POLYNOMIAL_H
 #define KD_PHYSICS_MATH_POLYNOMIAL_H
 
@@ -7,9 +7,9 @@
 /* c[0] + c[1] x + ... + c[degree] x^degree, degree <= KD_POLYNOMIAL_DEGREE. */
 double kd_polynomial_at(const double *c, int degree, double x);
 
-/* The roots in [low, high], ascending; returns how many. Between two roots of the derivative there is one where the
- * sign changes. An extremum that is zero within rounding is a root counted twice: near a double root, coefficients
- * known to rounding do not say more. roots: room for `degree`. */
+/* The roots in [low, high], ascending; returns their number. Between neighbouring roots of the derivative there is
+ * one if the sign changes. An extremum that is zero within rounding counts as a double root, since rounded
+ * coefficients cannot resolve it further. roots: room for `degree`. */
 int kd_polynomial_roots(const double *c, int degree, double low, double high, double *roots);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* x = 1/(1 + exp(-pi sinh t)), so that dx/dt = pi cosh(t) x y. At |t| = 4.5 x y is 1e-61: what an inverse square
- * root at the end still has there is below 1e-30. */
+/* x = 1/(1 + exp(-pi sinh t)), so that dx/dt = pi cosh(t) x y. At |t| = 4.5 x y is 1e-61: the contribution beyond,
+ * even of an inverse square root at the end, is below 1e-30. */
 static const double reach = 4.5;
 
 static double term(kd_integrand f, const void *context, double t)

@@ -1,14 +1,13 @@
-/* Finds a root of a function of one variable in an interval that brackets it. Double precision, pure, any
- * thread. */
+/* Root of a function of one variable in a bracketing interval. Double precision, pure, any thread. */
 #ifndef KD_PHYSICS_MATH_ROOT_H
 #define KD_PHYSICS_MATH_ROOT_H
 
 typedef double (*kd_root_fn)(const void *user, double x);
 
-/* x between low and high, which may come in either order, with f(x) = 0, to an ulp or two (next to 0, to 1e-18 of
- * the ends). f has different signs at the ends, or is 0 at one of them; else NaN. It need not be smooth.
- * Chandrupatla 1997, Adv. Eng. Softw. 28, 145: inverse quadratic interpolation where that is safe, bisection
- * elsewhere; some ten calls. */
+/* Returns x between low and high, in either order, with f(x) = 0, to an ulp or two (next to 0, to 1e-18 of the
+ * ends). f must have different signs at the ends, or be 0 at one of them; otherwise NaN. It need not be smooth.
+ * Chandrupatla 1997, Adv. Eng. Softw. 28, 145: inverse quadratic interpolation where that is safe, otherwise
+ * bisection; some ten calls. */
 double kd_root(kd_root_fn f, const void *user, double low, double high);
 
 #endif

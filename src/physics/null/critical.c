@@ -11,12 +11,11 @@ enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
-    double right, up2, inwards, energy; /* the latter at infinity, over what is measured */
-    double x, y2;                       /* as seen from the centre; at a finite radius components of the direction */
+    double right, up2, inwards, energy; /* energy: at infinity, over the measured energy */
+    double x, y2;                       /* relative to the centre; at a finite radius components of the direction */
 };
 
-/* `at` is the orbit's place over sin i. Where the inclination is small, only orbits near the polar one are
- * seen. */
+/* Labels of the orbit at the place `at` * sin i. At a small inclination only orbits near the polar one are visible. */
 static struct place label(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -30,8 +29,8 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* The direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a
- * negative number here, is left out: in a level frame it is seen in `up` alone. */
+/* Direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a
+ * negative number here, is left out: in a level frame it affects `up` only. */
 static void look(const struct kd_critical *c, struct place *p)
 {
     const struct kd_shell_orbit *o = &p->orbit;
@@ -40,7 +39,7 @@ static void look(const struct kd_critical *c, struct place *p)
     const struct kd_look seen = c->tetrad.falls && photon.radial <= 0
                                     ? kd_tetrad_look_inwards(&c->tetrad, &photon, p->beta2)
                                     : kd_tetrad_look(&c->tetrad, &photon);
-    double up = seen.energy / c->tetrad.theta.polar; /* over beta */
+    double up = seen.energy / c->tetrad.theta.polar; /* divided by beta */
     p->right = seen.right;
     p->inwards = seen.inwards;
     p->energy = seen.energy;
@@ -64,8 +63,9 @@ static struct place see(const struct kd_critical *c, double at)
 
 static double beta2_at(const void *curve, double at) { return label(curve, at).beta2; }
 
-/* An end shows the equatorial orbit itself to an observer in the equator, else the orbit that has its turning point
- * at the observer's latitude. Near the axis that is far from the equatorial one, over sin i. */
+/* An observer in the equatorial plane sees the equatorial orbit itself at an end of the curve. Others see the orbit
+ * whose turning point is at the observer's latitude; near the axis that is far from the equatorial one, in units of
+ * sin i. */
 static double end(const struct kd_critical *c, double equatorial)
 {
     double limit = copysign(1, equatorial);
@@ -113,18 +113,18 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     }
     c.low = end(&c, c.shell.prograde);
     c.high = end(&c, c.shell.retrograde);
-    if (signbit(a)) { /* the mirror image: retrograde orbits are seen on the left */
+    if (signbit(a)) { /* the mirror image: retrograde orbits appear on the left */
         double swap = c.low;
         c.low = c.high, c.high = swap;
     }
     c.left = along(&c, c.low), c.right = along(&c, c.high);
-    if (c.right < c.left) /* through the direction of +e_r */
+    if (c.right < c.left) /* the curve passes the direction of +e_r */
         c.right += 2 * M_PI;
     c.centre = 0.5 * (c.left + c.right);
     return c;
 }
 
-/* Zero at the angle sought, rising with x. On the sides beta is the root of a difference, and its square is
+/* Zero at the requested angle, rising with x. Near the sides beta is the root of a difference, so its square is
  * used. */
 struct aim {
     const struct kd_critical *curve;
@@ -139,14 +139,14 @@ static double miss(const void *user, double at)
     return fabs(k) < s ? x * s - sqrt(y2) * k : x * fabs(x) * s * s - y2 * k * fabs(k);
 }
 
-/* The point at an angle from 0 to pi. */
+/* The point of the curve at an angle from 0 to pi. */
 static struct place aim_at(const struct kd_critical *c, double angle)
 {
     if (angle == 0)
         return see(c, c->high);
     struct aim aim = { c, cos(angle), sin(angle) };
     double at = angle == M_PI ? c->low : kd_root(miss, &aim, c->low, c->high);
-    if (isnan(at)) /* within rounding of an end */
+    if (isnan(at)) /* the angle is within rounding of an end */
         at = angle < 1 ? c->high : c->low;
     return see(c, at);
 }
@@ -164,7 +164,7 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
 {
     double turned = remainder(angle, 2 * M_PI), upper = fabs(turned), s = sin(upper), k = cos(upper);
     struct place p = aim_at(c, upper);
-    /* One coordinate is better known than the other, and the angle gives that. */
+    /* Takes the better-known coordinate, and the other from the angle. */
     bool side = fabs(k) >= s;
     double y = side ? p.x * s / k : sqrt(fmax(p.y2, 0)), x = side ? p.x : y * k / s, rho = hypot(x, y);
     struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = angle, .rho = rho, .inwards = 1 };
@@ -199,16 +199,16 @@ static struct kd_critical_point upper(const struct kd_critical *c, double at)
 
 struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double along)
 {
-    double half = sin(0.5 * M_PI * along); /* denser at the ends, where beta is a root */
+    double half = sin(0.5 * M_PI * along); /* denser at the ends, where beta is a square root */
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 
-/* (ln y - ln y_P)/(a sin i) of a place, which is w/(y_P sin i) where that is small; and the place back. */
+/* (ln y - ln y_P)/(a sin i) of a place, which is w/(y_P sin i) where that is small; and its inverse. */
 static double evenly(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
     const double scale = s->spin * c->sine, half = 0.5 * s->y_polar, w = scale * at / s->y_polar;
-    if (w < -0.5) /* y < y_P/2, where places are logarithms */
+    if (w < -0.5) /* y < y_P/2, where places are logarithmic */
         return (log(0.5) + scale * at / half + 1) / scale;
     return scale > 1e-8 ? log1p(w) / scale : at / s->y_polar;
 }
@@ -228,8 +228,8 @@ struct kd_critical_point kd_critical_round(const struct kd_critical *c, double a
     return upper(c, along <= 0 ? c->low : along >= 1 ? c->high : place_evenly(c, low + (high - low) * half * half));
 }
 
-/* Sums over the upper half, with half the weight at the ends. rho enters less half the width, so that its squares
- * keep their digits. */
+/* Sums over the upper half of the curve, with half the weight at the ends. Half the width is subtracted from rho, so
+ * that the squares keep their digits. */
 struct sums { double off, off2, area; };
 
 static void add(const struct kd_critical *c, double angle, double weight, struct sums *s)
@@ -240,8 +240,7 @@ static void add(const struct kd_critical *c, double angle, double weight, struct
     s->area += weight * (isinf(c->observer.radius) ? 0.5 * rho * rho : 2 * half * half);
 }
 
-/* The largest height lies where d(rho sin(angle)) = 0: golden section between the neighbours of the highest
- * sample. */
+/* The largest height is where d(rho sin(angle)) = 0: golden section between the neighbours of the highest sample. */
 static double height(const struct kd_critical *c, double step)
 {
     const double golden = 0.5 * (sqrt(5) - 1);
@@ -252,7 +251,7 @@ static double height(const struct kd_critical *c, double step)
             best = y, at = x;
     }
     double low = at - step, high = at + step;
-    while (high - low > 1e-8) { /* flat: the height is good to the square of it */
+    while (high - low > 1e-8) { /* at a maximum the height is accurate to the square of this */
         double p = high - golden * (high - low), q = low + golden * (high - low);
         if (kd_critical_at(c, p).rho * sin(p) > kd_critical_at(c, q).rho * sin(q))
             high = q;

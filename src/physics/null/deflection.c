@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Bardeen, Press & Teukolsky 1972: L/E at r = 4 cos^2(x), x = acos(-a)/3, comes to 6 cos x - a. */
+/* Bardeen, Press & Teukolsky 1972: L/E at r = 4 cos^2(x), x = acos(-a)/3, equals 6 cos x - a. */
 double kd_deflection_critical(const struct kd_hole *hole)
 {
     const double a = hole->a;
@@ -21,9 +21,9 @@ static double drag(double a, double b, double w) { return a * w * (2 - a * b * w
 
 struct far { double a, b, w0; /* w0: at the closest approach */ };
 
-/* With w = w0 sin(psi) the first root drops out of w'^2 = w0^2 cos^2(psi) D(psi), and
+/* With w = w0 sin(psi) the first root cancels in w'^2 = w0^2 cos^2(psi) D(psi), and
  *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   D = b^2 - a^2 - 2 (b - a)^2 w0 (s + 1/(1 + s)),   s = sin(psi).
- * phi'^2 - D, written out, is free of b^2: nothing of the order of the flat pi is left to cancel. */
+ * phi'^2 - D, written out, is free of b^2: no term of the order of the flat pi remains to cancel. */
 static double far_bending(double x, double y, const void *context)
 {
     const struct far *f = context;
@@ -34,8 +34,8 @@ static double far_bending(double x, double y, const void *context)
     return M_PI * (a * a + mass + chi * (2 * b + chi)) / (root * (root + b + chi));
 }
 
-/* Newton for w'^2 = 0 from 1/b, right of which it lies; the cubic is convex enough out here that it never overshoots
- * far. */
+/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root; the cubic is convex enough here that it
+ * hardly overshoots. */
 static double nearest_w(double a, double b)
 {
     double quadratic = b * b - a * a, cubic = 2 * (b - a) * (b - a), w = 1 / b;
@@ -95,8 +95,8 @@ double kd_deflection_weak_second(const struct kd_hole *hole, double b)
 /* On the critical ray w'^2 = cubic (w_c - w)^2 (w - w_1), w_1 = quadratic/cubic - 2 w_c < 0. */
 struct critical { double a, b, w, w1, cubic, rate; };
 
-/* What the pole at w_c leaves: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(cubic (w - w_1)), with
- * the factor taken out of both differences, that of chi' and that of the root. */
+/* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(cubic (w -
+ * w_1)). The factor is taken out of both differences, that of chi' and that of the root. */
 static double regular(double x, double y, const void *context)
 {
     (void)y;
@@ -107,8 +107,8 @@ static double regular(double x, double y, const void *context)
     return chi / root + c->rate * c->cubic * wc / (root * (root + root_c));
 }
 
-/* For b = b_c (1 + delta) the double root parts by +-e, e^2 = delta b_c (d w'^2/db)/(cubic (w_c - w_1)), and the pole
- * integrates to rate arcosh(w_c/e). */
+/* For b = b_c (1 + delta) the double root separates by +-e, e^2 = delta b_c (d w'^2/db)/(cubic (w_c - w_1)), and the
+ * pole integrates to rate arcosh(w_c/e). */
 struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
 {
     const double a = hole->a;

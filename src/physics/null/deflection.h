@@ -1,6 +1,6 @@
-/* This is by how much light bends in the equatorial plane of Kerr. Double precision, pure functions, any thread. G =
- * c = M = 1; impact parameter b = |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns
- * against it. Angles in radians.
+/* Deflection of light in the equatorial plane of Kerr. Double precision, pure functions, any thread. G = c = M = 1;
+ * impact parameter b = |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns against it.
+ * Angles in radians.
  *
  * Sources: C. G. Darwin 1959, Proc. R. Soc. Lond. A 249, 180 (Schwarzschild); S. V. Iyer & E. C. Hioki 2009,
  * arXiv:0907.0352 (Kerr, and the weak field to the second order in M/b); V. Bozza 2002, Phys. Rev. D 66, 103001 (the
@@ -13,19 +13,18 @@
 /* The impact parameter of the circular photon orbit: 3 sqrt(3) at a = 0, 2 at a = 1, 7 at a = -1. A few ulp. */
 double kd_deflection_critical(const struct kd_hole *hole);
 
-/* By how much a ray of b > kd_deflection_critical(a) is bent in all, whole turns included. NaN for b below (the ray is
- * captured), INFINITY for b = critical to within rounding.
- * Nearer than b = 20 by the closed form (null_radial.h), beyond it from an integral that holds no difference of nearly
- * equal numbers. Relative error below 1e-14 + 1e-15/(b/critical - 1), up to any b; the second term, ten times larger at
- * a = 0.9999, is what the last digit of b is worth. */
+/* Total deflection of a ray with b > kd_deflection_critical(a), including whole turns. NaN for smaller b (the ray is
+ * captured), INFINITY for b = critical to within rounding. Below b = 20 by the closed form (null_radial.h), beyond
+ * by an integral without differences of nearly equal numbers. Relative error below 1e-14 + 1e-15/(b/critical - 1),
+ * up to any b; the second term, ten times larger at a = 0.9999, is the effect of the last digit of b. */
 double kd_deflection(const struct kd_hole *hole, double b);
 
 /* The closest approach of that ray, in Boyer-Lindquist's r. */
 double kd_deflection_closest(const struct kd_hole *hole, double b);
 
-/* How far light of the same b gets that is sent out from within the photon orbit, before it falls back: the other
- * turning point. NaN also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), and none of it so
- * little for its L. */
+/* Largest radius that light of the same b reaches if emitted inside the photon orbit, before it falls back: the
+ * other turning point. NaN also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), and so none has
+ * such a b. */
 double kd_deflection_farthest(const struct kd_hole *hole, double b);
 
 /* 4/b, and with the next order 4/b + (15 pi/4 - 4a)/b^2. */

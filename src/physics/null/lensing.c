@@ -7,16 +7,16 @@
 
 #include <math.h>
 
-/* Nearer than this a ray's roots come from its displacement; farther, from its constants, whose `pair` is
- * then good to some 1e-14. */
+/* Closer than this a ray's roots are computed from its displacement; farther out, from its constants, whose `pair`
+ * is then accurate to some 1e-14. */
 #define NEAR 0.03
 
-/* At this distance the ray is as good as the critical one: a crossing differs from that on the curve by less than
- * rounding. */
+/* At this distance a ray is indistinguishable from the critical one: its crossing differs from that on the curve by
+ * less than rounding. */
 #define ON_CURVE 1e-40
 
-/* The centre is as far inside as d goes. Exactly there beta = 0, where the first crossing may be a start in
- * the plane. */
+/* The largest d inwards, at the centre. Exactly there beta = 0, and a start in the plane could count as the first
+ * crossing. */
 #define CENTRE (1 - 1e-6)
 
 /* One ray's motion up to the crossing. */
@@ -71,8 +71,8 @@ static struct ray ray_of(const struct search *q, double s)
     return ray_at(q->curve, q->point, q->n, q->side * exp(s));
 }
 
-/* How much later the crossing is than the arrival at the source's radius; on the way in to a turning point,
- * how much sooner. From < 0 at the curve to > 0. */
+/* How much later the crossing is than the arrival at the source's radius; on the way in to a turning point, how much
+ * earlier. Rises from negative values at the curve to positive ones. */
 static double late(const void *user, double s)
 {
     const struct search *q = user;
@@ -83,7 +83,7 @@ static double late(const void *user, double s)
     return ray.crossing - (q->out ? 2 * ray.radial.turn.tau - there : there);
 }
 
-/* Zero where the ray turns at the source's radius: as d grows it turns farther out. */
+/* Zero where the ray turns at the source's radius: the turning point moves outwards as d grows. */
 static double beyond(const void *user, double s)
 {
     const struct search *q = user;
@@ -91,13 +91,13 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* Goes in steps of the exponent from where an edge of this order is expected to where f changes sign, at most to
+/* Steps in the exponent from the expected position of an edge of this order to a sign change of f, at most up to
  * `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
     for (int i = 0; !(f(q, low) < 0); i++, low -= 4)
-        if (i > 150) /* e^-600: there is no sign change */
+        if (i > 150) /* e^-600: no sign change */
             return NAN;
     while (high < end && !(f(q, high) > 0))
         high = fmin(high + 2, end);
@@ -118,12 +118,12 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Up to this distance a ray meets the source twice: on its way in, sooner the farther out it goes, and on
-         * its way out. */
+        /* Up to this distance a ray meets the source twice: on its way in, which is the earlier the farther out the
+         * ray is, and on its way out. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);
-        far -= 1e-13 * (1 + fabs(far)); /* where the ray still gets there */
+        far -= 1e-13 * (1 + fabs(far)); /* where the ray still reaches the source */
     } else {
         q.out = true;
     }

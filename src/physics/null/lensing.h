@@ -1,29 +1,29 @@
-/* The lensing bands of Kerr say which part of the image plane sees the equatorial plane, between two radii, in its
- * n-th image. Observer at infinity. Double precision; pure functions, any thread. Units G = c = M = 1.
+/* Lensing bands of Kerr: the part of the image plane that shows the equatorial plane between two radii in its n-th
+ * image. Observer at infinity. Double precision; pure functions, any thread. Units G = c = M = 1.
  *
  * Order n counts the crossings of the plane back from the eye, as null_geodesic.h does. For n >= 1 the image of the
  * plane between r_in and r_out is a ring round or beside the critical curve (Gralla, Holz & Wald 2019,
  * arXiv:1906.00873, for a = 0; Gralla & Lupsasca 2020, arXiv:1910.12873, section VI: from the horizon to infinity it
  * contains the curve). Each is thinner than the last by e^-gamma (photon_shell.h).
  *
- * Places are given in a coordinate adapted to the curve: the angle about its centre, and the signed relative
- * distance to it,
+ * Positions are given in coordinates adapted to the curve: the angle about its centre, and the signed relative
+ * distance from it,
  *
  *   d = rho/rho_c(angle) - 1
  *
- * positive outside. An edge is where the Mino time to the n-th crossing, from the polar motion, is that to the
- * source's radius, from the radial one; both are smooth in ln|d|, the latter all but linear, and roots are sought in
- * that variable. d enters through kd_null_roots_beside and is nowhere added to 1 before it matters, so that it may
- * be as small as one likes: its relative error is some 1e-15 (n + 1), more by 1/(1 - |a|)^(1/2) along the flat side
- * of a hole near a = 1. Only the point (alpha, beta) itself ceases to tell the place when d < 1e-15. */
+ * positive outside. An edge is where the Mino time of the n-th crossing, from the polar motion, equals that of the
+ * source's radius, from the radial one. Both are smooth in ln|d|, the latter almost linear, and roots are sought in
+ * that variable. d enters through kd_null_roots_beside and is never added to 1 before it matters, so that it may be
+ * arbitrarily small. Its relative error is some 1e-15 (n + 1), times 1/(1 - |a|)^(1/2) along the flat side of a hole
+ * near a = 1. Only the point (alpha, beta) itself no longer resolves positions with d < 1e-15. */
 #ifndef KD_PHYSICS_NULL_LENSING_H
 #define KD_PHYSICS_NULL_LENSING_H
 
 #include "physics/null/critical.h"
 
 /* d of the n-th image of the circle `source`, n >= 1, r+ <= source <= INFINITY; `point` is the curve's at that
- * angle, of an observer at infinity. NaN where there is none: where the image lies beyond the centre (n = 1 seen
- * almost edge on), or for rays in the equatorial plane. Some ten microseconds. */
+ * angle, for an observer at infinity. NaN if there is none: the image lies beyond the centre (n = 1 seen almost
+ * edge-on), or rays lie in the equatorial plane. Some ten microseconds. */
 double kd_lensing_edge(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double source);
 
 /* Radius seen at distance d in order n >= 1: INFINITY if the ray leaves, 0 if it falls in, before its n-th crossing. */

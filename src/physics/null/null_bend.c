@@ -15,8 +15,8 @@ struct swing {
     double at;   /* x of the observer, -pi ... pi */
 };
 
-/* The roots of Gauss and Legendre on [0, 1], half of them, and their weights: A. N. Lowan et al. 1942, Bull. AMS 48,
- * 739; ten points. */
+/* Nodes of Gauss-Legendre quadrature on [0, 1], half of them, and their weights: A. N. Lowan et al. 1942, Bull. AMS
+ * 48, 739; ten points. */
 static const double roots[] = { 0.07443716949081560544, 0.21669769706462038234, 0.33970478414951225622,
                                 0.43253168334449225535, 0.48695326425858586444 };
 static const double weights[] = { 0.14776211235737643509, 0.13463335965499817754, 0.10954318125799102200,
@@ -49,7 +49,7 @@ static double time_to(const struct swing *w, double x)
     return s * kd_carlson_rf(c * c, (w->n + w->kappa * w->s * c * c) / w->s, 1) / sqrt(w->s);
 }
 
-/* Where the ray is so much later: x, not reduced. */
+/* Position x of the ray after Mino time tau, not reduced. */
 static double swung(const struct swing *w, double tau)
 {
     const double half = 2 * time_to(w, 0.5 * M_PI), away = fabs(w->at) > 0.5 * M_PI ? copysign(M_PI, w->at) : 0;
@@ -58,15 +58,15 @@ static double swung(const struct swing *w, double tau)
     return swings * M_PI + copysign(kd_jacobi_am(sqrt(w->s) * fabs(rest), w->kappa, w->n / w->s), rest);
 }
 
-/* 1/(x' (L + x')) by sin^2 x. */
+/* 1/(x' (L + x')) as a function of sin^2 x. */
 static double drag_rate(const struct swing *w, double s2)
 {
     const double speed = sqrt(w->s * (1 - w->kappa * s2));
     return 1 / (speed * (w->full + speed));
 }
 
-/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: over a whole period midpoints converge as fast as Gauss's, kappa^8 is
- * below 1e-8 outside the shadow. */
+/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: over a whole period the midpoint rule converges as fast as Gauss's;
+ * kappa^8 is below 1e-8 outside the shadow. */
 static const double squares[] = { 0.03806023374435662, 0.30865828381745514, 0.69134171618254486, 0.96193976625564338 };
 
 static double dragged(const struct swing *w, double from, double to)

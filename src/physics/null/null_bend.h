@@ -1,10 +1,10 @@
-/* Says how a hole bends a ray that escapes, in two angles that are smooth functions of the ray: however often
- * it goes round, across the axis, along the equator. So they can be interpolated from a few rays, which the
- * direction of escape itself cannot. Double precision; pure; any thread.
+/* Deflection of an escaping ray as two angles that are smooth functions of the ray, however often it goes round,
+ * across the axis or along the equator. They can therefore be interpolated from a few rays, whereas the direction of
+ * escape cannot. Double precision; pure; any thread.
  *
- * The ray turns by `turn` in a plane through the hole that begins as that of the observer's place o and the tangent
- * t, and all is dragged about the axis by `drag`. Traced back it ends at Rz(drag) (cos(turn) o + sin(turn) t), with
- * o = (sin, 0, cos) of the observer, t = t_theta e_theta + t_phi e_phi.
+ * The ray turns by `turn` in a plane through the hole, initially spanned by the observer's place o and the tangent
+ * t, and this plane is dragged about the axis by `drag`. Traced back the ray ends at Rz(drag) (cos(turn) o +
+ * sin(turn) t), with o = (sin, 0, cos) of the observer, t = t_theta e_theta + t_phi e_phi.
  *
  * With u = cos(theta) = sqrt(z) cos x (null_polar.h), x' = sqrt(N + a^2 u^2) in Mino time, and L = sqrt(N + a^2),
  * cos(iota) = lambda/L is that of the inclination of a plane in which x is the angle from the highest latitude. The
@@ -14,26 +14,26 @@
  *
  *   drag' = a^2 lambda/(L (L + x')) + a (2r - a lambda)/Delta,
  *
- * without a pole. Int dtau of the first term is one over dx/x', of a function with period pi: by Gauss and
- * Legendre's quadrature. */
+ * without a pole. Int dtau of the first term becomes an integral of dx/x' of a function with period pi: by
+ * Gauss-Legendre quadrature. */
 #ifndef KD_PHYSICS_NULL_NULL_BEND_H
 #define KD_PHYSICS_NULL_NULL_BEND_H
 
 #include "physics/null/null_geodesic.h"
 
 struct kd_null_bend {
-    double turn, drag;     /* as the ray is traced back; not reduced to a turn */
+    double turn, drag;     /* for the ray traced back; not reduced to a turn */
     double t_theta, t_phi; /* a unit vector */
 };
 
-/* False: the ray does not escape, or is one that crosses no equator (eta <= 0), or is beyond null_geodesic.h; then
- * nothing is said. Some 1.5 us. Error 1e-14 over the distance from the critical curve. ray->orders is not read. */
+/* False if the ray does not escape, crosses no equator (eta <= 0), or is outside the domain of null_geodesic.h; *out
+ * is then undefined. Some 1.5 us. Error 1e-14 over the distance from the critical curve. ray->orders is ignored. */
 bool kd_null_bend_of(const struct kd_null_ray *ray, struct kd_null_bend *out);
 
-/* The tangent alone, which needs no integral. */
+/* Computes only the tangent, which needs no integral. */
 void kd_null_bend_tangent(const struct kd_null_ray *ray, struct kd_null_bend *out);
 
-/* A unit vector in the hole's frame, the observer at azimuth 0 of Boyer and Lindquist. */
+/* The direction of escape, a unit vector in the hole's frame with the observer at Boyer-Lindquist azimuth 0. */
 void kd_null_bend_sky(const struct kd_null_bend *bend, double cos_theta, double sin_theta, double out[3]);
 
 #endif

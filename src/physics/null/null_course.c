@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-#define ANGLE 0.03 /* between neighbours, and */
-#define SLOPE 0.02 /* of w, whose rate is 1 where the ray is straight */
-#define SUBSTEPS 8 /* of a fourth-order step each: some 1e-12 of a turn */
-#define POLE 0.02  /* of the way to the horizon that a step may take: chi and t have a pole there */
+#define ANGLE 0.03 /* maximum angle between neighbouring places, */
+#define SLOPE 0.02 /* and maximum change of w, whose rate is 1 on a straight ray */
+#define SUBSTEPS 8 /* fourth-order steps between two places: an error of some 1e-12 of a turn */
+#define POLE 0.02  /* maximum step over the distance to the horizon, where chi and t have a pole */
 
 enum { W, DW, NX, NY, NZ, VX, VY, VZ, CHI, T, STATE };
 struct state { double y[STATE]; };
@@ -17,13 +17,13 @@ struct state { double y[STATE]; };
 struct course {
     struct kd_null_motion m;
     double horizon;        /* 1/r+ */
-    double sense;          /* of lambda, where that is 0 */
+    double sense;          /* sign of lambda, for lambda = 0 */
     double psi;            /* azimuth so far, without frame dragging, not reduced to a turn */
-    double last_x, last_y; /* n in the plane when it was last looked at */
-    double way;            /* 1: time is counted as on the way in, -1: as on the way out */
-    double ingoing;        /* sign of the energy in ingoing coordinates; 0: in those of Boyer and Lindquist */
-    double edge;           /* what was taken out of the time, at the start */
-    double first;          /* 1/r from where on there are places */
+    double last_x, last_y; /* n in the plane at the last update */
+    double way;            /* 1: time by the formula for the way in, -1: for the way out */
+    double ingoing;        /* sign of the energy in ingoing coordinates; 0: Boyer-Lindquist coordinates */
+    double edge;           /* part taken out of the time, at the start */
+    double first;          /* 1/r from which places are recorded */
     struct state now;
     double mino;
     int order;
@@ -32,7 +32,7 @@ struct course {
     struct kd_null_course *to;
 };
 
-/* G of the header, by the form that does not cancel. */
+/* G of the header, in the form that does not cancel. */
 static double gone(const struct course *c, double w, double dw, double d)
 {
     const struct kd_null_motion *m = &c->m;
@@ -71,7 +71,7 @@ static struct state ahead(const struct state *s, const struct state *rate, doubl
     return o;
 }
 
-/* Runge and Kutta's step. */
+/* Runge-Kutta step of fourth order. */
 static struct state step(const struct course *c, const struct state *s, double h)
 {
     const struct state k1 = rates(c, s), s2 = ahead(s, &k1, 0.5 * h), k2 = rates(c, &s2), s3 = ahead(s, &k2, 0.5 * h),
@@ -82,7 +82,7 @@ static struct state step(const struct course *c, const struct state *s, double h
     return o;
 }
 
-/* What is taken out of the time; nothing at infinity, where r_o + 2 ln r_o is not counted. */
+/* The part that is taken out of the time; 0 at infinity, where r_o + 2 ln r_o is not counted. */
 static double edge(const struct course *c, const struct state *s)
 {
     const double w = s->y[W], dw = s->y[DW];
@@ -93,7 +93,7 @@ static double edge(const struct course *c, const struct state *s)
     return -dw / w - 2 * c->way * log(0.5 * (1 + c->way * dw) / w);
 }
 
-/* How far the first integrals are off, relative to the terms of which they are sums. */
+/* Errors of the first integrals, relative to their terms. */
 static double drift(const struct course *c, const struct state *s)
 {
     const struct kd_null_motion *m = &c->m;
@@ -111,8 +111,8 @@ static double drift(const struct course *c, const struct state *s)
     return worst;
 }
 
-/* Count the azimuth on to a state. A ray through the axis turns by pi there: one with alpha = 0 towards -phi, one
- * from an observer on the axis as those next to it, whose lambda has the sign of -alpha (null_polar.h). */
+/* Advances the azimuth to a state. A ray through the axis turns by pi there: one with alpha = 0 towards -phi, one
+ * from an observer on the axis as its neighbours, whose lambda has the sign of -alpha (null_polar.h). */
 static void turn(struct course *c, const struct state *s)
 {
     const double x = s->y[NX], y = s->y[NY], dot = c->last_x * x + c->last_y * y, cross = c->last_x * y - c->last_y * x;
@@ -124,7 +124,7 @@ static void turn(struct course *c, const struct state *s)
     c->last_y = y;
 }
 
-/* Past a turning point time is counted the other way. */
+/* Past a turning point the time uses the other formula. */
 static void take_way(struct course *c, struct state *s)
 {
     const double way = s->y[DW] < 0 ? -1 : 1, before = edge(c, s);
@@ -152,8 +152,7 @@ static bool put(struct course *c, const struct state *s, int crossing)
     return true;
 }
 
-/* The part of a step from `from` at which y[which] is `value`, which it passes on the way: by bisection, and
- * secants. */
+/* The fraction of a step from `from` at which y[which] passes `value`: by bisection and the secant method. */
 static double part_of(const struct course *c, const struct state *from, double h, int which, double value)
 {
     double low = 0, high = h;
@@ -178,7 +177,7 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
                  w = isinf(ray->radius) ? 0 : 1 / ray->radius;
     const struct kd_null_motion *m = &c->m;
     const double all = 1 + w * w * (m->quadratic + w * (2 * m->k + m->constant * w));
-    if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta)) /* and NaN is no ray */
+    if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta)) /* also rejects NaN */
         return false;
     c->now = (struct state) { {
         [W] = w,
@@ -198,8 +197,7 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
     return true;
 }
 
-/* The next step is no longer than this, to the next place. Deep in the hole w changes by itself at the rate sqrt(6 k
- * w). */
+/* Maximum length of the next step. Deep in the hole w changes at the rate sqrt(6 k w) by itself. */
 static double length_of(const struct course *c)
 {
     const struct kd_null_motion *m = &c->m;
@@ -208,19 +206,19 @@ static double length_of(const struct course *c)
     return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
 }
 
-/* Says that a ray in ingoing coordinates comes from no outside: it is bound for the horizon of the past from within. */
+/* True if a ray in ingoing coordinates comes from no outside: traced back, it reaches the past horizon from within. */
 static bool is_dark(const struct course *c)
 {
     return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
 }
 
-/* Says that chi and t have a pole where the ray would come to the horizon next. */
+/* True if chi and t have a pole where the ray would reach the horizon next. */
 static bool has_pole(const struct course *c)
 {
     return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c));
 }
 
-/* A step of at most h; at a crossing it ends there, which is a place. False: no room is left. */
+/* Takes a step of at most h, or up to a crossing, which becomes a place. False: no room is left. */
 static bool go(struct course *c, double h)
 {
     const double *y = c->now.y, left = fabs(c->horizon - y[W]), speed = fabs(y[DW]);
@@ -238,7 +236,7 @@ static bool go(struct course *c, double h)
     turn(c, &next);
     if (!crosses)
         return true;
-    /* From here the other side counts, whatever rounding has left of u. */
+    /* From here on the other side counts, regardless of rounding in u. */
     const double side = next.y[VZ];
     c->now.y[NZ] = copysign(1e-300, side);
     const bool room = next.y[W] < c->first || put(c, &next, c->order);
@@ -246,7 +244,7 @@ static bool go(struct course *c, double h)
     return room;
 }
 
-/* Next to the horizon: on the way into it, or from within on the way to that of the past. */
+/* True next to the horizon, if the ray is about to enter it, or about to reach the past horizon from within. */
 static bool is_captured(const struct course *c, double near)
 {
     const double w = c->now.y[W], dw = c->now.y[DW];
@@ -266,11 +264,11 @@ static void run(struct course *c, double near)
         room = go(c, h);
         to->steps = i;
         const double w = c->now.y[W], dw = c->now.y[DW];
-        if (!isfinite(w)) { /* of numbers without measure: nothing would end it */
+        if (!isfinite(w)) { /* diverged: the loop would not end */
             to->end = KD_COURSE_NONE;
             return;
         }
-        if (w < c->first && dw < 0) { /* far enough: the place is where it was passed */
+        if (w < c->first && dw < 0) { /* far enough: record the place where r = far was passed */
             to->end = KD_COURSE_ESCAPED;
             if (before.y[W] > c->first && room) {
                 c->way = way;

@@ -1,11 +1,11 @@
-/* This is the course of a null geodesic of Kerr as a list of places, for drawing it: by steps in Mino time, in
- * double. It shares no formula of the motion with the closed form of null_geodesic.h, whose crossings it must meet.
- * Units G = c = M = 1, E = 1. Pure functions, any thread.
+/* Course of a null geodesic of Kerr as a list of places, for drawing: by steps in Mino time, in double precision. It
+ * shares no formula of the motion with the closed form of null_geodesic.h, whose crossings it must reproduce. Units
+ * G = c = M = 1, E = 1. Pure functions, any thread.
  *
- * With w = 1/r and a unit vector n towards the place on the sphere (theta, psi), psi the azimuth without frame
+ * With w = 1/r and a unit vector n towards the place on the sphere (theta, psi), psi being the azimuth without frame
  * dragging,
  *
- *   w'' = A w + 3K w^2 + 2C w^3                    w'^2 = 1 + A w^2 + 2K w^3 + C w^4
+ *   w'' = A w + 3K w^2 + 2C w^3                     w'^2 = 1 + A w^2 + 2K w^3 + C w^4
  *   n'' = a^2 n_z e_z - (eta + lambda^2 + 2 a^2 n_z^2) n      n'^2 = eta + lambda^2 + a^2 n_z^2,  (n x n')_z =
  *     lambda
  *   chi' = a w (2 - a lambda w)/D,   D = 1 - 2w + a^2 w^2
@@ -16,9 +16,9 @@
  *   1/w^2 = (-w'/w)' + K w + C w^2,   1/w = -s (ln((1 + s w')/w))' + w^2 (K + C w)/(1 + s w'),   s = 1 on the way
  *                                     in, -1 on the way out.
  *
- * A ray that is followed back out of the horizon has no azimuth and time of Boyer and Lindquist there, but those of
- * ingoing coordinates, phi + Int a/Delta dr and t + Int 2r/Delta dr. By W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D
- * k w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
+ * A ray that is followed back out of the horizon has no Boyer-Lindquist azimuth and time there, but those of ingoing
+ * coordinates, phi + Int a/Delta dr and t + Int 2r/Delta dr. With W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D k
+ * w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
  *
  *   chi' = a (G - 1),   t' = 1/w^2 + a^2 n_z^2 + 2 G/w,   G = (W + s w')/D = k w^2/(W - s w'):
  *
@@ -30,35 +30,35 @@
 
 #include <stddef.h>
 
-/* mino: Mino time since the observer; phi and delay as in null_geodesic.h; order: how many crossings lie between it
- * and the observer; crossing: of the plane, and which one, or -1. */
+/* mino: Mino time since the observer; phi and delay as in null_geodesic.h; order: number of crossings between the
+ * place and the observer; crossing: number of the crossing of the plane that this place is, or -1. */
 struct kd_null_place {
     double mino, r, u, phi, delay;
     int order, crossing;
 };
 
 struct kd_null_course {
-    size_t n, steps; /* places; steps of the integrator, most of them between two places */
+    size_t n, steps; /* number of places; integrator steps, several between two places */
     enum {
         KD_COURSE_NONE,
         KD_COURSE_CAPTURED,
         KD_COURSE_ESCAPED,
         KD_COURSE_LONG
-    } end;          /* NONE: no such ray; LONG: more places than there is room for */
-    double least_r; /* of all places, the turning point included */
-    double drift;   /* how far the first integrals are off at worst, relative to their terms */
+    } end;          /* NONE: no such ray; LONG: more places than room */
+    double least_r; /* minimum over all places, including the turning point */
+    double drift;   /* largest error of the first integrals, relative to their terms */
 };
 
-/* Places of the ray as it is traced back, from the observer, or from where it comes within r = far, on to where it
- * is beyond far and the observer, or within `near` of the horizon, M. Neighbours are 0.03 rad or less apart in
+/* Places of the ray traced back. It starts at the observer, or where the ray comes within r = far. It ends beyond
+ * both far and the observer, or within `near` (M) of the horizon. Neighbours are at most 0.03 rad apart in
  * direction, and every crossing is a place. out: room for `most`. */
 struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
                                         struct kd_null_place *out, size_t most);
 
-/* The same in ingoing azimuth and time, of an observer anywhere outside the inner horizon, and of the labels of a
- * ray whose energy at infinity is below 0 (`reversed`), whose azimuth and time run the other way as if it were
- * above. A ray that ends at the horizon from within, coming from no outside, is CAPTURED. far may be INFINITY: then
- * the last place of one that escapes is there, and has its direction. */
+/* The same in ingoing azimuth and time, for an observer anywhere outside the inner horizon. reversed: the labels are
+ * those of a ray with negative energy at infinity, whose azimuth and time run opposite to those of a positive one. A
+ * ray that ends at the horizon from within, coming from no outside, is CAPTURED. far may be INFINITY: the last place
+ * of an escaping ray is then at infinity and has its direction. */
 struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near,
                                              struct kd_null_place *out, size_t most);
 

@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-/* One ray's motion, and where along the radial one it starts. */
+/* One ray's motion, and its start within the radial motion. */
 struct motion {
     struct kd_null_polar polar;
     struct kd_null_radial radial;
@@ -36,7 +36,7 @@ static struct kd_null_radial_sum add(struct kd_null_radial_sum x, struct kd_null
     return (struct kd_null_radial_sum) { x.tau + y.tau, x.phi + y.phi, x.t + y.t };
 }
 
-/* The motion from the observer to Mino time `tau`; `from` is the place there. */
+/* The radial integrals from the observer to Mino time `tau`; `from`: those from that place to the reference. */
 static struct kd_null_radial_sum travelled(const struct motion *m, struct kd_null_radial_sum from, double tau)
 {
     double at = m->begin + m->forward * tau;
@@ -70,7 +70,7 @@ static void set_out(struct motion *m, const struct kd_null_ray *ray)
     }
 }
 
-/* Rounding of Mino time and of the pieces that make it up. */
+/* Adds errors from rounding of Mino time and of its parts. */
 static void disturb(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     struct kd_null_radial_sum rate = kd_null_radial_rates(&m->radial.motion, x->r);
@@ -81,10 +81,9 @@ static void disturb(const struct motion *m, double tau, struct kd_null_crossing 
     x->error_delay = passed * rate.t;
 }
 
-/* The place that is reached at Mino time `tau` from the observer, up to the azimuth and time of the polar
- * motion. r is rounded, and where dr/dtau is small (long stays near the photon sphere) or phi' and t' large
- * (the horizon) that matters to phi and t: their integrals belong to the Mino time of the rounded r, which is
- * at hand, and are moved by the difference. */
+/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. Where
+ * dr/dtau is small (long stays near the photon sphere), or phi' and t' are large (the horizon), that affects phi and
+ * t: their integrals belong to the Mino time of the rounded r, which is known, and are corrected by the difference. */
 static bool reach(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     const struct kd_null_radial *q = &m->radial;
@@ -127,7 +126,7 @@ static void escape(const struct motion *m, const struct kd_null_motion *k, struc
     path->sky_error = DBL_EPSILON * m->end * (sqrt(fmax(k->eta, 0)) + fabs(k->lambda / sine2));
 }
 
-/* Vortical rays with no real root: nothing to turn them, nothing to cross. */
+/* Vortical rays without real roots: they neither turn nor cross the plane. */
 static void without_roots(const struct kd_null_ray *ray, const struct kd_null_motion *k,
                           const struct kd_null_roots *roots, struct kd_null_path *path)
 {
@@ -201,8 +200,8 @@ struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
 
 struct slope { double r, phi, delay; };
 
-/* How far the answers move when alpha and beta change by the fractions `step` and `other`, in units of
- * `step`; INFINITY for what is there no more. */
+/* Changes of the results when alpha and beta change by the fractions `step` and `other`, in units of `step`;
+ * INFINITY for a crossing that disappears. */
 static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step, double other,
                        struct slope *slopes, double *sky)
 {
@@ -223,16 +222,16 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
         *sky += lost ? INFINITY : (fabs(there.sky_u - path->sky_u) + fabs(there.sky_phi - path->sky_phi)) / step;
 }
 
-/* Roundings per chain of operations, from some 1e5 rays repeated with 64-bit significands: the worst error
- * was 2.5 times its estimate, and one in ten thousand exceeded it. Near maximal spin three roots crowd at the
- * horizon and disturbances that slopes in alpha and beta do not show weigh 1/(r+ - r-). */
+/* Roundings per chain of operations, calibrated with some 1e5 rays repeated with 64-bit significands: the worst
+ * error was 2.5 times its estimate, and one in ten thousand exceeded it. Near maximal spin three roots crowd at the
+ * horizon, and disturbances that slopes in alpha and beta do not show have the weight 1/(r+ - r-). */
 static double weight_of(const struct kd_null_ray *ray)
 {
     return 8 + 2 / (kd_hole(ray->spin)->outer - kd_hole(ray->spin)->inner);
 }
 
-/* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r -
- * r+). The two poles at the horizons, whose difference counts, lose 1/(r+ - r-). */
+/* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r - r+). The
+ * difference of the two poles at the horizons loses 1/(r+ - r-). */
 static void estimate(const struct kd_null_ray *ray, struct kd_null_crossing *x, const struct slope *d)
 {
     double plus = kd_hole(ray->spin)->outer, gap = plus - kd_hole(ray->spin)->inner, eps = DBL_EPSILON;
@@ -253,7 +252,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     struct kd_null_motion k =
         kd_null_motion_of(kd_hole(ray->spin), ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
-    /* The step is short against the distance from the critical curve and long against rounding; it leads away from
+    /* The step is short against the distance from the critical curve and long against rounding. It leads away from
      * that curve, so that the ray stays on its side. */
     double step = fmin(fmax(1e-2 * roots.margin, 1e-13), 1e-11);
     if (roots.kind != KD_NULL_FOUR_REAL)

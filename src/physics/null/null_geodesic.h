@@ -1,17 +1,17 @@
-/* Follows light in Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when,
- * and where it came from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M = 1),
- * angles in radians. No integrator is involved and nothing is shared with the shaders: this is what they are judged
- * by.
+/* Null geodesics of Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when, and
+ * where it came from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M = 1), angles
+ * in radians. It uses no integrator and shares nothing with the shaders: it is the reference that they are tested
+ * against.
  *
  * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881 (the motion in Mino time, four cases of roots) and 1910.12873;
  * Kapec & Lupsasca 2019, arXiv:1905.11406; Carlson 1995 and DLMF 19.29 (the integrals). The parts are
  * null_quartic.h, null_polar.h, null_radial.h, each with its own formulas.
  *
- * Accuracy: each crossing carries `error_*`, from the observed derivatives of the answer in (alpha, beta) times some
- * ten times the machine epsilon; the true error is below it but for one crossing in ten thousand, and typically a
- * twentieth. Relative error of r: 2e-16 in the median, 1e-13 for 99 % of the crossings of orders 0-3 within 8 M; phi
- * and delay alike, near the horizon less. 1e-10 from the critical curve order 3 keeps 1e-11. At 1 - |a| = 1e-12 phi
- * and delay lose up to six digits to the meeting of the horizons. */
+ * Accuracy: each crossing carries `error_*`, estimated as the numerical derivatives of the answer in (alpha, beta)
+ * times some ten times the machine epsilon. The true error is below it except for one crossing in ten thousand, and
+ * typically a twentieth of it. Relative error of r: 2e-16 in the median, 1e-13 for 99 % of the crossings of orders
+ * 0-3 within 8 M; phi and delay are similar, less accurate near the horizon. 1e-10 from the critical curve, order 3
+ * keeps 1e-11. At 1 - |a| = 1e-12 phi and delay lose up to six digits because the horizons nearly meet. */
 #ifndef KD_PHYSICS_NULL_NULL_GEODESIC_H
 #define KD_PHYSICS_NULL_NULL_GEODESIC_H
 
@@ -26,17 +26,17 @@ struct kd_null_ray {
     double spin;      /* |spin| < 1                                                                        */
     double radius;    /* of the observer; outside the horizon, or INFINITY */
     double cos_theta; /* of the observer: [-1, 1], exact 0 and +-1 included                                */
-    double sin_theta; /* 0: taken from cos_theta, which within 1e-5 of the axis knows it to 1e-6 only      */
+    double sin_theta; /* 0: computed from cos_theta, which within 1e-5 of the axis determines it to 1e-6 only */
     double alpha, beta;
     bool outward; /* finite radius only: the traced ray starts outwards, the photon arrives moving inwards */
-    int orders;   /* crossings wanted, 0 ... KD_NULL_ORDERS                                            */
+    int orders;   /* number of crossings wanted, 0 ... KD_NULL_ORDERS */
 };
 
 enum kd_null_status {
     KD_NULL_OK,
-    KD_NULL_IN_PLANE,  /* the ray lies in the equatorial plane: fate and direction, no crossings                    */
-    KD_NULL_CRITICAL,  /* on the critical curve to within rounding: fate, direction and late crossings are a guess  */
-    KD_NULL_NO_RAY,    /* no photon with these constants passes the observer's radius                              */
+    KD_NULL_IN_PLANE,  /* the ray lies in the equatorial plane: only fate and direction are given */
+    KD_NULL_CRITICAL,  /* on the critical curve to within rounding: fate, direction and late crossings are uncertain */
+    KD_NULL_NO_RAY,    /* no photon with these constants reaches the observer's radius */
     KD_NULL_BAD_INPUT, /* NaN, or outside the ranges above                                                         */
 };
 
@@ -57,10 +57,10 @@ struct kd_null_crossing {
     double error_r, error_phi, error_delay;
 };
 
-/* sky_u, sky_phi: cos(theta) and azimuth, as phi above, of the direction of escape; NaN if captured. sky_error
- * absolute, of either. `turned`: the traced ray meets a radial turning point; one that sets out outwards and is
- * captured does. `doubtful`: when the labels move by 1e-13 to 1e-11 there is a crossing more or less, at the horizon
- * or far out; not known to kd_null_trace_fast. */
+/* sky_u, sky_phi: cos(theta) and azimuth, as phi above, of the direction of escape; NaN if captured. sky_error:
+ * absolute, of either. turned: the traced ray meets a radial turning point, as does one that starts outwards and is
+ * captured. doubtful: the number of crossings changes when the labels move by 1e-13 to 1e-11, at the horizon or far
+ * out; kd_null_trace_fast does not set it. */
 struct kd_null_path {
     enum kd_null_status status;
     enum kd_null_fate fate;
@@ -70,10 +70,10 @@ struct kd_null_path {
     double sky_u, sky_phi, sky_error;
 };
 
-/* A status other than OK, IN_PLANE and CRITICAL leaves no crossings and no direction. */
+/* With a status other than OK, IN_PLANE and CRITICAL there are no crossings and no direction. */
 struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 
-/* The same without the errors, which are 0 then; takes a quarter to a third of the time. */
+/* The same without the errors, which are 0; takes a quarter to a third of the time. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 
 #endif

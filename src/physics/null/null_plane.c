@@ -7,13 +7,13 @@
 
 enum { ORDER = 19, STEPS = 2000 };
 
-/* Taylor series of w and u about the place at hand. */
+/* Taylor series of w and u about the present position. */
 struct series { double w[ORDER + 1], u[ORDER + 1]; };
 
 struct ray {
     double a2, k3, c2, e2; /* A, 3K, 2C, 2 a^2 E^2 */
     double horizon;        /* 1/r+ */
-    bool ours;             /* not out of the horizon to another outside than ours */
+    bool ours;             /* it does not leave the horizon into another exterior region */
     double w, dw, u, du;
 };
 
@@ -60,7 +60,7 @@ static struct series series_of(const struct ray *o)
     return s;
 }
 
-/* How far a series is good to a rounding of its first term; size: what is not to be rounded away. */
+/* Step within which a series is accurate to a rounding of `size`. */
 static double reach(const double *c, double size)
 {
     const double last = pow(size / fabs(c[ORDER]), 1.0 / ORDER),
@@ -84,7 +84,7 @@ static double slope(const double *c, double h)
     return sum;
 }
 
-/* Where u vanishes in (0, h], at the ends of which it has two signs: Newton's method, kept within. */
+/* Root of u in (0, h], at whose ends its signs differ: Newton's method within the bracket. */
 static double crossing(const double *c, double h)
 {
     double low = 0, high = h, at = h * c[0] / (c[0] - value(c, h));
@@ -100,7 +100,7 @@ static double crossing(const double *c, double h)
     return at;
 }
 
-/* What the ray has come to: the horizon in the past, or one that is not ours. */
+/* True if the ray has reached the past horizon, or one of another exterior region. */
 static bool is_dark(const struct ray *o, double w, double dw) { return w >= o->horizon ? dw >= 0 : !o->ours; }
 
 double kd_null_plane_radius(const struct kd_vantage *at, const struct kd_covector *photon, int n)

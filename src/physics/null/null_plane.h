@@ -1,10 +1,10 @@
-/* Says at which radius a ray meets the equatorial plane of Kerr for the n-th time, wherever outside the inner
- * horizon it is seen, and whatever energy at infinity it has: also within the horizon, and light of negative energy
- * in the ergosphere. Double precision; pure functions, any thread. Units G = c = M = 1. No azimuth and no time are
- * asked for, so nothing of it knows the horizon.
+/* Radius at which a ray meets the equatorial plane of Kerr for the n-th time, for an observer anywhere outside the
+ * inner horizon and any energy at infinity: also within the horizon, and for light of negative energy in the
+ * ergosphere. Double precision; pure functions, any thread. Units G = c = M = 1. Azimuth and time are not computed,
+ * so that the horizon is no special place.
  *
- * In Mino time, with w = 1/r and u = cos(theta), for constants E, L, Q, which need no common scale (Carter 1968,
- * Phys. Rev. 174, 1559),
+ * In Mino time, with w = 1/r and u = cos(theta), for constants E, L, Q in any common scale (Carter 1968, Phys. Rev.
+ * 174, 1559),
  *
  *   w'' = A w + 3K w^2 + 2C w^3     u'' = A u - 2 a^2 E^2 u^3     A = a^2 E^2 - Q - L^2,  K = Q + (L - aE)^2,  C =
  *                                   -a^2 Q,
@@ -16,10 +16,10 @@
 
 #include "physics/spacetime/tetrad.h"
 
-/* photon: as it arrives. Crossing n = 0, 1, ... counts back from the observer, within the horizon too; a start in
- * the plane does not count. -INFINITY: the ray traced back comes to the horizon in the past before it; INFINITY: it
- * is far away before it, or has no end. Light that would have come through no horizon of ours comes from there, too.
- * Some 10 us. Relative error 1e-13, times what the ray's bending makes of a rounding of its start. */
+/* photon: as it arrives. Crossing n = 0, 1, ... counts back from the observer, also within the horizon; a start in
+ * the plane does not count. -INFINITY: the ray traced back reaches the past horizon first. INFINITY: it escapes
+ * first, or has no end; also for light from another exterior region. Some 10 us. Relative error 1e-13, times the
+ * amplification of a rounding of its start by the ray's bending. */
 double kd_null_plane_radius(const struct kd_vantage *at, const struct kd_covector *photon, int n);
 
 #endif

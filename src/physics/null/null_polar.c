@@ -8,7 +8,7 @@
 /* A point of the motion: sin^2 x, cos^2 x and 1 - kappa sin^2 x, each without cancellation. */
 struct phase { double s2, c2, d2; };
 
-/* From the turning point at z to `at`, and the regular part alone of phi. */
+/* Integrals from the turning point at z to `at`; phi only its regular part. */
 static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct phase at)
 {
     struct kd_null_polar_sum sum = { 0 };
@@ -26,13 +26,13 @@ static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct 
     return sum;
 }
 
-/* The time from the plane to |u|, for an observer who is all but in the plane. */
+/* Mino time from the plane to |u|, for an observer almost in the plane. */
 static double from_plane(const struct kd_null_polar *p, double eta, double gap, double weight)
 {
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);
 }
 
-/* Their product is (s beta)^2, and their difference is known. */
+/* gap and weight: their product is (s beta)^2, and their difference is known. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
     double a2 = m->a * m->a, s2 = m->s * m->s;
@@ -53,7 +53,7 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
     double angle = weight > 0 ? atan2(flat, down) : 0.5 * M_PI;
     p->start.phi += angle;
     bool toward = m->beta * p->side < 0 || (m->beta == 0 && weight > 0); /* du/dtau = s beta */
-    if (p->u == 0) /* a start in the plane is its last crossing, not its next */
+    if (p->u == 0) /* a start in the plane counts as its last crossing, not its next */
         toward = false;
     if (!toward) {
         p->start.tau = -p->start.tau, p->start.phi = -p->start.phi, p->start.u2 = -p->start.u2;
@@ -96,11 +96,11 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m)
     return p;
 }
 
-/* R_F(0, y, 1) by the arithmetic-geometric mean (DLMF 19.22.1), which takes a third of the roots. */
+/* R_F(0, y, 1) by the arithmetic-geometric mean (DLMF 19.22.1), which needs a third of the square roots. */
 static double quarter_of(double y)
 {
     double a = 1, b = sqrt(y);
-    for (int i = 0; i < 64 && fabs(a - b) > 1e-8 * a; i++) { /* the next mean is good to 1e-17 */
+    for (int i = 0; i < 64 && fabs(a - b) > 1e-8 * a; i++) { /* the next mean is accurate to 1e-17 */
         double mean = 0.5 * (a + b);
         b = sqrt(a * b), a = mean;
     }
@@ -138,7 +138,7 @@ struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const
     double rest = swings == 0 ? total : total - 2 * swings * p->quarter.tau;
     struct phase at;
     double cosine, weight;
-    if (p->vortical) { /* u = sqrt(z) dn, and the plane stays on its side */
+    if (p->vortical) { /* u = sqrt(z) dn; the ray stays on one side of the plane */
         double least = -p->n / a2, range = p->s / (a2 * p->z);
         struct kd_jacobi j = kd_jacobi(sqrt(a2 * p->z) * rest, range, least / p->z);
         at = (struct phase) { range * j.sn * j.sn, j.dn * j.dn, j.cn * j.cn };

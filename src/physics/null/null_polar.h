@@ -1,20 +1,22 @@
-/* This is the polar motion of a null geodesic of Kerr in Mino time, in closed form. Units G = c = M = 1, E = 1. Pure
- * functions, any thread.
+/* Polar motion of a null geodesic of Kerr in Mino time, in closed form. Units G = c = M = 1, E = 1. Pure functions,
+ * any thread.
  *
  * With u = cos(theta), v = u^2 (Gralla & Lupsasca 2020, arXiv:1910.12881, section III; Kapec & Lupsasca 2019),
  *
  *   (du/dtau)^2 = eta + A u^2 - a^2 u^4 = (z - v)(N + a^2 v),   z N = eta
  *
  * and u = sqrt(z) cos(x), dx/dtau = sqrt(s (1 - kappa sin^2 x)), s = N + a^2 z, kappa = a^2 z / s. For eta > 0 the
- * ray crosses the equator at x = pi/2, 3 pi/2, ...; for eta < 0 (vortical) N < 0, kappa > 1, and x swings about 0.
+ * ray crosses the equator at x = pi/2, 3 pi/2, ...; for eta < 0 (vortical) N < 0, kappa > 1, and x oscillates about
+ * 0.
  *
- * The azimuth Int lambda dtau / sin^2(theta) has poles at the axis, which rays with small lambda all but touch. With
+ * The azimuth Int lambda dtau / sin^2(theta) has poles at the axis, which rays with small lambda almost touch. With
  * cc = |lambda|/(N + a^2) and nu = (a cc)^2, differentiation shows that
  *
  *   |lambda| / (1 - v) = -d/dtau atan2(sqrt(z - v), cc u sqrt(N + a^2 v)) (for du/dtau < 0: +)
- *                        + a^2 cc (1 - v/z) / (1 - nu v/z)
+ *                      + a^2 cc (1 - v/z) / (1 - nu v/z)
  *
- * The first term holds the poles and is elementary; the rest is regular however close the axis, and one R_J. */
+ * The first term contains the poles and is elementary; the second is regular however close the axis, and gives one
+ * R_J. */
 #ifndef KD_PHYSICS_NULL_NULL_POLAR_H
 #define KD_PHYSICS_NULL_NULL_POLAR_H
 
@@ -34,7 +36,7 @@ struct kd_null_polar {
     bool vortical;                    /* eta < 0 */
     bool crosses;                     /* the equatorial plane: eta > 0 and not `fixed` */
     struct kd_null_polar_sum quarter; /* from a turning point to the plane; if vortical, to the other turning point */
-    struct kd_null_polar_sum start;   /* from the turning point at z, next or last, to the observer; < 0 if next    */
+    struct kd_null_polar_sum start;   /* from the turning point at z, next or last, to the observer; negative if next */
     double first, first_phi;          /* Mino time and azimuth from the observer to the first crossing             */
 };
 
@@ -49,7 +51,7 @@ double kd_null_polar_first(const struct kd_null_motion *m);
 /* From the observer to crossing n = 0, 1, ...; only where `crosses`. */
 struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n);
 
-/* Where the ray is at Mino time tau: cos(theta), and its azimuth since the observer. */
+/* cos(theta) at Mino time tau, and the azimuth since the observer. */
 struct kd_null_polar_place { double u, phi; };
 struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const struct kd_null_motion *m, double tau);
 

@@ -24,9 +24,9 @@ double kd_null_radial_potential(const struct kd_null_motion *m, double r)
     return r * (r * (r * r + m->quadratic) + 2 * m->k) + m->constant;
 }
 
-/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, the quartic with b = 0: from `x`, until it
- * stops moving. A start from which it is monotone in exact arithmetic turns round only within rounding of the
- * root. */
+/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, the quartic with b = 0: from `x`, until it stops
+ * moving. From a suitable start it is monotone in exact arithmetic, so a reversal means that it is within rounding
+ * of the root. */
 static double newton(const double *k, int degree, double x)
 {
     double direction = 0;
@@ -45,9 +45,9 @@ static double newton(const double *k, int degree, double x)
     return x;
 }
 
-/* The real root r2 of (r - r2)(r - r3)(r - r4) = r^3 + k0 r^2 + k1 r + k2 with k0 < 0 < k1 and k2 <= 0: the
- * least of three, or the only one. Below the inflection point a cubic that rises from a negative value is
- * concave, above it convex. */
+/* The real root r2 of (r - r2)(r - r3)(r - r4) = r^3 + k0 r^2 + k1 r + k2 with k0 < 0 < k1 and k2 <= 0: the least of
+ * three, or the only one. A cubic that rises from a negative value is concave below its inflection point and convex
+ * above. */
 static double least_root(const double *k)
 {
     double inflection = -k[0] / 3, bend = inflection * inflection - k[1] / 3;
@@ -60,10 +60,10 @@ static double least_root(const double *k)
 
 static void finish(struct kd_null_roots *r, double product)
 {
-    if (r->pair == 0) /* a ray that winds for ever; as good as one that does so some 25 radians */
+    if (r->pair == 0) /* a ray that winds for ever; replaced by one that does so for some 25 radians */
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
-    if (r->pair >= 0) { /* mean >= 0 since K >= 0: no cancellation in r4, and r3 by the product */
+    if (r->pair >= 0) { /* mean >= 0 since K >= 0: r4 has no cancellation, and r3 follows from the product */
         r->r4 = r->mean + sqrt(r->pair);
         r->r3 = r->r4 > 0 ? product / r->r4 : 0;
     }
@@ -73,7 +73,7 @@ static void finish(struct kd_null_roots *r, double product)
     r->margin = r->mean > 0 ? fabs(r->pair) / (r->mean * r->mean) : 1;
 }
 
-/* r1 and r2 known: the other two from the sum of all, 0, and division. */
+/* With r1 and r2 known: the other two from the sum of all roots, 0, and division. */
 static void divide(struct kd_null_roots *r, double k)
 {
     double sum = r->r1 + r->r2, product = r->r1 * r->r2 - 2 * k / sum;
@@ -82,8 +82,7 @@ static void divide(struct kd_null_roots *r, double k)
     finish(r, product);
 }
 
-/* Two conjugate pairs (r^2 - p r + m)(r^2 + p r + g), p = -2 mean: p^2 is the positive root of the resolvent.
- */
+/* Two conjugate pairs (r^2 - p r + m)(r^2 + p r + g), p = -2 mean: p^2 is the positive root of the resolvent cubic. */
 static void two_pairs(struct kd_null_roots *r, const struct kd_null_motion *m)
 {
     double b = 2 * m->k, q = m->quadratic, c = m->constant;
@@ -129,7 +128,7 @@ struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m)
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *m, double r, double bend,
                                                     double dalpha, double dbeta)
 {
-    double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta); /* of alpha^2, beta^2 */
+    double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta); /* changes of alpha^2, beta^2 */
     return (struct kd_null_displacement) { .r = r,
                                            .bend = bend,
                                            .quadratic = -(p + q),
@@ -138,8 +137,8 @@ struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion 
 }
 
 /* About r the quartic is x^4 + 4r x^3 + c2 x^2 + c1 x + c0 with small c1 and c0. It splits into x^2 - sum x +
- * product, with both small, and x^2 + (4r + sum) x + g; comparing coefficients gives a contraction by about
- * c0/g^2. */
+ * product, with both small, and x^2 + (4r + sum) x + g. Comparing coefficients gives an iteration that contracts by
+ * about c0/g^2. */
 struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d)
 {
     double r = d->r, c2 = d->bend + d->quadratic, c1 = 2 * (r * d->quadratic + d->k);

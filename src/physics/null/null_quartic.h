@@ -1,18 +1,18 @@
-/* Finds the roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure
- * functions, any thread.
+/* Roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure functions, any
+ * thread.
  *
  *   R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) = r^4 + A r^2 + 2 K r + C
  *
  * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are
- * found otherwise than there: r1 and r2 by Newton's method from a side where it is monotone, the other two by
- * division, so that their meeting, the critical curve, shows in one number (pair) that has the accuracy of the
- * coefficients. */
+ * found differently: r1 and r2 by Newton's method from a side where it is monotone, the other two by division. So
+ * the distance between these two, which vanishes on the critical curve, is one number (pair) with the accuracy of
+ * the coefficients. */
 #ifndef KD_PHYSICS_NULL_NULL_QUARTIC_H
 #define KD_PHYSICS_NULL_NULL_QUARTIC_H
 
 #include "physics/spacetime/hole.h"
 
-/* The constants of motion of one ray, in the labels of DESIGN.md: with i the inclination, c = cos i, s = sin i,
+/* The constants of motion of one ray, in the image-plane labels: with i the inclination, c = cos i, s = sin i,
  *
  *   lambda = -alpha s         eta = (alpha^2 - a^2) c^2 + beta^2
  *   K = eta + (lambda - a)^2 = (alpha + a s)^2 + beta^2
@@ -24,7 +24,7 @@ struct kd_null_motion {
     double lambda, eta, quadratic, k, constant; /* A is `quadratic`, C is `constant` */
 };
 
-/* cos_theta in [-1, 1]; sin_theta, or 0 where cos_theta is all that is known. */
+/* cos_theta in [-1, 1]; sin_theta, or 0 if only cos_theta is known. */
 struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_theta, double sin_theta, double alpha,
                                         double beta);
 
@@ -45,12 +45,12 @@ struct kd_null_roots {
     double margin;      /* |pair| / mean^2: the relative distance from the critical curve, roughly */
 };
 
-/* Error: as if the coefficients had been changed by a few 1e-16; an exactly double root r3 = r4 is
- * parted by 1e-11 into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
+/* Error: as if the coefficients had been changed by a few 1e-16. An exactly double root r3 = r4 is split by 1e-11
+ * into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
 struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m);
 
-/* A ray at (dalpha, dbeta) from one for which R has the double root r: how far A, K and C differ from that one's, and
- * bend = R''(r)/2 there. */
+/* A ray displaced by (dalpha, dbeta) from one for which R has the double root r: the changes of A, K and C, and bend
+ * = R''(r)/2 at r. */
 struct kd_null_displacement {
     double r, bend;
     double quadratic, k, constant;
@@ -59,10 +59,10 @@ struct kd_null_displacement {
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
                                                     double dalpha, double dbeta);
 
-/* The same roots for a ray beside the critical curve, where the coefficients themselves no longer tell `pair`: it is
- * found from the displacement, with a relative error of a few 1e-16 however small that is. m is the displaced ray's
- * motion. Meant for displacements of some percent at most; where the iteration does not settle (near a = 1, where
- * bend is small), the answer is that of kd_null_roots_of. */
+/* The same roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`: it
+ * is found from the displacement, with a relative error of a few 1e-16 however small that is. m: the displaced ray's
+ * motion. For displacements of some percent at most. Where the iteration does not converge (near a = 1, where bend
+ * is small), the answer is that of kd_null_roots_of. */
 struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);
 
 #endif

@@ -10,12 +10,12 @@
  * DLMF 19.29.8. */
 struct pole { double u2, s, q2; };
 
-/* The arguments that DLMF 19.29 has for the path from r to the reference. */
+/* The arguments of DLMF 19.29 for the path from r to the reference. */
 struct span {
     struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
     struct pole plus, minus;   /* at the horizons                                                        */
     double far;                /* U25^2 with the pole at infinity                                        */
-    double log;                /* the elementary part of Int (r - r2) dr/sqrt(R)                         */
+    double log;                /* elementary part of Int (r - r2) dr/sqrt(R) */
     double ratio;              /* X1 Y1/(X2 Y2 U12)                                                      */
     double edge;               /* sqrt(R)/(r - r2) between the ends                                      */
 };
@@ -26,7 +26,7 @@ enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double 
         return KD_NULL_OUTER;
     if (radius <= roots->r3)
         return KD_NULL_INNER;
-    /* A start at a turning point may be off it by rounding. */
+    /* A start at a turning point may miss it by rounding. */
     if (radius >= roots->r4 * (1 - 1e-15))
         return KD_NULL_OUTER;
     return radius <= roots->r3 * (1 + 1e-15) ? KD_NULL_INNER : KD_NULL_FORBIDDEN;
@@ -214,9 +214,10 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
     return q;
 }
 
-/* The time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone; where it is more than `tau`, which most
- * often is known without an integral, at least something between them. R_F is never less than at three arguments of
- * the same mean: a function that is convex in all of them together, and symmetric (DLMF 19.16.1). */
+/* Compares the time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone, with `tau`. Where a bound
+ * shows that it exceeds `tau`, which most often needs no integral, returns a value between the two. R_F is never
+ * less than with three equal arguments of the same mean, because it is convex and symmetric in all of them together
+ * (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
     double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
@@ -231,8 +232,8 @@ static struct kd_null_radius four_outer(const struct kd_null_radial *q, double t
     const struct kd_null_roots *o = &q->roots;
     double r31 = o->r3 - o->r1, r41 = o->r4 - o->r1, r42 = o->r4 - o->r2, r43 = 2 * sqrt(o->pair);
     struct kd_jacobi j = kd_jacobi(q->rate * tau, q->k, q->k1);
-    /* u = u0 - v by the addition theorems; den = r31 - r41 sn^2 u = r41 (sn^2 u0 - sn^2 u) = r41 sn v (the
-     * sum that makes sn(u0 + u)). */
+    /* u = u0 - v by the addition theorems; den = r31 - r41 sn^2 u = r41 (sn^2 u0 - sn^2 u) = r41 sn v (the sum in
+     * sn(u0 + u)). */
     double cross = q->d0 * q->d0 + q->k * q->s0 * q->s0 * j.cn * j.cn; /* 1 - k s0^2 sn^2 */
     double s = (q->s0 * j.cn * j.dn - q->c0 * q->d0 * j.sn) / cross;
     double c = (q->c0 * j.cn + q->s0 * q->d0 * j.sn * j.dn) / cross;
@@ -307,8 +308,8 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
     return r > q.r_plus ? r : 0;
 }
 
-/* DLMF 19.29 with a complex root singled out: the one of the left pair above the real axis. R_C's first
- * argument has a positive real part because r - r1 does. */
+/* DLMF 19.29 with a complex root singled out: the one of the left pair above the real axis. R_C's first argument has
+ * a positive real part because r - r1 has. */
 static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg arg, double r, double r5, double tau)
 {
     double left = sqrt(-o->pair_left);

@@ -1,17 +1,18 @@
-/* This is the radial motion of a null geodesic of Kerr in Mino time, in closed form, outside the horizon. Units G =
- * c = M = 1, E = 1. Pure functions, any thread.
+/* Radial motion of a null geodesic of Kerr in Mino time, in closed form, outside the horizon. Units G = c = M = 1, E
+ * = 1. Pure functions, any thread.
  *
  *   (dr/dtau)^2 = R(r)        phi' = a (2r - a lambda)/Delta        t' = r^2 + 2r + 4 + ((8 - 2 a lambda) r -
  *                             4a^2)/Delta
  *
- * (the parts that depend on r; Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8). r(tau) is theirs (section IV) up
- * to where time is counted from: infinity or a turning point, so that addition theorems give r - r_i as products.
- * The integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1 or r2 as the root that is singled out.
+ * (the parts that depend on r; Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8). r(tau) is theirs (section IV),
+ * but time is counted from infinity or a turning point, so that addition theorems give r - r_i as products. The
+ * integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1 or r2 as the root that is singled out.
  * Unlike the reductions to Legendre's Pi they have no removable singularities (r3 = horizon, lambda = 2 r+/a), and
  * nearly every term is positive.
  *
- * Where motion is possible: from the outermost root r4 (or the horizon) to infinity, OUTER; and if r3 > r+, from the
- * horizon to r3, INNER. Times and integrals are counted from `reference`: infinity when OUTER, r3 when INNER. */
+ * Motion is possible in two regions: OUTER, from the outermost root r4 (or the horizon) to infinity; and, if r3 >
+ * r+, INNER, from the horizon to r3. Times and integrals are counted from `reference`: infinity for OUTER, r3 for
+ * INNER. */
 #ifndef KD_PHYSICS_NULL_NULL_RADIAL_H
 #define KD_PHYSICS_NULL_NULL_RADIAL_H
 
@@ -40,7 +41,7 @@ struct kd_null_radial {
 
 enum kd_null_region { KD_NULL_OUTER, KD_NULL_INNER, KD_NULL_FORBIDDEN };
 
-/* `radius` > r+, INFINITY allowed: which region it is in. */
+/* The region of a radius > r+, which may be INFINITY. */
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius);
 
 /* Not for roots of kind KD_NULL_NO_REAL. */
@@ -48,19 +49,19 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
 
 struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r);
 
-/* The radius at Mino time tau from the reference. OUTER: 0 <= tau, up to the turning point (its mirror image beyond)
+/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the turning point (its mirror image beyond)
  * or the horizon; INNER: any sign, up to the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
-/* The radius alone, at Mino time tau from infinity: 0 if the ray is at the horizon before, INFINITY if it has left.
- * OUTER; not for roots of kind KD_NULL_NO_REAL. A fifth of the time of kd_null_radial_of and kd_null_radius_at,
- * whose azimuths and times it leaves out. */
+/* Only the radius, at Mino time tau from infinity: 0 if the ray reaches the horizon before, INFINITY if it has
+ * escaped. For OUTER; not for roots of kind KD_NULL_NO_REAL. Takes a fifth of the time of kd_null_radial_of and
+ * kd_null_radius_at, since azimuths and times are left out. */
 double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau);
 
-/* What the integrals grow by in Mino time at r: tau is 1, phi' and t' as above. */
+/* Rates of the integrals in Mino time at r: tau has 1, phi' and t' as above. */
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r);
 
-/* From `at` to the reference; t is 0 unless asked for. */
+/* Integrals from `at` to the reference; t is 0 unless `time`. */
 struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
                                                    bool time);
 

@@ -75,9 +75,8 @@ double kd_shell_bend(const struct kd_shell_orbit *o)
     return 4 * o->r * (o->y * o->y * o->y + (1 - o->a) * (1 + o->a)) / (o->y * o->y);
 }
 
-/* The polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2),
- * disc = n + a^2 z. The radial rates with (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on these orbits.
- */
+/* The polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2), disc = n + a^2
+ * z. The radial rates with (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on these orbits. */
 struct kd_shell_exponents kd_shell_exponents(const struct kd_shell_orbit *o)
 {
     double a = fabs(o->a), a2 = a * a, lambda = fabs(o->lambda), eta = fmax(o->eta, 0), r = o->r;

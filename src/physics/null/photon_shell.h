@@ -1,6 +1,5 @@
-/* The spherical photon orbits of Kerr are light that stays at one Boyer-Lindquist radius; this also says what a ray
- * that all but stays there gains in each half orbit. Double precision; pure functions, any thread. Units G = c = M =
- * 1, E = 1; |a| < 1.
+/* Spherical photon orbits of Kerr, at constant Boyer-Lindquist radius, and how nearby rays depart from them in each
+ * half orbit. Double precision; pure functions, any thread. Units G = c = M = 1, E = 1; |a| < 1.
  *
  * Sources: Teo 2003, Gen. Rel. Grav. 35, 1909, and Bardeen 1973 (in Black Holes, eq. 49): lambda and eta of r.
  * Johnson et al. 2020, arXiv:1907.04329 (the exponent gamma); Gralla & Lupsasca 2020, arXiv:1910.12873, section V
@@ -14,7 +13,7 @@
  *   lambda = -w (y + y_P + 2N/(y y_P))
  *   eta = (r^3/y^2)(4 - r x^2) = (r^3/a^2)(3 - y - 4N/y^2)
  *
- * without cancellation (the second form of eta for y < 1). A hole with a < 0 is that with |a| seen in a mirror. */
+ * without cancellation (the second form of eta for y < 1). A hole with a < 0 is the mirror image of that with |a|. */
 #ifndef KD_PHYSICS_NULL_PHOTON_SHELL_H
 #define KD_PHYSICS_NULL_PHOTON_SHELL_H
 
@@ -27,19 +26,19 @@ struct kd_shell {
     double prograde, retrograde; /* places of the equatorial orbits: see kd_shell_orbit_at */
 };
 
-/* y = r - 1; w as above. r alone tells nothing at a = 0. */
+/* y = r - 1; w as above. At a = 0 r alone does not identify an orbit. */
 struct kd_shell_orbit { double a, r, y, w, lambda, eta; };
 
 struct kd_shell kd_shell_of(const struct kd_hole *hole);
 
-/* The orbits of one hole in order, from prograde to retrograde: `place` is w where y >= y_P/2, and below continues with
- * the logarithm of y, so that those at r = 1 are told apart. Beyond the ends eta < 0: no orbit. */
+/* The orbits of one hole in order, from prograde to retrograde. `place` is w where y >= y_P/2, and continues below
+ * with the logarithm of y, so that orbits at r = 1 are distinguished. Beyond the ends eta < 0: no orbit. */
 struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *shell, double place);
 
 /* a != 0. A radius between those of the equatorial orbits; NaN outside. */
 struct kd_shell_orbit kd_shell_orbit_of_radius(const struct kd_hole *hole, double r);
 
-/* (1/2) d^2R/dr^2 at the orbit, 4 r (y^3 + N)/y^2: a ray leaves as exp(tau sqrt(bend)) in Mino time tau. */
+/* (1/2) d^2R/dr^2 at the orbit, 4 r (y^3 + N)/y^2: nearby rays depart as exp(tau sqrt(bend)) in Mino time tau. */
 double kd_shell_bend(const struct kd_shell_orbit *orbit);
 
 /* From one crossing of the equatorial plane to the next:

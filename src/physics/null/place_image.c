@@ -7,15 +7,15 @@
 #include <stddef.h>
 
 enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
-#define FOUND 1e-9 /* of the radius: no further steps */
+#define FOUND 1e-9 /* of the radius: the search stops */
 #define WRONG 1e-5
-/* Distances on the sky that are tried, M, and those of the critical curve. */
+/* Distances on the sky that are tried, M, and those near the critical curve. */
 #define LEAST 0.01
 #define NEAR 1.5
 #define FAR 9
-#define MOST (1.4 * M_PI) /* that the direct image's ray turns by about the hole: half a turn, were there no spin */
+#define MOST (1.4 * M_PI) /* maximum turn of the direct image's ray about the hole; half a turn, were there no spin */
 
-/* A vector in the space of (r, theta, phi) as if it were flat, as good as any other to tell how near two places are. */
+/* A vector in (r, theta, phi) taken as flat spherical coordinates, which is good enough to compare distances. */
 struct vector { double x[3]; };
 
 static struct vector less(const struct vector *a, const struct vector *b)
@@ -45,8 +45,8 @@ struct search {
     struct kd_null_place *places; /* room for PLACES */
 };
 
-/* The ray that is seen there in the chart: alpha and beta at infinity, else the direction by its stereographic image
- * about -r. */
+/* The ray at a point of the chart: alpha and beta at infinity, otherwise the direction by its stereographic
+ * projection about -r. */
 static bool ray_of(const struct kd_place_view *view, const double at[2], struct kd_null_ray *ray, struct kd_look *look)
 {
     const struct kd_vantage *v = &view->frame.at;
@@ -97,13 +97,13 @@ static struct vector between(const struct kd_null_place *p, double mino, double 
     return (struct vector) { { n[0] * size, n[1] * size, n[2] * size } };
 }
 
-/* How near a ray comes: where, on its way. */
+/* The closest approach of a ray to the place. */
 struct miss {
     struct vector off, way;
-    double size, delay, swept; /* swept: by the direction from the hole, since the observer */
+    double size, delay, swept; /* swept: angle that the direction from the hole has swept since the observer */
 };
 
-/* Square of the distance of the place from a stretch of the ray. */
+/* Squared distance of the place from a segment of the ray. */
 static double apart(const struct search *s, const struct vector *from, const struct vector *to)
 {
     const struct vector along = less(to, from), there = less(&s->place, from);
@@ -113,12 +113,12 @@ static double apart(const struct search *s, const struct vector *from, const str
     return dot(&off, &off);
 }
 
-/* The nearest place of the cubic between two Mino times. */
+/* The point of the cubic that is closest to the place, between two Mino times. */
 static struct miss nearest(const struct search *s, const struct kd_null_place *four, double low, double high)
 {
     struct miss best = { .size = INFINITY };
     double step = high - low;
-    for (int round = 0; round < 24; round++) { /* thirds: the distance has one least there */
+    for (int round = 0; round < 24; round++) { /* ternary search: the distance has a single minimum there */
         double one, other;
         const double a = low + step / 3, b = high - step / 3;
         const struct vector at = between(four, a, &one), to = between(four, b, &other), u = less(&at, &s->place),
@@ -135,7 +135,7 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
                         here = between(four, middle, &best.delay);
     best.off = less(&here, &s->place);
     best.way = less(&to, &from);
-    /* Along the ray nothing is left but at its ends: that is what nearest means. */
+    /* At the closest point the offset along the ray vanishes, except at its ends. */
     const double along = dot(&best.off, &best.way) / dot(&best.way, &best.way);
     for (int k = 0; k < 3 && fabs(along) < 10; k++)
         best.off.x[k] -= along * best.way.x[k];
@@ -144,7 +144,7 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
     return best;
 }
 
-/* Crossings lie anywhere between the others, next to one too, where a cubic through both would be lost. */
+/* Removes crossings: they may lie close to other places, where a cubic through both would be ill-conditioned. */
 static size_t apart_in_time(struct kd_null_place *p, size_t n)
 {
     size_t kept = 0;
@@ -186,7 +186,7 @@ static bool misses(const struct search *s, const double at[2], struct miss *out)
     return isfinite(out->size);
 }
 
-/* Two directions across the ray there. */
+/* Two directions perpendicular to the ray. */
 static void across(const struct miss *m, struct vector axes[2])
 {
     const double *w = m->way.x;
@@ -201,7 +201,7 @@ static void across(const struct miss *m, struct vector axes[2])
     }
 }
 
-/* Newton's step in the chart; false where the images of the place meet. */
+/* Newton step in the chart; false where images of the place merge. */
 static bool step_from(const struct search *s, const double at[2], const struct miss *m, double step[2])
 {
     const double h = 1e-6 * (isinf(s->view->frame.at.r) ? fmax(1, hypot(at[0], at[1]))
@@ -225,7 +225,7 @@ static bool step_from(const struct search *s, const double at[2], const struct m
     return isfinite(step[0]) && isfinite(step[1]);
 }
 
-/* From a guess to the image; the step is halved until it comes nearer. */
+/* Newton's method from a guess to the image; a step is halved until the distance decreases. */
 static bool solve(const struct search *s, double at[2], struct miss *m)
 {
     if (!misses(s, at, m))
@@ -249,7 +249,7 @@ static bool solve(const struct search *s, double at[2], struct miss *m)
     return m->size < WRONG * s->r;
 }
 
-/* Distances from the hole on the sky, from small to large: half of them about where the critical curve lies. */
+/* Distances from the hole on the sky, ascending: half of them near the critical curve. */
 static void distances(const struct search *s, double to[GUESSES])
 {
     const double from = s->view->frame.at.r, most = isinf(from) ? 3 * s->r + 30 : 60 * from,
@@ -263,7 +263,7 @@ static void distances(const struct search *s, double to[GUESSES])
     }
 }
 
-/* From the outermost of the distances next to which a ray comes nearest, on the side of the sky where the place is. */
+/* Starts from the outermost distance with a local minimum of the approach, on the place's side of the sky. */
 static bool search_along(const struct search *s, double way, double turned, double at[2], struct miss *m)
 {
     const double towards[2] = { cos(way + turned), sin(way + turned) }, side[2] = { cos(way), sin(way) };
@@ -285,7 +285,7 @@ static bool search_along(const struct search *s, double way, double turned, doub
     return false;
 }
 
-/* A hole that spins turns the image round itself. */
+/* A spinning hole rotates the image about itself, so several directions are tried. */
 static bool search(const struct search *s, double at[2], struct miss *m)
 {
     static const double turns[] = { 0, 0.35, -0.35, 0.8, -0.8 };

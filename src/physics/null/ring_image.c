@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-#define STEP (2 * M_PI / 64) /* of chi from node to node */
+#define STEP (2 * M_PI / 64) /* step of chi between nodes */
 #define LEAST_STEP 1e-5
-#define TABLE 1e-7  /* of ln r: a table needs no more */
-#define TURN 1.0    /* of phi from node to node, at most: near pi its direction would be a guess */
-#define STRETCH 0.2 /* of ln rho, at most: where the image has a corner, beside the axis, phi can make a whole turn */
+#define TABLE 1e-7  /* error of ln r: sufficient for a table */
+#define TURN 1.0    /* maximum change of phi between nodes: near pi its direction would be ambiguous */
+#define STRETCH 0.2 /* maximum change of ln rho: at a corner of the image phi can make a whole turn */
 
-/* Directions: chi turns evenly where the ring seen from afar, (cos chi, cos i sin chi), does. */
+/* Directions: chi advances evenly as on the ring seen unlensed from afar, (cos chi, cos i sin chi). */
 static void place(const struct kd_ring_image *ring, double chi, double log_rho, double *alpha, double *beta)
 {
     double x = cos(chi), y = ring->flatten * sin(chi), rho = exp(log_rho) / hypot(x, y);
@@ -19,7 +19,7 @@ static void place(const struct kd_ring_image *ring, double chi, double log_rho, 
     *beta = rho * y;
 }
 
-/* ln(r_n/r), or -INFINITY for a ray that is captured before its crossing n, INFINITY for one that escapes. */
+/* ln(r_n/r); -INFINITY for a ray captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
     struct kd_null_ray ray = { .spin = ring->spin,
@@ -35,8 +35,8 @@ static double mismatch(const struct kd_ring_image *ring, double chi, double log_
     return log(crossing->r / ring->radius);
 }
 
-/* Towards ln r_n = ln r along chi from a guess: out to where the sign differs, then halved until both ends have a
- * crossing, then by Illinois' rule, until |ln r_n/r| is below the bound. */
+/* Solves ln r_n = ln r along chi from a guess: expands to a sign change, bisects until both ends have a crossing,
+ * then uses the Illinois method until |ln r_n/r| is below the bound. */
 static bool approach(const struct kd_ring_image *ring, double chi, double bound, double *log_rho,
                      struct kd_null_crossing *crossing)
 {
@@ -63,13 +63,13 @@ static bool approach(const struct kd_ring_image *ring, double chi, double bound,
             side = 2;
         }
     }
-    return fabs(h) < TABLE; /* what was left was rounding */
+    return fabs(h) < TABLE; /* the rest is rounding */
 }
 
-/* x less the whole turns that take it nearest to 0. */
+/* x reduced to the whole turn nearest to 0. */
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* One node more, at most `step` on; false when they run out or the image is not found. */
+/* Adds one node, at most `step` further; false if no node is left or the image is not found. */
 static bool add_node(struct kd_ring_image *ring, double *step)
 {
     int k = ring->nodes - 1;
@@ -105,7 +105,7 @@ struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double incl
                                     .order = order };
 }
 
-/* A guess: next to the critical curve, or where the ring would be without lensing. */
+/* First guess: next to the critical curve, or where the ring would be without lensing. */
 static double around(const struct kd_ring_image *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
 
 bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r, int order)
@@ -121,7 +121,7 @@ bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, 
     while (ring->chi[ring->nodes - 1] < 2 * M_PI)
         if (!add_node(ring, &step))
             return false;
-    /* The image goes round once. */
+    /* The image goes round exactly once. */
     return fabs(ring->phi[ring->nodes - 1] - ring->phi[0] - 2 * M_PI) < 1e-3;
 }
 
@@ -134,7 +134,7 @@ static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, do
     return found;
 }
 
-/* Between the nodes k and k + 1, where phi is passed, by Illinois' rule to 1e-4: near enough for Newton's method. */
+/* Solves for phi between the nodes k and k + 1, by the Illinois method to 1e-4: close enough for Newton's method. */
 static bool bracket(const struct kd_ring_image *ring, double phi, int k, double *chi, double *log_rho)
 {
     double low = ring->chi[k], high = ring->chi[k + 1], f = turn(ring->phi[k] - phi),
@@ -158,7 +158,7 @@ static bool bracket(const struct kd_ring_image *ring, double phi, int k, double 
     return false;
 }
 
-/* Slope of ln r_n in ln rho: steep for late orders and large r, so that the step follows it. */
+/* Slope of ln r_n in ln rho. It is steep for late orders and large r, so that the step is adapted. */
 static double slope(const struct kd_ring_image *ring, double chi, double log_rho, double f, double *phi_slope,
                     double phi)
 {
@@ -183,7 +183,7 @@ static double newton(const struct kd_ring_image *ring, double phi, double *chi, 
     if (!isfinite(f))
         return INFINITY;
     double f_rho = slope(ring, *chi, *log_rho, f, &g_rho, here->phi);
-    /* Along the image of the ring, across the slope of r_n, r_n hardly changes: one of the two steps goes there. */
+    /* Along the ring's image r_n hardly changes, so one of the two difference steps is taken along it. */
     double f_chi = mismatch(ring, *chi + h, *log_rho, &aside) - f, along = isfinite(f_chi) ? f_chi / f_rho : NAN;
     double f_on = (mismatch(ring, *chi + h, *log_rho - along, &aside) - f) / h, g_on = turn(aside.phi - here->phi) / h;
     double determinant = f_on * g_rho - f_rho * g_on;

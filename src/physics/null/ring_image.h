@@ -1,10 +1,10 @@
-/* Finds the lensed image of a ring for an observer at infinity: at which (alpha, beta) the point of the
- * equatorial plane at (r, phi) is seen. From a finite radius: ring_view.h. Double precision; pure functions, any
- * thread. G = c = M = 1; conventions of physics/null/null_geodesic.h.
+/* Lensed image of a ring for an observer at infinity: the (alpha, beta) at which the point (r, phi) of the
+ * equatorial plane is seen. From a finite radius: ring_view.h. Double precision; pure functions, any thread. G = c =
+ * M = 1; conventions of physics/null/null_geodesic.h.
  *
- * The closed form gives (r, phi) of a ray's n-th crossing; this inverts it by Newton's method, from a table of the
- * whole image of the ring made beforehand: along each direction of the image plane r_n grows with the distance from
- * the centre, from the horizon (nearer rays are captured first) to infinity (farther ones escape first). */
+ * The closed form gives (r, phi) of a ray's n-th crossing. This inverts it by Newton's method, starting from a table
+ * of the ring's whole image: along each direction of the image plane r_n grows with the distance from the centre,
+ * from the horizon (closer rays are captured first) to infinity (farther ones escape first). */
 #ifndef KD_PHYSICS_NULL_RING_IMAGE_H
 #define KD_PHYSICS_NULL_RING_IMAGE_H
 
@@ -17,28 +17,29 @@ enum { KD_RING_NODES = 320 };
 struct kd_ring_image {
     double spin, cos_theta, sin_theta, radius, flatten;
     int order, nodes;
-    double chi[KD_RING_NODES], log_rho[KD_RING_NODES], phi[KD_RING_NODES]; /* phi without jumps, one turn in all */
+    double chi[KD_RING_NODES], log_rho[KD_RING_NODES], phi[KD_RING_NODES]; /* phi is continuous, one turn in all */
 };
 
 /* r outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4. False where the
- * image turns too quickly for the table, which has not been seen for r >= 1.02 r+. Some 500 rays. */
+ * image turns too quickly for the table, which has not been observed for r >= 1.02 r+. Some 500 rays. */
 bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r,
                         int order);
 
-/* The same without its table, for kd_ring_image_seen alone. */
+/* The same without the table, for kd_ring_image_seen only. */
 struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double inclination, double r, int order);
 
-/* phi, sense: as of struct kd_null_crossing. residual: the last step of Newton's method, before it was taken; the
- * error is some 1e-6 of it and rounding. */
+/* phi, sense: as in struct kd_null_crossing. residual: the last step of Newton's method before it was taken; the
+ * error is some 1e-6 of it, plus rounding. */
 struct kd_ring_image_point {
-    int images; /* of this order: 1, but 3 or more beyond a caustic (high inclination, a != 0; order 0 next to edge-on)
-                 */
+    /* Number of images of this order: 1, but 3 or more beyond a caustic (high inclination, a != 0; order 0 next to
+     * edge-on). */
+    int images;
     double alpha, beta, phi, delay, residual;
     int sense;
 };
 
-/* phi: source minus observer. Of several images the first from +alpha towards +beta. False where it is not found;
- * some 30 rays. */
+/* phi: source minus observer. Of several images it gives the first from +alpha towards +beta. False if none is
+ * found; some 30 rays. */
 bool kd_ring_image_find(const struct kd_ring_image *ring, double phi, struct kd_ring_image_point *point);
 
 /* Finds the image in the direction (cos(chi), cos(i) sin(chi)) of the image plane from alpha = beta = 0; each

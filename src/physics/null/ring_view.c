@@ -13,7 +13,7 @@ struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, con
     return (struct kd_ring_view) { kd_observer_tetrad(&rain, at), kd_observer_tetrad(motion, at), r, order };
 }
 
-/* The components in the frame of rain of the photon that is seen at tan(rho/2) = e^h, towards chi. */
+/* Components in the rain frame of the photon seen at tan(rho/2) = e^h, in the direction chi. */
 static void photon_at(const struct kd_ring_view *view, double chi, double h, double x[4])
 {
     const double right = cos(chi), up = fabs(view->rain.at.u) * sin(chi),
@@ -21,7 +21,7 @@ static void photon_at(const struct kd_ring_view *view, double chi, double h, dou
     x[0] = 1, x[1] = -tanh(h), x[2] = off * up, x[3] = -off * right;
 }
 
-/* ln(r_n/r); -INFINITY for a ray that is captured before its crossing n, INFINITY for one that escapes. */
+/* ln(r_n/r); -INFINITY for a ray captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring_view *view, double chi, double h)
 {
     double x[4];
@@ -31,8 +31,8 @@ static double mismatch(const struct kd_ring_view *view, double chi, double h)
     return r > 0 ? log(r / view->radius) : -INFINITY;
 }
 
-/* ln r_n = ln r along chi: from a guess out to where the sign differs, then halved until both ends have a crossing,
- * then by Illinois' rule. */
+/* Solves ln r_n = ln r along chi: expands from a guess to a sign change, bisects until both ends have a crossing,
+ * then uses the Illinois method. */
 static bool solve(const struct kd_ring_view *view, double chi, double *h, double *residual)
 {
     double at = log(view->radius / view->rain.at.r), f = mismatch(view, chi, at), other = at, g = f, miss = INFINITY;
@@ -56,7 +56,7 @@ static bool solve(const struct kd_ring_view *view, double chi, double *h, double
     return fabs(miss) < 1e-6;
 }
 
-/* phi and delay, which the closed form knows. */
+/* phi and delay, from the closed form. */
 static void add_place(const struct kd_ring_view *view, const struct kd_covector *photon, struct kd_ring_view_point *out)
 {
     const struct kd_vantage *at = &view->rain.at;

@@ -4,7 +4,7 @@
 
 enum { EDGE_POINTS = 512 };
 
-/* Directions are (right, up, inwards). */
+/* Energy at infinity of a photon seen in the direction k = (right, up, inwards). */
 static double energy(const struct kd_tetrad *f, const double k[3])
 {
     return f->t.energy + k[2] * f->r.energy + k[1] * f->theta.energy - k[0] * f->phi.energy;
@@ -18,8 +18,8 @@ static void edge_at(const struct kd_critical *edge, double angle, double k[3])
     k[0] = p.right, k[1] = p.up, k[2] = p.inwards;
 }
 
-/* The angle of the triangle c a b on the unit sphere, with the sign of its sense: tan(A/2) = c (a x b)/(1 + ab + bc
- * + ca) (A. van Oosterom & J. Strackee 1983, IEEE Trans. Biomed. Eng. 30, 125). */
+/* Signed angle of the triangle c a b on the unit sphere: tan(A/2) = c (a x b)/(1 + ab + bc + ca) (A. van Oosterom &
+ * J. Strackee 1983, IEEE Trans. Biomed. Eng. 30, 125). */
 static double triangle(const double c[3], const double a[3], const double b[3])
 {
     double volume =
@@ -35,9 +35,9 @@ static double polygon(const double c[3], double points[EDGE_POINTS][3], int stri
     return sum;
 }
 
-/* What the edge encloses: three polygons, whose errors go as powers of the square of the step, extrapolated
- * (Romberg). About a direction within, or the opposite one where most of the edge is nearer to that: the sum is the
- * same but for 4 pi. */
+/* Solid angle enclosed by the edge: three polygons, whose errors are powers of the squared step, extrapolated
+ * (Romberg). Triangles meet in a direction inside, or in the opposite one if most of the edge is closer to that: the
+ * sum then differs by 4 pi only. */
 static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS][3])
 {
     struct kd_critical_point middle = { .right = sin(edge->centre), .inwards = cos(edge->centre) };
@@ -52,8 +52,8 @@ static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS
     return angle < 0 ? angle + 4 * M_PI : angle;
 }
 
-/* The largest sign * E on the edge: golden section between the neighbours of the highest point, flat there, so that
- * it is good to the square. */
+/* Maximum of sign * E on the edge: golden section between the neighbours of the highest point; at a maximum the
+ * error is the square of the width. */
 static double extreme(const struct kd_sky_view *v, double points[EDGE_POINTS][3], int sign)
 {
     const double golden = 0.5 * (sqrt(5) - 1), step = 2 * M_PI / EDGE_POINTS;
@@ -76,8 +76,7 @@ static double extreme(const struct kd_sky_view *v, double points[EDGE_POINTS][3]
     return sign * fmax(there, sample);
 }
 
-/* Polar coordinates about the middle of the dark disk, in the frame that the edge is given in: every angle meets the
- * edge once. */
+/* Polar coordinates about the middle of the dark disk, in the frame of the edge: every angle meets the edge once. */
 static bool is_dark(const struct kd_sky_view *v, const double k[3])
 {
     double right = k[0], up = k[1], inwards = k[2];
@@ -116,7 +115,7 @@ struct kd_sky_view kd_sky_view_of(const struct kd_critical_observer *o)
     for (int sign = -1; sign <= 1 && size > 0; sign += 2) {
         const double pole[3] = { sign * slope[0] / size, sign * slope[1] / size, sign * slope[2] / size };
         double g = kd_sky_view_shift(&v, pole);
-        v.least = fmin(v.least, g); /* of two, the one that is a number */
+        v.least = fmin(v.least, g); /* fmin returns the other argument if one is NaN */
         v.greatest = fmax(v.greatest, g);
     }
     return v;

@@ -9,7 +9,7 @@
 /* sn, cn^2 and dn^2 of a phase between 0 and K, each without cancellation. */
 struct phase { double s, c2, d2; };
 
-/* Int sn^2 and Int sn^2/(1 - n sn^2), rest being 1 - n sn^2 at the end. */
+/* Int sn^2 and Int sn^2/(1 - n sn^2); rest: 1 - n sn^2 at the end. */
 static double integral_s2(struct phase at)
 {
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rd(at.c2, at.d2, 1) / 3;
@@ -20,12 +20,12 @@ static double integral_pole(struct phase at, double rest)
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rj(at.c2, at.d2, 1, rest) / 3;
 }
 
-/* From periastron to the phase u whose functions are `at`, without the polar motion's share. With s = sn^2,
+/* Radial part of the integrals from periastron to the phase u, whose functions are `at`. With s = sn^2,
  *
  *   r = r2 + (r2 - r3) h s/(1 - h s)      1/(r - r5) = (1 - h (r2 - r3)/(r2 - r5) s/(1 - h5 s))/(r2 - r5)
  *
- * h = (r1 - r2)/(r1 - r3), h5 = h (r3 - r5)/(r2 - r5) [Fujita & Hikida eqs 27 to 32]. Int r^2 follows from
- * d/du [sn cn dn/(1 - h s)], which leaves the integrals of s and of s/(1 - h s) only, and k_r/h = q stays finite:
+ * h = (r1 - r2)/(r1 - r3), h5 = h (r3 - r5)/(r2 - r5) [Fujita & Hikida eqs 27 to 32]. Int r^2 follows from d/du [sn
+ * cn dn/(1 - h s)], which leaves only the integrals of s and of s/(1 - h s), and k_r/h = q stays finite:
  *
  *   Int r^2 = r2^2 u + 2 r2 (r2 - r3) h T - (r1 - r3)(r2 - r4) h/2 [sn cn dn/(1 - h s) - u - (3h - 2 - 2k + q) T +
  *     q S] */
@@ -56,10 +56,11 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     };
 }
 
-/* L = 0 and high enough: the axis is passed at each turning point, where L/sin^2 theta is a step of pi. */
+/* True if L = 0 and the motion reaches the axis: it passes at each turning point, where L/sin^2 theta is a step of
+ * pi. */
 static bool through_axis(const struct kd_orbit *o) { return o->momentum == 0 && o->axis_gap == 0; }
 
-/* Sums the polar integrals from the equator to the phase u whose functions are `at`. */
+/* Polar part of the integrals from the equator to the phase u, whose functions are `at`. */
 static struct kd_orbit_sums polar_sums(const struct kd_orbit_bound *b, double u, struct phase at)
 {
     const struct kd_orbit *o = &b->orbit;
@@ -75,7 +76,7 @@ static struct kd_orbit_sums combine(double n, struct kd_orbit_sums half, double 
                                     n * half.phi + sign * rest.phi };
 }
 
-/* `halves` counts phases of 2K. */
+/* A phase reduced to a quarter period; `halves` counts phases of 2K. */
 struct reduced {
     double halves, sign, rest;
     struct phase at;
@@ -115,7 +116,7 @@ static void set_radial(struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     double g[3], *r = b->r;
-    kd_orbit_factor(o, g); /* g0 r^2 + g1 r + g2 = 0 for the other two roots */
+    kd_orbit_factor(o, g); /* g0 r^2 + g1 r + g2 = 0 gives the other two roots */
     r[0] = 1 / o->w_low, r[1] = 1 / o->w_high;
     r[2] = (sqrt(fmax(g[1] * g[1] - 4 * g[0] * g[2], 0)) - g[1]) / (2 * g[0]);
     r[3] = g[2] / (g[0] * r[2]);
@@ -216,11 +217,11 @@ struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound 
     return f;
 }
 
-/* 2 K(k)/pi - 1 by the arithmetic-geometric mean of numbers kept as their difference from 1. */
+/* 2 K(k)/pi - 1 by the arithmetic-geometric mean, with all numbers stored as their difference from 1. */
 static double complete_excess(double k)
 {
     double x = 0, y = k / (1 + sqrt(1 - k));
-    for (int i = 0; i < 8; i++) { /* quadratic: 8 are enough for k = 1 - 1e-16 */
+    for (int i = 0; i < 8; i++) { /* quadratic convergence: 8 suffice for k = 1 - 1e-16 */
         double both = x + y - x * y;
         x = 0.5 * (x + y);
         y = both / (1 + sqrt(1 - both));
@@ -243,7 +244,7 @@ double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
 
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *b)
 {
-    if (b->orbit.a == 0) /* the plane stays */
+    if (b->orbit.a == 0) /* the orbital plane is fixed */
         return 0;
     struct kd_orbit_frequencies f = kd_orbit_frequencies_of(b);
     return 2 * M_PI * (fabs(f.mino_phi) / f.mino_theta - 1);

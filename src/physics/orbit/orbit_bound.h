@@ -1,22 +1,22 @@
-/* Bound timelike geodesics of Kerr have a closed form: this gives place and time at any Mino time, and the
- * fundamental frequencies. Double precision, pure functions, any thread. Units G = c = M = 1.
+/* Bound timelike geodesics of Kerr in closed form: place and time at any Mino time, and the fundamental frequencies.
+ * Double precision, pure functions, any thread. Units G = c = M = 1.
  *
  * R. Fujita & W. Hikida 2009, arXiv:0906.1420 (r, theta, t, phi by elliptic functions; frequencies as S. Drasco & S.
- * A. Hughes 2004, astro-ph/0308479, define them). Their integrals of the third kind are written with Carlson's R_J
- * so that a circular or an equatorial orbit, or one through the axis, is no special case. */
+ * A. Hughes 2004, astro-ph/0308479, define them). Their integrals of the third kind are written with Carlson's R_J,
+ * so that circular and equatorial orbits, and those through the axis, are no special cases. */
 #ifndef KD_PHYSICS_ORBIT_ORBIT_BOUND_H
 #define KD_PHYSICS_ORBIT_ORBIT_BOUND_H
 
 #include "physics/orbit/timelike.h"
 
-/* Growth of each coordinate; `mino` is Mino time itself. */
+/* Increase of each coordinate. */
 struct kd_orbit_sums { double proper, t, phi; };
 
 struct kd_orbit_bound {
     struct kd_orbit orbit;
-    double r[4];                         /* roots of R, r[0] >= r[1] > r[2] >= r[3]; r[0], r[1] the turning points */
+    double r[4]; /* roots of R, r[0] >= r[1] > r[2] >= r[3]; r[0] and r[1] are the turning points */
     double pace_r, k_r, k1_r, quarter_r; /* r is a function of sn^2(pace lambda | k), quarter = K(k); k1 = 1 - k */
-    double unit_r;                       /* the pace; 1 in a circle, where quarter_r is 1 and half_r holds the rates */
+    double unit_r;                       /* the pace; 1 for a circle, where quarter_r is 1 and half_r holds the rates */
     double h, h_plus, h_minus;
     double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
     struct kd_orbit_sums half_r, half_z; /* from periastron to apastron; from the equator to a turning point of theta */
@@ -24,7 +24,7 @@ struct kd_orbit_bound {
     struct kd_orbit_sums start_r, start_z;
 };
 
-/* orbit.fate must be BOUND. The start is kd_orbit_start's, or anywhere. */
+/* orbit.fate must be BOUND. start: from kd_orbit_start, or any other point of the orbit. */
 struct kd_orbit_bound kd_orbit_bound_of(const struct kd_orbit *orbit, const struct kd_orbit_state *start);
 
 struct kd_orbit_frequencies {
@@ -35,12 +35,12 @@ struct kd_orbit_frequencies {
 struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound *bound);
 
 /* Azimuth gained between periastra beyond a full turn, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and between ascending
- * nodes. For a = 0 the former without cancellation however wide the orbit. */
+ * nodes. For a = 0 the former has no cancellation however wide the orbit. */
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *bound);
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *bound);
 
 struct kd_orbit_place { double mino, proper, t, r, theta, phi; };
-/* At Mino time `mino` since the start, where phi, t and proper time are 0. */
+/* The place at Mino time `mino` since the start, where phi, t and proper time are 0. */
 struct kd_orbit_place kd_orbit_bound_at(const struct kd_orbit_bound *bound, double mino);
 
 #endif

@@ -9,7 +9,7 @@
 typedef double lane __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 
-/* The widest registers that the processor has: chosen when the program is loaded. */
+/* The widest vectors of the processor, selected when the program is loaded. */
 #if defined(__x86_64__) && defined(__has_attribute)
 #if __has_attribute(target_clones) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -20,7 +20,7 @@ typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 #endif
 #define INLINE static inline __attribute__((always_inline))
 
-enum { PIECE = 4096 }; /* steps between two looks at whether others go first */
+enum { PIECE = 4096 }; /* steps between two preemption points */
 
 struct exact { lane value, rest; };
 
@@ -44,12 +44,13 @@ INLINE void add(struct exact *to, const lane *by)
 
 INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
 {
-    mask size = (mask)*x & INT64_MAX & *where; /* without the sign: of non-negative doubles, integers keep the order */
+    /* bits without the sign: for non-negative doubles, integer order is the same */
+    mask size = (mask)*x & INT64_MAX & *where;
     mask greater = size > (mask)*greatest;
     *greatest = (lane)((size & greater) | ((mask)*greatest & ~greater));
 }
 
-/* The sums below are those of orbit_path.c, in their order. */
+/* Same sums as in orbit_path.c, in the same order. */
 INLINE void radial_force(const struct state *s, const lane *w, const lane *rest, lane *force)
 {
     lane left = (*w - s->w_low) + *rest, right = (s->w_high - *w) - *rest;
@@ -107,8 +108,8 @@ INLINE void look(struct state *s)
     keep_greater(&s->worst_binet, &radial, &all);
 }
 
-/* Takes so many steps of all lanes. It ends early, and returns what is left, after a step in which w ceased to grow
- * in some lane: *turned. */
+/* Takes `steps` steps of all lanes; returns the number left. It ends early after a step in which w ceased to grow in
+ * some lane: *turned. */
 WIDEST static uint64_t go(struct state *s, uint64_t steps, bool looks, bool stops, mask *turned)
 {
     const mask none = { 0 };
@@ -147,7 +148,7 @@ static struct kd_exact get_exact(const struct exact *from, int i)
     return (struct kd_exact) { from->value[i], from->rest[i] };
 }
 
-/* A lane with h = 0 stands still. */
+/* Loads a lane; one with h = 0 does not move. */
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;

@@ -1,5 +1,5 @@
-/* Follows eight paths side by side, for lists of orbits: it gives the numbers of eight scalar paths to the last
- * bit, several times as fast, since one path waits for its own sums most of the time. Any thread. */
+/* Follows eight paths side by side in SIMD lanes, for lists of orbits. The results equal those of eight scalar paths
+ * bit for bit, several times as fast, because a single path mostly waits for its own sums. Any thread. */
 #ifndef KD_PHYSICS_ORBIT_ORBIT_LANES_H
 #define KD_PHYSICS_ORBIT_ORBIT_LANES_H
 
@@ -8,17 +8,17 @@
 #define KD_ORBIT_LANES 8
 
 struct kd_orbit_lanes {
-    struct kd_orbit_path *path[KD_ORBIT_LANES]; /* all of them different */
+    struct kd_orbit_path *path[KD_ORBIT_LANES]; /* all different */
     double h[KD_ORBIT_LANES];
-    uint64_t steps[KD_ORBIT_LANES]; /* each its own number; 0: not this one, but its path must be there */
-    struct kd_orbit_drift
-        *worst[KD_ORBIT_LANES]; /* after each step the greatest absolute values go there; all NULL: nobody looks */
-    /* After a step in which w ceased to grow, with the path up to date; may be NULL. */
+    uint64_t steps[KD_ORBIT_LANES]; /* for each path; 0: not moved, but its path must be set */
+    /* Receives the largest absolute values after each step; all NULL: not computed. */
+    struct kd_orbit_drift *worst[KD_ORBIT_LANES];
+    /* Called after a step in which w ceased to grow, with the path up to date; may be NULL. */
     void (*periastron)(void *user, int lane);
     void *user;
 };
 
-/* Whether a path can be one of eight: bound, by Yoshida's method, with L != 0. */
+/* True if a path can be one of the lanes: bound, with Yoshida's method and L != 0. */
 bool kd_orbit_lanes_take(const struct kd_orbit_path *path);
 
 void kd_orbit_lanes_run(struct kd_orbit_lanes *lanes);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* T. J. Dekker 1971, Numer. Math. 18, 224 */
+/* Compensated addition (T. J. Dekker 1971, Numer. Math. 18, 224). */
 static inline void add(struct kd_exact *to, double x)
 {
     x += to->rest;
@@ -13,8 +13,8 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. Where both ends are known it is computed from the distances to them, so that an orbit whose ends are
- * one stays there for ever. */
+/* Half of W'. If both ends are known it is computed from the distances to them, so that an orbit whose ends coincide
+ * stays there for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -30,8 +30,8 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* The derivatives of the rates at a place: the forces besides those of the springs, then the rates of proper time, t
- * and chi. rest: what rounding left out of w. */
+/* The derivatives of the rates at a place: the forces without those of the springs, then the rates of proper time, t
+ * and chi. rest: the rounding error of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -55,14 +55,13 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
                    ((8 * o->energy - 2 * a * o->momentum) * w - 4 * a2w2 * o->energy) * hole;
 }
 
-/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits: his three equations once more by Newton's
- * method. */
+/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits, from his three equations by Newton's method. */
 const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932,
                                    -1.177679984178871006946416, 1.31518632068391121888425 };
 
 static int kick_of(int stage) { return stage < 4 ? stage : 6 - stage; }
 
-/* Half a leapfrog and half the next. */
+/* Half a leapfrog plus half of the next. */
 static double drift_of(int stage)
 {
     if (stage == 0 || stage == 7)
@@ -70,8 +69,8 @@ static double drift_of(int stage)
     return 0.5 * (kd_orbit_kicks[kick_of(stage)] + kd_orbit_kicks[kick_of(stage - 1)]);
 }
 
-/* An oscillator's turn in the time of each drift, as three shears: whatever rounding makes of their coefficients,
- * the area stays, and errors do not add up. */
+/* The rotation of an oscillator during each drift, as three shears. Whatever the rounding of their coefficients, the
+ * area is conserved and errors do not accumulate. */
 void kd_orbit_set_turns(struct kd_spring *s, double h)
 {
     double omega = sqrt(s->strength);
@@ -112,7 +111,7 @@ static void yoshida(struct kd_orbit_path *p, double h)
     drift(p, 7);
 }
 
-/* The whole force after the time `at` h, with the places moved by h^2 sum besides. */
+/* The total force after the time `at` h; places are also displaced by h^2 sum. */
 static void stage_of(const struct kd_orbit_path *p, double at, double h, const double *sum, double *f)
 {
     double q[KD_PATH_PLACES], rest = 0;
@@ -150,7 +149,7 @@ static void albrecht(struct kd_orbit_path *p, double h)
         add(&p->rate[i], h * (7 * (k[0][i] + k[4][i]) + 32 * (k[1][i] + k[3][i]) + 12 * k[2][i]) / 90);
 }
 
-/* Int (r^2 + a^2)/Delta dr and Int a/Delta dr: what ingoing time and azimuth are ahead of t and phi by. */
+/* Int (r^2 + a^2)/Delta dr and Int a/Delta dr: the difference between ingoing time and azimuth and t, phi. */
 static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
     double plus = kd_hole(o->a)->outer, minus = kd_hole(o->a)->inner, gap = plus - minus, r = 1 / w;
@@ -159,7 +158,8 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
     *phi = o->a * (near - inner) / gap;
 }
 
-/* Falling for good: no turning point inwards, and W no longer small, so that its root is smooth. */
+/* Switches to ingoing coordinates when the fall is final: there is no turning point inwards, and W is no longer
+ * small, so that its root is smooth. */
 static void enter(struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -180,7 +180,7 @@ static double steep(const struct kd_orbit_path *p)
     return o->n - o->a * o->a * o->binding * o->z * y * y;
 }
 
-/* The part of the azimuth that turns fast next to the axis, for L > 0. */
+/* The part of the azimuth that changes fast next to the axis, for L > 0. */
 static double swing(const struct kd_orbit_path *p)
 {
     double turned = M_PI * p->half_turns;
@@ -211,9 +211,9 @@ void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const
     enter(p);
 }
 
-/* Counts the half turns that atan2 does not see. Q >= 0: the azimuth grows steadily, and jumps at pi, where y
- * changes sign on its way down. Q < 0: a turning point next to the equator is a jump back by pi. L = 0: the axis is
- * passed where y turns. */
+/* Counts the half turns that atan2 does not include. Q >= 0: the azimuth grows steadily, and atan2 jumps at pi,
+ * where y changes sign on its way down. Q < 0: a turning point next to the equator is a jump back by pi. L = 0: the
+ * axis is passed where y turns. */
 static void count(struct kd_orbit_path *p, double y, double rate, int way)
 {
     double y_now = p->place[KD_PATH_Y].value, rate_now = p->rate[KD_PATH_Y].value;
@@ -272,7 +272,7 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
         .mass = NAN,
         .binet = a2 == 0 ? radial : NAN,
     };
-    /* mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: both residuals enter with the weight of their term */
+    /* mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: both residuals have the weight of their term */
     if (w * kd_hole(o->a)->outer < 0.99 && sine2 > 0.01)
         d.mass = -(radial / (w * w * (1 - 2 * w + a2 * w * w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
     return d;
@@ -299,7 +299,7 @@ static double height(const struct kd_orbit_path *p, enum event event, double aim
     return isnan(t) ? INFINITY : t - aim;
 }
 
-/* Regula falsi with Illinois' halving, until rounding lets it come no nearer. */
+/* Regula falsi with the Illinois modification, until rounding stops it. */
 static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h, enum event event, double aim)
 {
     struct kd_orbit_path best = moved(path, h);
@@ -307,7 +307,7 @@ static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h,
     for (int i = 0; i < 100 && f_low != f_high; i++) {
         double at = isfinite(f_high) ? high - f_high * (high - low) / (f_high - f_low) : 0.5 * (low + high);
         if (!(at > fmin(low, high) && at < fmax(low, high)) || fabs(high - low) < 1e-15 * fabs(h)) {
-            if (at == low) /* the event is there: where the step begins, it may be */
+            if (at == low) /* the event is here, possibly at the beginning of the step */
                 best = low == 0 ? *path : moved(path, low);
             break;
         }
@@ -335,8 +335,8 @@ struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, d
     struct kd_orbit_path end = moved(path, h);
     bool beyond = (height(path, RADIUS, w) < 0) != (height(&end, RADIUS, w) < 0);
     if (!beyond && (path->rate[KD_PATH_W].value < 0) != (end.rate[KD_PATH_W].value < 0))
-        h = kd_orbit_path_to_apsis(path, h).mino.value -
-            path->mino.value; /* with E = 1 infinity is a turning point like others */
+        /* With E = 1 infinity is a turning point like others. */
+        h = kd_orbit_path_to_apsis(path, h).mino.value - path->mino.value;
     return to_event(path, h, RADIUS, w);
 }
 

@@ -4,25 +4,25 @@
  *
  *   w'' = W'(w)/2        y'' = -(L^2 + Q + a^2 b) y + 2 a^2 b z y^3
  *
- * two separate oscillators with polynomial forces, Binet's and Duffing's. An orbit in the equatorial plane has an
- * imagined y. The rates of proper time, t and phi depend on the place alone: they take part as further momenta, and
- * whatever method moves the momenta moves them to the same order. The azimuth has no pole at the axis: with N = Q/z,
- * cc = |L|/(N - a^2 b), nu = -a^2 b cc^2
+ * two separate oscillators with polynomial forces, Binet's and Duffing's. An orbit in the equatorial plane has a
+ * fictitious y. The rates of proper time, t and phi depend on the place alone. They are treated as further momenta,
+ * so that any method integrates them to its own order. The azimuth has no pole at the axis: with N = Q/z, cc =
+ * |L|/(N - a^2 b), nu = -a^2 b cc^2
  *
  *   |L|/(1 - u^2) = d/dlambda atan2(cc y (N - a^2 b u^2), y') - a^2 b cc (1 - y^2)/(1 - nu y^2)
  *
  * (for light in null_polar.h; checked by quadrature, tests/unit/physics_orbit.c). E and L of the orbit are
- * parameters here, L enters no momentum and is held exactly.
+ * parameters; L enters no momentum and is conserved exactly.
  *
- *   KD_ORBIT_YOSHIDA6  H. Yoshida 1990, Phys. Lett. A 150, 262, solution A: seven leapfrogs a step. In these y
- *                      moves as the harmonic oscillator that it is where a = 0, and w, where relativity is a small
- *                      disturbance (periastron above some 12 M), as that of Kepler's ellipse, after J. Wisdom & M.
- *                      Holman 1991, AJ 102, 1528. Symplectic: the errors of the first integrals stay bounded. All
- *                      sums are compensated, so that rounding does not add up either.
+ *   KD_ORBIT_YOSHIDA6  H. Yoshida 1990, Phys. Lett. A 150, 262, solution A: seven leapfrogs a step. In their drifts y
+ *                      moves as the harmonic oscillator that it is for a = 0. Where relativity is a small disturbance
+ *                      (periastron above some 12 M), w moves as on Kepler's ellipse, after J. Wisdom & M. Holman 1991,
+ *                      AJ 102, 1528. Symplectic: the errors of the first integrals stay bounded. All sums are
+ *                      compensated, so that rounding does not accumulate either.
  *   KD_ORBIT_RKN6      J. Albrecht 1955, ZAMM 35, 100: Nystroem's method of order 6 in five stages
  *
- * t and phi diverge at the horizon. A plunging path is followed in ingoing coordinates from where it falls for good,
- * and its t and phi are derived from those, good until the horizon itself, where they are infinite and given as NAN. */
+ * t and phi diverge at the horizon. A plunging path uses ingoing coordinates once its fall is final. Its t and phi
+ * are derived from those, and are accurate up to the horizon itself, where they are infinite and given as NAN. */
 #ifndef KD_PHYSICS_ORBIT_ORBIT_PATH_H
 #define KD_PHYSICS_ORBIT_ORBIT_PATH_H
 
@@ -32,58 +32,58 @@
 
 enum kd_orbit_method { KD_ORBIT_YOSHIDA6, KD_ORBIT_RKN6 };
 
-/* A number and what rounding left out of it. */
+/* A number and its rounding error. */
 struct kd_exact { double value, rest; };
 
 enum { KD_PATH_W, KD_PATH_Y, KD_PATH_PLACES };
 enum { KD_PATH_PROPER = KD_PATH_PLACES, KD_PATH_T, KD_PATH_CHI, KD_PATH_RATES };
 
-/* The linear part of a force, -strength (q - centre): its motion is known, and its turns in the drifts of a step are
- * kept as shears. */
+/* The linear part of a force, -strength (q - centre): its motion is exact, and its rotations in the drifts of a step
+ * are stored as shears. */
 struct kd_spring {
     double strength, centre;
     struct { double kick, drift; } turn[4];
 };
 
 struct kd_orbit_path {
-    /* read only */
+    /* read only for callers */
     struct kd_orbit orbit;
     enum kd_orbit_method method;
     bool factored, ingoing;
     double g[3];
     struct kd_spring spring[KD_PATH_PLACES];
-    double stiff;                          /* of y, where its linear force drives it away */
-    double cc, nu, twist, swing;           /* of the azimuth; the last at the start */
-    double entry_t, entry_phi;             /* what the ingoing coordinates were ahead by where they were entered */
+    double stiff;                /* of y, if its linear force is repulsive */
+    double cc, nu, twist, swing; /* constants of the azimuth; swing: its value at the start */
+    double entry_t, entry_phi;   /* difference of the ingoing coordinates from t and phi where they were entered */
     struct kd_exact place[KD_PATH_PLACES]; /* w, y */
-    struct kd_exact rate[KD_PATH_RATES];   /* their derivatives; then proper time, t, the smooth part of phi */
+    struct kd_exact rate[KD_PATH_RATES];   /* derivatives of w, y; then proper time, t, and the smooth part of phi */
     struct kd_exact mino;
     int half_turns;
-    double turn_h; /* the step that the springs' turns belong to */
+    double turn_h; /* the step that the springs' rotations were computed for */
 };
 
-/* `start` as kd_orbit_start or kd_orbit_from_state give it. */
+/* start: from kd_orbit_start or kd_orbit_from_state. */
 void kd_orbit_path_init(struct kd_orbit_path *path, const struct kd_orbit *orbit, const struct kd_orbit_state *start,
                         enum kd_orbit_method method);
 void kd_orbit_path_step(struct kd_orbit_path *path, double h);
 struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *path);
 
-/* First integrals from where the path is now, less what they are: E and the rest mass relative; of Q the residual of
- * the polar equation, divided by L^2 + Q; with a = 0 Binet's C = (dw/dpsi)^2 + w^2 - 2w/l^2 - 2w^3 = (E^2 - 1)/l^2,
- * l^2 = L^2 + Q, psi the angle in the plane of the orbit, times l^2; else NAN. The mass is NAN within a hundredth of
- * r+ from the horizon and a tenth from the axis, where it is a quotient of zeros. */
+/* Errors of the first integrals, from the present place. E and the rest mass: relative. Q: the residual of the polar
+ * equation, divided by L^2 + Q. With a = 0 Binet's C = (dw/dpsi)^2 + w^2 - 2w/l^2 - 2w^3 = (E^2 - 1)/l^2, l^2 = L^2
+ * + Q, psi being the angle in the plane of the orbit, times l^2; otherwise NAN. The mass is NAN within a hundredth
+ * of r+ from the horizon and a tenth from the axis, where it is 0/0. */
 struct kd_orbit_drift { double energy, carter, mass, binet; };
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 
-/* Moves `path`, whose radial velocity changes sign within a step of h, to where that vanishes. */
+/* Moves `path` to where its radial velocity vanishes; this must happen within a step of h. */
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h);
-/* Moves it to the radius 1/w, the first time where it is passed and then, after a turning point, again, and to the
- * time t: both within the step. */
+/* Moves it to the radius 1/w, at the first passage and then, after a turning point, at the second; or to the time t.
+ * Both must be within the step. */
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
 struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);
 
-/* Shared by the files of this folder: Yoshida's weights w3, w2, w1, w0, and the turns of a spring in the drifts of a
- * step of h. */
+/* Shared by the files of this folder: Yoshida's weights w3, w2, w1, w0, and the rotations of a spring in the drifts
+ * of a step of h. */
 extern const double kd_orbit_kicks[4];
 void kd_orbit_set_turns(struct kd_spring *spring, double h);
 

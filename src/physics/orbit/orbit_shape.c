@@ -11,8 +11,8 @@
  *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) + z Delta)    g = 2r    h = r (r - 2) + a^2 z
  *
  * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e
- * does; here they are divided by r2 - r1, from divided differences, and e = 0 is a case like any other. His sign of
- * the root becomes that of ax. */
+ * does; here they are divided by r2 - r1, by divided differences, so that e = 0 is no special case. His sign of the
+ * root becomes that of ax. */
 struct column { double f, g, h, d; };
 
 static struct column values(double a2, double z, double r)
@@ -30,7 +30,7 @@ static struct column differences(double a2, double z, double r1, double r2)
                              three - 2 * two + a2 * one + a2 * z * (one - 2) };
 }
 
-/* The positive root of the quadratic at r, for E and b = 1 - E^2 known: q = f - d = 2r (r^2 + a^2) and b stand for d
+/* The positive root of the quadratic at r, with E and b = 1 - E^2 given: q = f - d = 2r (r^2 + a^2) and b replace d
  * and E^2. */
 static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
 {
@@ -39,7 +39,7 @@ static double root_at(const struct column *v, double ax, double r, double a2, do
     return half > 0 ? rest / (half + discriminant) : (discriminant - half) / v->h;
 }
 
-/* W(w) = 0 solved for b, with Q = z (a^2 b + l^2) and K = Q + (L - aE)^2. */
+/* b from W(w) = 0, with Q = z (a^2 b + l^2) and K = Q + (L - aE)^2. */
 static double binding_at(const struct kd_orbit *o, double x, double l, double w)
 {
     double a2 = o->a * o->a, z = (1 - x) * (1 + x), l2 = x * l * x * l, q0 = z * l * l, rest = x * l - o->a * o->energy;
@@ -47,16 +47,18 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
     return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + a2 * w * w)));
 }
 
-/* E as his formula has it loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b the two equations
- * leave, l^2 eliminated, rho b = chi - 2 a x sigma E l with chi from q instead of d: E and l are needed in a small
- * term only. What that loses next to a parabola the outer turning point knows, where W = 0 is all but b = 2w. */
+/* His formula for E loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b, eliminating l^2 from
+ * the two equations gives rho b = chi - 2 a x sigma E l with chi from q instead of d, where E and l enter a small
+ * term only. Next to a parabola this loses digits too; there the outer turning point gives b, since W = 0 is almost
+ * b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
     double a2 = o->a * o->a, z = (1 - x) * (1 + x), ax = o->a * x;
     struct column v = values(a2, z, r2), s = differences(a2, z, r1, r2);
     double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
     double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
-    /* Next to a parabola the last two terms are alike to rounding; E l is needed to no more than that below. */
+    /* Next to a parabola the last two terms are equal within rounding; below E l is not needed more accurately than
+     * that. */
     double inner = ax * ax * sigma * epsilon * epsilon + rho * epsilon * kappa - eta * kappa * kappa;
     double root = sqrt(fmax(sigma * inner, 0));
     double e2 = (kappa * rho + 2 * ax * ax * epsilon * sigma - 2 * ax * root) / (rho * rho + 4 * ax * ax * eta * sigma);
@@ -80,7 +82,7 @@ void kd_orbit_factor(const struct kd_orbit *o, double g[3])
     g[0] = o->binding / product;
 }
 
-/* The orbit of a shape, without a check whether it exists. */
+/* The orbit of a shape, without checking that it exists. */
 static struct kd_orbit of_shape(double a, double p, double e, double x)
 {
     double l, z = (1 - x) * (1 + x);
@@ -94,7 +96,7 @@ static struct kd_orbit of_shape(double a, double p, double e, double x)
     return o;
 }
 
-/* Whether W > 0 between the turning points and falls beyond them: r3 < r2. */
+/* True if W > 0 between the turning points and W < 0 just beyond them: r3 < r2. */
 static bool stable(const struct kd_orbit *o)
 {
     double g[3], w = o->w_high;

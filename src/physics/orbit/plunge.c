@@ -26,14 +26,14 @@ struct kd_plunge kd_plunge_of(const struct kd_hole *hole)
     o.momentum = kd_kerr_momentum(hole, o.isco);
     o.outer = pole_of(&o, o.horizon, inner);
     o.inner = pole_of(&o, inner, o.horizon);
-    /* r^2 u^t d(tau)/dy at the ISCO, where it is a circle's. */
+    /* r^2 u^t d(tau)/dy at the ISCO, where it is that of the circular orbit. */
     double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(hole, o.isco);
     o.t_rate = -rate;
     o.phi_rate = -rate * kd_kerr_omega(hole, o.isco);
     return o;
 }
 
-/* artanh(p/y)/p from p/y -> 0 up: without spin the inner pole is at 0. */
+/* artanh(p/y)/p down to p/y = 0: without spin the inner pole is at 0. */
 static double artanh_over(double p, double y) { return p > 1e-8 * y ? atanh(p / y) / p : 1 / y; }
 
 struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)

@@ -1,11 +1,11 @@
-/* The plunge from the ISCO of Kerr is the equatorial geodesic that leaves the innermost stable circular orbit with
- * its energy and angular momentum, infinitely slowly, and falls into the horizon. Its radial potential has a triple
- * root, so that proper time, azimuth and coordinate time are elementary functions of r. Double precision, pure, any
- * thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h.
+/* Plunge from the ISCO of Kerr: the equatorial geodesic with the energy and angular momentum of the innermost stable
+ * circular orbit, which leaves that orbit infinitely slowly and falls into the horizon. Its radial potential has a
+ * triple root, so that proper time, azimuth and coordinate time are elementary functions of r. Double precision,
+ * pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h.
  *
  * Sources: A. Mummery & S. Balbus 2022, Phys. Rev. Lett. 129, 161101, arXiv:2209.03579 (u^r and phi); C. Dyson & M.
- * van de Meent 2023, arXiv:2302.03704 (t too). Relative error, from a thirtieth of the way between the ISCO and the
- * horizon to all but a thousandth of it: below 4e-13 for |a| <= 0.998, 1e-11 at 0.9999. */
+ * van de Meent 2023, arXiv:2302.03704 (t too). Relative error, from a thirtieth to 0.999 of the way from the ISCO to
+ * the horizon: below 4e-13 for |a| <= 0.998, 1e-11 at 0.9999. */
 #ifndef KD_PHYSICS_ORBIT_PLUNGE_H
 #define KD_PHYSICS_ORBIT_PLUNGE_H
 
@@ -14,15 +14,15 @@
 struct kd_plunge {
     double a, isco, horizon;
     double energy, momentum; /* of the orbit at the ISCO */
-    /* The partial fractions of t and phi, at the outer and the inner horizon. With y = sqrt(r/(isco - r)): where the
-     * pole is, and what stands before artanh(pole/y)/pole, but for isco/(isco - r_horizon). */
+    /* The partial fractions of t and phi, at the outer and the inner horizon. With y = sqrt(r/(isco - r)): the
+     * position of the pole, and the coefficients of artanh(pole/y)/pole, without the factor isco/(isco - r_horizon). */
     struct kd_plunge_pole { double pole, t, phi; } outer, inner;
-    double t_rate, phi_rate; /* per y, as y -> infinity */
+    double t_rate, phi_rate; /* rates with y, as y -> infinity */
 };
 struct kd_plunge kd_plunge_of(const struct kd_hole *hole);
 
-/* Coordinate time and azimuth at horizon < r < isco. They go to -infinity at the ISCO, where the body turns with its
- * Omega; where they are 0 means nothing. t diverges at the horizon, and phi unless a = 0. */
+/* Coordinate time and azimuth at horizon < r < isco, up to arbitrary constants. They go to -infinity at the ISCO,
+ * where the body moves with its Omega. t diverges at the horizon, and so does phi unless a = 0. */
 struct kd_plunge_event { double t, phi; };
 struct kd_plunge_event kd_plunge_at(const struct kd_plunge *plunge, double r);
 

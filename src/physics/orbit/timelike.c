@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-#define NEAR_CIRCLE 1e-3 /* of w: the ends of wider motions are roots of W to 1e-12 */
+#define NEAR_CIRCLE 1e-3 /* of w; the ends of wider motions are roots of W to 1e-12 */
 
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
 {
@@ -27,8 +27,8 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
     return 2 * o->energy * (1 + o->a * o->a * w * w) - 4 * o->a * (o->momentum - o->a * o->energy) * w * w * w;
 }
 
-/* z is the root of the quadratic in u^2 that is reached; 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or
- * from z n = Q, whichever subtracts nothing. */
+/* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z
+ * n = Q, whichever avoids subtraction. */
 static void set_polar(struct kd_orbit *o)
 {
     double flat = o->a * o->a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
@@ -60,7 +60,7 @@ void kd_orbit_set_constants(struct kd_orbit *o)
     set_polar(o);
 }
 
-/* The range between roots around w, or the outermost one there is if w is NAN. */
+/* The range between roots that contains w, or the outermost one if w is NAN. */
 static bool find_range(struct kd_orbit *o, double w)
 {
     double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / kd_hole(o->a)->outer;
@@ -68,7 +68,7 @@ static bool find_range(struct kd_orbit *o, double w)
     double low = 0, high = horizon;
     for (int i = 0; i <= n; i++) {
         double next = i < n ? roots[i] : horizon;
-        bool touches = i < n && i > 0 && next == low; /* a double root: circular, or the end of a whirl */
+        bool touches = i < n && i > 0 && next == low; /* a double root: a circular orbit, or the limit of a whirl */
         double middle = 0.5 * (low + next);
         bool allowed = touches || kd_orbit_radial(o, middle) > 0;
         bool here = isnan(w) || (w >= low * (1 - 1e-14) && w <= next * (1 + 1e-14));
@@ -91,7 +91,7 @@ static void set_fate(struct kd_orbit *o)
         double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
         double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
         o->fate =
-            bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it is zero but for rounding */
+            bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it vanishes within rounding */
         return;
     }
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
@@ -104,7 +104,7 @@ enum kd_status kd_orbit_check_spin(double a, struct kd_error *error)
     return kd_error_field(error, "/spin", "spin is %.16g; it must be a number above -1 and below 1", a);
 }
 
-/* E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
+/* True if E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
 static bool to_the_future(const struct kd_orbit *o)
 {
     double w = o->turns_out ? o->w_low : 0.5 * (o->w_low + o->w_high);
@@ -146,14 +146,14 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
         s.w = o->circular || o->turns_in ? o->w_high : o->w_low;
     else
         s.w = fmin(fmax(1 / r, o->w_low), o->w_high);
-    /* W rises as a root of the distance: within rounding of a turning point its value says nothing. */
+    /* W vanishes at a turning point, so that its rounded value close to one is meaningless. */
     if (o->turns_out && s.w <= o->w_low * (1 + 1e-14))
         s.w = o->w_low;
     else if (o->turns_in && s.w >= o->w_high * (1 - 1e-14))
         s.w = o->w_high;
     else
         s.w_rate = copysign(sqrt(fmax(kd_orbit_radial(o, s.w), 0)), outward ? -1 : 1);
-    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* unstable: released one step of its number inside */
+    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* unstable: start one ulp of w inside */
         double g[3];
         kd_orbit_factor(o, g);
         s.w = nextafter(o->w_high, 1);
@@ -164,7 +164,7 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
 
 double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
 {
-    /* W falls for large w, or is a cubic that rises: there is one minimum at most. */
+    /* W falls for large w, or is a rising cubic: there is at most one minimum. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
     int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_hole(o->a)->outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {
@@ -204,9 +204,9 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
     return KD_OK;
 }
 
-/* The ends of a motion near a stable circle. There the roots of W run into one another and drown in its rounding,
- * and W at the start may come out below zero; but it is known to be w_rate^2, and W about the start, as a polynomial
- * of the distance d, loses nothing. */
+/* Turning points of a motion near a stable circle. There the roots of W nearly merge and are lost in its rounding,
+ * and W at the start may be rounded below zero. But it is known to be w_rate^2, and W about the start, as a
+ * polynomial of the distance d, loses nothing. */
 static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, cubic = o->w[3] + 4 * w * o->w[4];
@@ -228,9 +228,9 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
     return true;
 }
 
-/* The range of a start that is at a turning point as far as rounding lets see, and by rounding beyond it. W is known
- * there to `unknown`, 64 roundings of its largest terms: the range is looked for where W rises above that. Where it
- * does not before its next extremum, both ends are one: a circle. */
+/* The range of motion for a start at a turning point within rounding, possibly beyond it. W is known there to
+ * `unknown`, 64 roundings of its largest terms, so the range is searched for where W exceeds that. If it does not
+ * before its next extremum, both ends coincide: a circle. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, slope = kd_orbit_radial_slope(o, w),
@@ -279,7 +279,7 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
     if (!find_range_of_circle(o, start) && !find_range(o, start->w) && !find_range_at_turn(o, start))
         return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision",
                               r);
-    if (start->w_rate == 0) { /* exactly at the turning point that is there */
+    if (start->w_rate == 0) { /* exactly at the nearer turning point */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
         *(outer ? &o->w_low : &o->w_high) = start->w;
         if (o->circular)

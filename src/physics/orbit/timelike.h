@@ -1,6 +1,6 @@
-/* A timelike geodesic of Kerr has these constants of motion, turning points and fate. Double precision, pure
- * functions, any thread. Units G = c = M = 1, unit rest mass; Boyer-Lindquist coordinates. The spin a is signed, the
- * orbit's sense is that of its L.
+/* Timelike geodesics of Kerr: constants of motion, turning points and fate. Double precision, pure functions, any
+ * thread. Units G = c = M = 1, unit rest mass; Boyer-Lindquist coordinates. The spin a is signed; the orbit's sense
+ * is that of its L.
  *
  * In Mino time (dtau_proper = Sigma dlambda) with w = 1/r and u = cos(theta), K = Q + (L - aE)^2 and b = 1 - E^2,
  *
@@ -22,70 +22,69 @@ enum kd_orbit_fate { KD_ORBIT_BOUND, KD_ORBIT_PLUNGE, KD_ORBIT_ESCAPE };
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate); /* "bound", "plunge", "escape" */
 
 struct kd_orbit {
-    double a, energy, binding; /* E and 1 - E^2, which is the one to compute with where E is all but 1 */
+    double a, energy, binding; /* E, and 1 - E^2, which is accurate where E is close to 1 */
     double momentum, carter;   /* L and Q */
     double k, total;           /* K, and L^2 + Q */
-    double w[5];               /* coefficients of W, of w^0 first */
-    /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u swings between -sqrt(z) and sqrt(z), for Q < 0 on one side of the
-     * equator. */
-    double z, n, axis_gap; /* the last is 1 - z */
+    double w[5];               /* coefficients of W, ascending powers */
+    /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u oscillates between -sqrt(z) and sqrt(z), for Q < 0 on one side of
+     * the equator. */
+    double z, n, axis_gap; /* axis_gap is 1 - z */
     enum kd_orbit_fate fate;
-    /* The range of 1/r that the motion is confined to, between turning points, or to 0 (infinity) and 1/r+ where it
-     * has none. */
+    /* The range of 1/r that the motion is confined to: between turning points, or up to 0 (infinity) and 1/r+ where
+     * there is none. */
     double w_low, w_high;
-    bool turns_out, turns_in; /* whether there is a turning point at w_low, at w_high */
-    bool circular;            /* r constant: both ends are the same; fate PLUNGE if that is unstable */
+    bool turns_out, turns_in; /* turning points exist at w_low, at w_high */
+    bool circular;            /* r is constant: both ends coincide; fate is PLUNGE if the orbit is unstable */
 };
 
-/* Where a motion starts, and its velocity in Mino time. */
+/* Start of a motion: position, and velocity in Mino time. */
 struct kd_orbit_state { double w, w_rate, u, u_rate; };
 
-/* A bound orbit between the radii p/(1+e) and p/(1-e), 0 <= e < 1, that leaves the equatorial plane by the angle
- * whose cosine is x, |x| <= 1, x < 0 being retrograde (to +phi). W. Schmidt 2002, gr-qc/0202090, appendix B,
- * regrouped: see orbit_shape.c. KD_EINVAL, with pointer "/p", "/e" or "", where there is none; only a circular orbit
+/* A bound orbit between the radii p/(1+e) and p/(1-e), 0 <= e < 1, inclined to the equatorial plane by the angle
+ * whose cosine is x, |x| <= 1; x < 0 is retrograde (towards -phi). W. Schmidt 2002, gr-qc/0202090, appendix B,
+ * regrouped: see orbit_shape.c. KD_EINVAL, with pointer "/p", "/e" or "", if there is none; only a circular orbit
  * may be unstable. */
 enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *orbit,
                                    struct kd_error *error);
 
-/* The least p of a stable orbit with this e and x: the separatrix; for e = 0 the innermost stable circular or
- * spherical orbit. */
+/* The smallest p of a stable orbit with this e and x: the separatrix. For e = 0 that is the innermost stable
+ * circular or spherical orbit. */
 double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x);
-/* The radius of the orbit of light with this x, above which circular and spherical orbits of bodies exist, stable or
- * not. */
+/* Radius of the photon orbit with this x: circular and spherical orbits of bodies exist outside it, stable or not. */
 double kd_orbit_least_circle(const struct kd_hole *hole, double x);
 
-/* Q >= 0. r: a place on the orbit, or NAN for the outermost range that the constants leave. KD_EINVAL, with pointer
- * "/energy", "/carter" or "/r", if there is no such motion outside the horizon. */
+/* Orbit of given constants, Q >= 0. r: a point of the orbit, or NAN for the outermost range allowed. KD_EINVAL, with
+ * pointer "/energy", "/carter" or "/r", if there is no such motion outside the horizon. */
 enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy, double momentum, double carter,
                                        double r, struct kd_orbit *orbit, struct kd_error *error);
 
-/* A place outside the horizon and the velocity (r, theta, phi components, |v| < 1) that an observer there sees, if
- * there is such an observer. KD_EINVAL with pointer "/position/r", "/velocity" ... */
+/* Orbit through a place outside the horizon with the velocity (r, theta, phi components, |v| < 1) that an observer
+ * of this kind measures there. KD_EINVAL with pointer "/position/r", "/velocity" ... */
 enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double theta_deg, enum kd_observer frame,
                                    const double v[3], struct kd_orbit *orbit, struct kd_orbit_state *start,
                                    struct kd_error *error);
 
 /* Starts at the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r
- * at a turning point, within 1e-14, starts at rest there. The outer end of what comes from infinity has to be given.
- * An unstable circle is left by one step of the number 1/r, inwards. */
+ * within 1e-14 of a turning point starts at rest there. For an orbit from infinity r must be given. An unstable
+ * circle is left inwards, starting one ulp of 1/r inside. */
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, bool outward);
 
-/* The factor by which a relative error of the constants comes back in the length of the whirl that this start leads
- * to, along an unstable circle that the constants all but belong to: the terms of W over W itself at its minimum,
- * which the motion passes or turns at after a time that grows as the logarithm of that value. 0 where no such
- * minimum lies ahead, and for a circle itself. *r (may be NULL): where the whirl is. */
+/* Amplification of relative errors of the constants in the length of the whirl ahead, along an unstable circle that
+ * the constants nearly describe. It is the terms of W over W itself at its minimum; the motion passes there, or
+ * turns, after a time that grows as the logarithm of that value. 0 if no such minimum lies ahead, and for a circle
+ * itself. *r (may be NULL): radius of the whirl. */
 double kd_orbit_whirl(const struct kd_orbit *orbit, const struct kd_orbit_state *start, double *r);
 
-/* W and its derivative, and how W changes with E at fixed L and Q: to read a residual of W as one of E. */
+/* W, its derivative, and the derivative of W by E at fixed L and Q, which converts a residual of W to one of E. */
 double kd_orbit_radial(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_slope(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_by_energy(const struct kd_orbit *orbit, double w);
 
-/* Shared by the files of this folder. K, L^2 + Q and the coefficients of W from a, E, b, L and Q. */
+/* Shared by the files of this folder: sets K, L^2 + Q and the coefficients of W from a, E, b, L and Q. */
 void kd_orbit_set_constants(struct kd_orbit *orbit);
 enum kd_status kd_orbit_check_spin(double a, struct kd_error *error);
 
-/* W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2) where both ends are turning points. */
+/* W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2), if both ends are turning points. */
 void kd_orbit_factor(const struct kd_orbit *orbit, double g[3]);
 
 #endif

@@ -4,14 +4,13 @@
 
 #include <math.h>
 
-/* kappa^2 r^2/Omega^2 = x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the ISCO. Near a = 1 the
- * root is triple and lies at x = 1: regrouped around it, from d = x - 1 and e = 1 - a, nothing cancels that need
- * not. */
+/* kappa^2 r^2/Omega^2 = x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the ISCO. For a = 1 the
+ * root is triple, at x = 1. Written in d = x - 1 and e = 1 - a, it has no avoidable cancellation there. */
 double kd_epicyclic_radial(const struct kd_hole *hole, double r)
 {
     double x = sqrt(r), d = (r - 1) / (x + 1), e = 1 - hole->a;
     double q = d * d * d * (d + 4) - e * (2 + 8 * d + 3 * e);
-    if (r == kd_kerr_isco(hole)) /* not a rounding error of either sign */
+    if (r == kd_kerr_isco(hole)) /* exactly 0 instead of a rounding error */
         q = 0;
     return kd_kerr_omega(hole, r) * sqrt(q) / r;
 }

@@ -1,13 +1,13 @@
-/* Small oscillations about a circular equatorial orbit of Kerr have these angular frequencies of coordinate time.
- * Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h. Domain: r outside the
- * photon orbit.
+/* Epicyclic frequencies: angular frequencies, in coordinate time, of small oscillations about a circular equatorial
+ * orbit of Kerr. Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h.
+ * Domain: r outside the photon orbit.
  *
  *     kappa^2     = Omega^2 (1 - 6/r + 8a r^(-3/2) - 3a^2/r^2)       radial
  *     Omega_th^2  = Omega^2 (1 - 4a r^(-3/2) + 3a^2/r^2)             vertical
  *
  * J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972; A. T. Okazaki, S. Kato & J. Fukue 1987, PASJ 39, 457; S. Kato
- * 1990, PASJ 42, 99. Relative error below 1e-14, for kappa below 1e-15 r_isco/|r - r_isco| times that of a = 0: it
- * has a zero there. */
+ * 1990, PASJ 42, 99. Relative error below 1e-14; of kappa, which has a zero at the ISCO, below 1e-15 r_isco/|r -
+ * r_isco| times that for a = 0. */
 #ifndef KD_PHYSICS_SPACETIME_EPICYCLIC_H
 #define KD_PHYSICS_SPACETIME_EPICYCLIC_H
 
@@ -17,8 +17,8 @@
 double kd_epicyclic_radial(const struct kd_hole *hole, double r);
 double kd_epicyclic_vertical(const struct kd_hole *hole, double r);
 
-/* How the angular velocity d(phi)/dt changes with r for a body that keeps the E and L of the circular orbit: the
- * azimuth of a small radial oscillation A cos(kappa t) is ahead of the guiding centre by this, times A/kappa
+/* Derivative in r of the angular velocity d(phi)/dt of a body that keeps the E and L of the circular orbit. A small
+ * radial oscillation A cos(kappa t) advances the azimuth, relative to the guiding centre, by this times A/kappa
  * sin(kappa t). Newton's limit is -2 Omega/r. */
 double kd_epicyclic_shear(const struct kd_hole *hole, double r);
 

@@ -1,6 +1,6 @@
-/* The hole is a value, made once and passed on: whoever computes in its spacetime takes a pointer to it, const, which
- * lives as long as the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a| < 1; outside it the
- * numbers that do not exist are NaN.
+/* The hole as a value: made once, and passed as a const pointer to every function that computes in its spacetime;
+ * the pointer need live no longer than the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a|
+ * < 1; outside it undefined numbers are NaN.
  *
  * The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the
  * hole. The horizons are r± = 1 ± root with root = sqrt(1 - a^2 - q^2). */
@@ -11,24 +11,24 @@
 
 struct kd_hole {
     double a;     /* spin */
-    double q;     /* charge; 0, as long as no scene has one */
-    double root;  /* half of what lies between the horizons; to an ulp or two also where |a| -> 1 */
-    double outer; /* r+; a few ulp up to |a| = 1 - 1e-15 */
+    double q;     /* charge; always 0 so far */
+    double root;  /* half the distance between the horizons; to an ulp or two, also as |a| -> 1 */
+    double outer; /* r+; to a few ulp up to |a| = 1 - 1e-15 */
     double inner; /* r- */
 };
 
-/* An uncharged hole. root by (1 - a)(1 + a): 1 - a*a loses all digits as |a| -> 1. inner by r+ r- = a^2, without
- * cancellation at small a. */
+/* An uncharged hole. root is computed from (1 - a)(1 + a), because 1 - a*a loses all digits as |a| -> 1; inner from
+ * r+ r- = a^2, without cancellation at small a. */
 static inline struct kd_hole kd_hole_of(double a)
 {
     double root = sqrt((1 - a) * (1 + a)), outer = 1 + root;
     return (struct kd_hole) { a, 0, root, outer, a * a / outer };
 }
 
-/* The same as an argument, for who has a number: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the block. */
+/* The same as an argument, from a number: kd_kerr_isco(kd_hole(0.9)). Lives until the end of the enclosing block. */
 #define kd_hole(a) ((const struct kd_hole[]) { kd_hole_of(a) })
 
-/* The hole as it is for what turns towards +phi (sense 1), or for what turns towards -phi, with phi reversed (-1). */
+/* The hole in coordinates in which motion towards +phi (sense 1), or towards -phi (sense -1), is towards +phi. */
 static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, double sense)
 {
     struct kd_hole turned = *hole;
@@ -37,7 +37,7 @@ static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, doubl
 }
 #define kd_hole_turned(hole, sense) ((const struct kd_hole[]) { kd_hole_turned_of(hole, sense) })
 
-/* Delta = r^2 - 2r + a^2 + q^2, by its factors: as exact beside the horizon as r - r+ is. */
+/* Delta = r^2 - 2r + a^2 + q^2 by its factors, which keeps the accuracy of r - r+ next to the horizon. */
 static inline double kd_hole_delta(const struct kd_hole *hole, double r)
 {
     return (r - hole->outer) * (r - hole->inner);

@@ -11,7 +11,7 @@ bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vant
     return at->spin == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
 }
 
-/* (Sigma r')^2 = c[4] r^4 + ... + c[0], in r; divided by fall_from - r where that is finite, since it vanishes
+/* (Sigma r')^2 = c[4] r^4 + ... + c[0]; if fall_from is finite, divided by fall_from - r, a factor that vanishes
  * there. */
 struct fall {
     double c[5], spin, u, low, span, above; /* above: from the upper end to fall_from */
@@ -36,13 +36,13 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
         .swing = l == 0 ? 0 : ls / at->s,
         .carter = q + rest * rest,
     };
-    if (f.from_rest) /* from the lowest power on, of which the first vanish exactly without spin */
+    if (f.from_rest) /* in ascending powers; the first ones vanish exactly without spin */
         for (int i = 0; i < 4; i++)
             f.c[i] = (f.c[i] + (i ? f.c[i - 1] : 0)) / m->fall_from;
     return f;
 }
 
-/* -Sigma r', y being the distance from the upper end over the span. */
+/* -Sigma r'; y: distance from the upper end over the span. */
 static double speed(const struct fall *f, double r, double y)
 {
     double speed2 = 0;
@@ -66,16 +66,16 @@ double kd_infall_proper_time(const struct kd_observer_motion *m, const struct kd
     return f.span > 0 ? kd_quadrature(pace, &f) : 0;
 }
 
-/* (P + Sigma r')/Delta with P = E (r^2 + a^2) - a L. By P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular at the
- * horizon. */
+/* (P + Sigma r')/Delta with P = E (r^2 + a^2) - a L. Because of P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular
+ * at the horizon. */
 static double ingoing(const struct fall *f, double r, double speed)
 {
     double a = f->spin, p = f->energy * (r * r + a * a) - a * f->momentum;
     return p > 0 ? (r * r + f->carter) / (p + speed) : (p - speed) / (r * r - 2 * r + a * a);
 }
 
-/* Sigma dphi/dtau of ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for that of Boyer
- * and Lindquist). */
+/* Sigma dphi/dtau in ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for
+ * Boyer-Lindquist's phi). */
 static double turning(double x, double y, const void *user)
 {
     const struct fall *f = user;
@@ -91,7 +91,7 @@ static double ageing(double x, double y, const void *user)
     return f->span * (a * (f->momentum - a * f->energy * s2) + (r * r + a * a) * ingoing(f, r, v) + v) / v;
 }
 
-/* The integral of 2r/Delta, but for a constant; outside the horizon. */
+/* The integral of 2r/Delta up to a constant; outside the horizon. */
 static double delay(const struct kd_hole *hole, double r)
 {
     double outer = hole->outer, inner = hole->inner;

@@ -19,22 +19,22 @@ double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta)
 double kd_kerr_isco(const struct kd_hole *hole)
 {
     const double a = hole->a;
-    if (a == 0) /* the square of the rounded root of 6 is less */
+    if (a == 0) /* rounding of the root of 6 would make its square smaller */
         return 6;
     double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
     double z2 = sqrt(3 * a * a + z1 * z1);
     double r = 3 + z2 - copysign(sqrt(fmax(0, 3 - z1) * (3 + z1 + 2 * z2)), a);
 
-    /* 3 - Z1 cancels for small a, below zero at some, and its root is good to 1e-8 only; Newton on the defining
-     * quartic in x = sqrt(r), x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root and
-     * the formula is the better one. */
+    /* 3 - Z1 cancels for small a, may become negative, and its root is accurate to 1e-8 only. Newton on the defining
+     * quartic in x = sqrt(r), x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root, and
+     * the formula is more accurate. */
     if (fabs(a) < 0.7) {
         double x = sqrt(r);
         for (int i = 0; i < 3; i++)
             x -= (((x * x - 6) * x + 8 * a) * x - 3 * a * a) / ((4 * x * x - 12) * x + 8 * a);
         r = x * x;
     }
-    return fabs(a) <= 1 ? r : NAN; /* cube roots know no domain */
+    return fabs(a) <= 1 ? r : NAN; /* cube roots are defined outside the domain too */
 }
 
 double kd_kerr_photon_orbit(const struct kd_hole *hole)
@@ -53,9 +53,9 @@ double kd_kerr_marginally_bound(const struct kd_hole *hole)
 
 double kd_kerr_omega(const struct kd_hole *hole, double r) { return 1 / (r * sqrt(r) + hole->a); }
 
-/* Near a = 1 the prograde orbits come close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L
- * cancel and lose half their digits. As polynomials in x = sqrt(r) they are regrouped around x = 1, from x - 1 and 1
- * - a, which are known to full precision. */
+/* Near a = 1 prograde orbits are close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L cancel and
+ * lose half their digits. As polynomials in x = sqrt(r) they are regrouped about x = 1, in terms of x - 1 and 1 - a,
+ * which have full precision. */
 struct circle { double x, d, e, norm; }; /* sqrt(r), x - 1, 1 - a, sqrt(x^3 (x^3 - 3x + 2a)) */
 
 static struct circle circle_of(double a, double r)
@@ -87,7 +87,7 @@ double kd_kerr_ut(const struct kd_hole *hole, double r)
     return (r * o.x + a) / o.norm;
 }
 
-/* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no difference. */
+/* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no subtraction. */
 double kd_kerr_efficiency(const struct kd_hole *hole)
 {
     double x = 2 / (3 * kd_kerr_isco(hole));

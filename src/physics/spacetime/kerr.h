@@ -1,5 +1,5 @@
-/* The Kerr hole has these scalars that depend on spin, and these circular equatorial orbits. Double precision, pure
- * functions, any thread. Units G = c = M = 1; what the spin's sign means, and the domain: hole.h.
+/* Scalars of the Kerr hole that depend on its spin, and circular equatorial orbits. Double precision, pure
+ * functions, any thread. Units G = c = M = 1; for the sign of the spin and the domain see hole.h.
  *
  * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983. */
 #ifndef KD_PHYSICS_SPACETIME_KERR_H
@@ -27,15 +27,16 @@ double kd_kerr_ut(const struct kd_hole *hole, double r);
 /* Efficiency of a thin disk, 1 - E(ISCO). */
 double kd_kerr_efficiency(const struct kd_hole *hole);
 
-/* Boyer-Lindquist azimuth less that of ingoing Kerr-Schild coordinates, which is the same at infinity: the integral
- * of a/Delta from r to infinity. r > r+; it diverges at the horizon. */
+/* Boyer-Lindquist azimuth minus ingoing Kerr-Schild azimuth, which agree at infinity: the integral of a/Delta from r
+ * to infinity. r > r+; it diverges at the horizon. */
 double kd_kerr_twist(const struct kd_hole *hole, double r);
 
 /* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
 double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta);
 
-/* Anything at r turns with d(phi)/dt within this of the frame dragging, where light does: sqrt(Delta) Sigma/(B
- * sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the axis. */
+/* Range of d(phi)/dt about the frame dragging: every motion at r lies within +- this of it, and light reaches it.
+ * sqrt(Delta) Sigma/(B sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the
+ * axis. */
 double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta);
 
 #endif

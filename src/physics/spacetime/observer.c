@@ -33,7 +33,7 @@ static struct kd_tetrad frame_zamo(const struct kd_observer_motion *motion, cons
     };
 }
 
-/* The velocity is along the Killing vector d_t, and e_phi in the plane of d_t and d_phi: by g_tt and g_tphi. */
+/* The velocity is along the Killing vector d_t, and e_phi lies in the plane of d_t and d_phi: from g_tt and g_tphi. */
 static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, const struct kd_vantage *at)
 {
     (void)motion;
@@ -49,19 +49,20 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
     };
 }
 
-/* What goes round at one radius, sense = +-1, and is at its highest latitude: r'' = 0 where r' = theta' = 0, that is
+/* Angular velocity at constant radius, sense = +-1, at the highest latitude: r'' = 0 where r' = theta' = 0, that is
  *   d_r g_tt + 2 Omega d_r g_tphi + Omega^2 d_r g_phiphi = 0,   which is   Omega sin = +-G/(1 +- a sin G),   G^2 =
  *     (r^2 - a^2 cos^2)/(r Sigma^2).
- * In Mino's time r'' depends on r alone, so that r stays. In the equatorial plane Omega = +-1/(r^(3/2) +- a); off it
- * the orbit is a spherical one (Wilkins 1972, Phys. Rev. D 5, 814). sin * (Omega - omega), which is regular on the
- * axis. */
+ * In Mino time r'' depends on r alone, so that r is constant. In the equatorial plane Omega = +-1/(r^(3/2) +- a);
+ * elsewhere the orbit is spherical (Wilkins 1972, Phys. Rev. D 5, 814). Returns sin * (Omega - omega), which is
+ * regular on the axis. */
 static double circling(double a, double r, double u, double s, int sense)
 {
     double g = sqrt((r - a * u) * (r + a * u) / r) / (r * r + a * a * u * u);
     return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(kd_hole(a), r, u);
 }
 
-/* Moves past the one of zero angular momentum with sqrt(g_phiphi) (Omega - omega)/lapse, along e_phi. */
+/* Frame that moves along e_phi, relative to the observer of zero angular momentum, at sqrt(g_phiphi) (Omega -
+ * omega)/lapse. */
 static struct kd_tetrad circular(const struct kd_vantage *at, int sense)
 {
     const struct shape k = shape_of(at);
@@ -85,7 +86,7 @@ static struct kd_tetrad frame_retrograde(const struct kd_observer_motion *motion
 
 /* Rain, from rest at infinity without angular momentum: E = 1, L = 0, theta constant, Sigma r' = -sqrt(2r (r^2 +
  * a^2)) (Doran 2000, Phys. Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41, 2579). e_phi is that of zero angular
- * momentum, e_r what remains. Nothing of it knows the horizon: 2r (r^2 + a^2) = B - Sigma Delta. */
+ * momentum; e_r completes the frame. All of it is regular at the horizon: 2r (r^2 + a^2) = B - Sigma Delta. */
 static struct kd_tetrad rain(const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
@@ -99,14 +100,14 @@ static struct kd_tetrad rain(const struct kd_vantage *at)
     };
 }
 
-/* L over the circumference: what it is per mass along e_phi. On the axis there is none. */
+/* L over the circumference radius: momentum per mass along e_phi. 0 on the axis. */
 static double swing(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
     return momentum == 0 ? 0 : momentum / (sqrt(k.big / k.sigma) * at->s);
 }
 
-/* E of what has this momentum and is at rest here but for it. */
+/* E of a body with this angular momentum that is otherwise at rest here. */
 static double rest_energy(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
@@ -121,10 +122,10 @@ double kd_observer_energy(const struct kd_observer_motion *m, const struct kd_va
     return isfinite(m->fall_energy) ? m->fall_energy : isfinite(from.r) ? rest_energy(m->fall_momentum, &from) : 1;
 }
 
-/* With E' = E - omega L and no motion in latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Its components
- * x in the frame of rain:
+/* With E' = E - omega L and constant latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Components x in
+ * the rain frame:
  *   x_t - x_r = (sqrt(B) E' - Sigma r')/(sqrt(B) + sqrt(2r (r^2 + a^2))),   (x_t - x_r)(x_t + x_r) = 1 + x_phi^2,
- * of which nothing vanishes at the horizon. */
+ * none of which vanishes at the horizon. */
 static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     const struct kd_tetrad base = rain(at);
@@ -153,7 +154,7 @@ struct round {
     int sense;
 };
 
-/* The lapse less the speed times it: below 0 where what goes round would be faster than light. */
+/* Lapse minus coordinate speed; negative where a circular orbit would be faster than light. */
 static double slower_than_light(const void *user, double r)
 {
     const struct round *o = user;
@@ -195,8 +196,8 @@ struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer)
     return (struct kd_observer_motion) { .observer = observer, .fall_from = INFINITY, .fall_energy = INFINITY };
 }
 
-/* Whether r' vanishes between here and where it is let go: w'^2 of a body, in w = 1/r (DESIGN: geodesics of Kerr, mu
- * = 1). */
+/* True if r' vanishes between here and the radius of release: w'^2 of a body, in w = 1/r (docs/physics/geodesics.md,
+ * mu = 1). */
 static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
@@ -214,7 +215,7 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     *bound = at->r;
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
-    struct kd_vantage here = *at; /* within the horizon all falls that has come through it */
+    struct kd_vantage here = *at; /* within the horizon every body falls that came through it */
     here.r = fmax(at->r, kd_hole(at->spin)->outer);
     *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))

@@ -28,8 +28,8 @@ struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, do
     return e;
 }
 
-/* L of the circular orbit falls from infinity at the photon orbit to the ISCO and rises from there: bisection between a
- * radius where it is above l and one where it is below, to the last bit. */
+/* L of circular orbits falls from infinity at the photon orbit to the ISCO, and rises beyond. Bisects, to the last
+ * bit, between a radius where it exceeds l and one where it does not. */
 static double circle_of_momentum(const struct kd_hole *hole, double l, double above, double below)
 {
     for (;;) {
@@ -53,10 +53,10 @@ struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, d
     double isco = kd_kerr_isco(hole), least = kd_kerr_momentum(hole, isco);
     if (!(l >= least))
         return e;
-    /* Far out L = sqrt(r): beyond (L + 3)^2 + 16 it is above l, for a = -1 too. */
+    /* Far out L = sqrt(r): at (L + 3)^2 + 16 it exceeds l, even for a = -1. */
     e.r_max = circle_of_momentum(hole, l, kd_kerr_photon_orbit(hole), isco);
     e.r_min = circle_of_momentum(hole, l, (l + 3) * (l + 3) + 16, isco);
-    /* V is taken here and not E of the circular orbit, which is steep towards the photon orbit where V is flat. */
+    /* Uses V and not E of the circular orbit, which is steep near the photon orbit where V is flat. */
     e.v_max = kd_potential(hole, l, 1, e.r_max);
     e.v_min = kd_potential(hole, l, 1, e.r_min);
     return e;

@@ -1,30 +1,30 @@
-/* An effective potential in the equatorial plane of Kerr is the least energy with which a particle of angular
- * momentum L can be at r. It moves where E >= V. Double precision, pure, any thread. G = c = M = 1; a and L signed,
- * L > 0 towards +phi.
+/* Effective potential in the equatorial plane of Kerr: the least energy of a particle with angular momentum L at r.
+ * Motion is possible where E >= V. Double precision, pure, any thread. G = c = M = 1; a and L signed, L > 0 towards
+ * +phi.
  *
  *     V = (2 a L r + r sqrt(Delta (r^2 L^2 + mu^2 A))) / A,   A = r^4 + a^2 r^2 + 2 a^2 r
  *
  * the larger root of A E^2 - 4 a r L E - (r^2 - 2r) L^2 - mu^2 r^2 Delta = 0: J. M. Bardeen, W. H. Press & S. A.
  * Teukolsky 1972, ApJ 178, 347, eq. 2.9 with R = 0; C. W. Misner, K. S. Thorne & J. A. Wheeler 1973, eq. 33.32. For
- * a = 0 it is sqrt((1 - 2/r)(mu^2 + L^2/r^2)). Relative error below 1e-14 for a L >= 0; for a L < 0 V has a zero at
- * the static limit of large |L| and the error is 1e-15 of either term. */
+ * a = 0 it is sqrt((1 - 2/r)(mu^2 + L^2/r^2)). Relative error below 1e-14 for a L >= 0. For a L < 0 V has a zero at
+ * the static limit for large |L|, and the error is 1e-15 of either term. */
 #ifndef KD_PHYSICS_SPACETIME_POTENTIAL_H
 #define KD_PHYSICS_SPACETIME_POTENTIAL_H
 
 #include "physics/spacetime/hole.h"
 
-/* mu2 = 0: light, E for this L (V/L depends on r alone); 1: matter, energy and angular momentum per unit of mass. r
- * at or outside the horizon. */
+/* mu2 = 0: light, E for this L (V/L depends on r alone); 1: matter, energy and angular momentum per unit mass. r at
+ * or outside the horizon. */
 double kd_potential(const struct kd_hole *hole, double l, double mu2, double r);
 
-/* The circular orbits of that angular momentum: V is greatest at r_max (unstable) and least at r_min (stable). NaN
- * where there is none: matter with |L| below that of the ISCO has neither, light has no minimum. */
+/* Circular orbits of that angular momentum: V has its maximum at r_max (unstable) and its minimum at r_min (stable).
+ * NaN if there is none: matter with |L| below that of the ISCO has neither, light has no minimum. */
 struct kd_potential_extrema { double r_max, v_max, r_min, v_min; };
 struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, double l);
 struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, double l);
 
-/* Impact parameter L/E of the circular photon orbit that turns towards +phi, > 0: b_c = 6 cos(acos(-a)/3) - a, S.
- * Chandrasekhar 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. */
+/* Impact parameter L/E > 0 of the circular photon orbit towards +phi: b_c = 6 cos(acos(-a)/3) - a, S. Chandrasekhar
+ * 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. */
 double kd_potential_critical_impact(const struct kd_hole *hole);
 
 #endif

@@ -8,13 +8,12 @@ double kd_scale_metres(double mass_msun);
 double kd_scale_seconds(double mass_msun);
 double kd_scale_microarcseconds(double mass_msun, double distance_pc);
 
-/* Proper time from the horizon to the singularity for a = 0, in M: falling from rest at infinity, 4/3, the integral
- * of dr/sqrt(2/r) from 0 to 2; and the longest of any, pi, from rest at the horizon (Misner, Thorne & Wheeler 1973,
- * ch. 31). */
+/* Proper time from the horizon to the singularity for a = 0, in M. From rest at infinity: 4/3, the integral of
+ * dr/sqrt(2/r) from 0 to 2. The maximum: pi, from rest at the horizon (Misner, Thorne & Wheeler 1973, ch. 31). */
 #define KD_SCALE_FALL (4. / 3)
 #define KD_SCALE_FALL_LONGEST M_PI
 
-/* Holes whose rings have been measured. Errors are one sigma.
+/* Holes with measured rings. Errors are one sigma.
  *
  * M87*: Event Horizon Telescope Collaboration 2019, ApJL 875, L1 (ring 42 +- 3 uas; M = 6.5 +- 0.7 1e9, D = 16.8 +-
  * 0.8 Mpc). Sgr A*: ring 51.8 +- 2.3 uas, EHT Collaboration 2022, ApJL 930, L12; M = 4.297 +- 0.012 1e6 and D = 8277

@@ -41,13 +41,13 @@ static void swap(double *a, double *b)
     }
 }
 
-/* The largest entry of a row: its unknowns are pure numbers, so rows are compared in units of it. */
+/* Scale of a row, its largest entry. The unknowns are pure numbers, so rows are compared relative to it. */
 static double size(const double row[5])
 {
     return fmax(fmax(fabs(row[0]), fabs(row[1])), fmax(fabs(row[2]), fabs(row[3])));
 }
 
-/* Gauss's elimination with scaled partial pivoting. What a frame does not mix stays exact. */
+/* Gaussian elimination with scaled partial pivoting. Components that the frame does not mix stay exact. */
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4])
 {
     const struct kd_covector *t = &frame->t, *r = &frame->r, *h = &frame->theta, *f = &frame->phi;
@@ -83,7 +83,7 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame)
            frame->theta.momentum == 0 && frame->theta.radial == 0;
 }
 
-/* By the inverse of the boost that made the frame. */
+/* Applies the inverse of the boost that made the frame. */
 struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double energy, const double x[4])
 {
     const double *v = frame->past_rain, along = v[1] * x[1] + v[2] * x[2] + v[3] * x[3], t = v[0] * x[0] - along;
@@ -93,7 +93,7 @@ struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double en
     return (struct kd_look) { -y[3] / t, y[2] / t, y[1] / t, energy / t };
 }
 
-/* In the frame of rain, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the
+/* In the rain frame, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the
  * norm gives x_t + x_r. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2)
 {
@@ -117,7 +117,7 @@ struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_cov
     return (struct kd_look) { -x[3] / x[0], x[2] / x[0], x[1] / x[0], photon->energy / x[0] };
 }
 
-/* R = ((r^2 + a^2) E - a L)^2 - Delta (p_theta^2 + (L/sin(theta) - a E sin(theta))^2), by the norm of a photon. */
+/* R = ((r^2 + a^2) E - a L)^2 - Delta (p_theta^2 + (L/sin(theta) - a E sin(theta))^2), from the norm of a photon. */
 struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta)
 {
     double a = at->spin, r = at->r, across = alpha + a * at->s, along = r * r + a * a + a * alpha * at->s;

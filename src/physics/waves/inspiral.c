@@ -24,7 +24,7 @@ double kd_inspiral_power(double eta, double a, double e)
     return bound(eta, a, e) ? 32.0 / 5 * eta * eta / pow(a, 5) * kd_inspiral_enhancement(e) : NAN;
 }
 
-/* P's beta, 64/5 m1 m2 (m1 + m2). */
+/* Peters' beta, 64/5 m1 m2 (m1 + m2). */
 static double beta(double eta) { return 64.0 / 5 * eta; }
 
 double kd_inspiral_axis_rate(double eta, double a, double e)
@@ -52,7 +52,7 @@ double kd_inspiral_axis(double a0, double e0, double e)
     return a0 * pow(e / e0, 12.0 / 19) * one_minus_e2(e0) / one_minus_e2(e) * pow(sum, 870.0 / 2299);
 }
 
-/* P 5.14 with e = e0 x, so that the power of e0 drops out against that of c0. */
+/* Integrand of P 5.14 with e = e0 x, so that the power of e0 cancels that of c0. */
 static double slowing(double x, double y, const void *context)
 {
     double e0 = *(const double *)context, ex = e0 * x;
@@ -65,7 +65,7 @@ double kd_inspiral_time(double eta, double a, double e)
     if (!bound(eta, a, e))
         return NAN;
     double circle = pow(a, 4) / (4 * beta(eta));
-    double c0 = one_minus_e2(e) * pow(1 + 121.0 / 304 * e * e, -870.0 / 2299); /* a e^(12/19) taken out */
+    double c0 = one_minus_e2(e) * pow(1 + 121.0 / 304 * e * e, -870.0 / 2299); /* without the factor a e^(12/19) */
     return 48.0 / 19 * circle * pow(c0, 4) * kd_quadrature(slowing, &e);
 }
 

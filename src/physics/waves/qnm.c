@@ -12,9 +12,9 @@ struct recurrence { double complex alpha[3], beta[3], gamma[3]; };
 
 static double complex quadratic(const double complex c[3], double k) { return c[0] + k * (c[1] + k * c[2]); }
 
-/* Its continued fraction, inverted at `row`: zero if a minimal solution a_k exists. Of the infinite part `terms` are
- * kept, begun with `rest` for -a_{K+1}/a_K. Any row will do in exact arithmetic; in this one the root is best seen
- * from the row that it belongs to (Leaver 1985, after eq. 14). */
+/* Its continued fraction, inverted at `row`: zero if a minimal solution a_k exists. `terms` of the infinite part are
+ * kept, starting with `rest` for -a_{K+1}/a_K. In exact arithmetic any row gives the same roots; numerically the
+ * root is best resolved from the row with its own index (Leaver 1985, after eq. 14). */
 static double complex fraction(const struct recurrence *r, int row, int terms, double complex rest)
 {
     double complex below = rest;
@@ -38,7 +38,7 @@ static struct recurrence angular(int m, double complex c, double complex separat
     };
 }
 
-/* Leaver's eqs. 25 and 26 with M = 1 in the place of his 2M = 1: omega for his omega/2, a for his 2a. */
+/* Leaver's eqs. 25 and 26 with M = 1 instead of his 2M = 1: omega for his omega/2, a for his 2a. */
 static struct recurrence radial(int m, double a, double complex omega, double complex separation)
 {
     double b = sqrt((1 - a) * (1 + a));
@@ -61,15 +61,15 @@ struct problem {
     double complex c, separation; /* a omega; a guess, then the eigenvalue */
 };
 
-/* The minimal solution of the radial recurrence goes as a_{k+1}/a_k = 1 + p/sqrt(k) + q/k + ..., with p^2 = -2 i b w
- * and Re(p) < 0, q from the next order but one (Nollert 1993). A wrong start of the fraction dies out as exp(4 Re(p)
- * sqrt(k)). */
+/* The minimal solution of the radial recurrence behaves as a_{k+1}/a_k = 1 + p/sqrt(k) + q/k + ..., with p^2 = -2 i
+ * b w and Re(p) < 0, and q from the order after next (Nollert 1993). An error at the start of the fraction decays as
+ * exp(4 Re(p) sqrt(k)). */
 static double complex radial_fraction(const struct problem *problem, const struct recurrence *r, double complex omega)
 {
     double a = problem->a, b = sqrt((1 - a) * (1 + a));
     double complex p = -csqrt(-4 * I * b * omega);
     double complex c0 = r->alpha[0], c2 = r->gamma[1] + 3, q = 0.5 * (p * p + c2 - c0 - 3.5);
-    /* p and q do the rest; at most 1e5 terms */
+    /* fewer terms than tolerance alone would need, thanks to p and q; at most 1e5 */
     double root = fmin(-0.75 * log(fmin(problem->tolerance, 1e-9)) / (-4 * creal(p)), 316);
     int terms = 50 + (int)(root * root);
     double k = problem->n + terms;
@@ -80,14 +80,14 @@ static double complex angular_at(struct problem *p, double complex separation)
 {
     struct recurrence r = angular(p->m, p->c, separation);
     int first = abs(p->m) > -S ? abs(p->m) : -S;
-    /* The part that is cut off counts as (4c)^k/k!, below 1e-16 at this k. */
+    /* The truncated part is of the order of (4c)^k/k!, below 1e-16 at this k. */
     return fraction(&r, p->l - first, 24 + (int)(14 * cabs(p->c)), 0);
 }
 
 typedef double complex (*function)(struct problem *p, double complex x);
 
-/* The secant method from x and x + step. The last step is all that is known of the error; a step below `settled` is
- * squeezed until it stops to shrink, which near a = 1 it does early. */
+/* The secant method from x and x + step. The last step is the only estimate of the error. Steps below `settled`
+ * continue until they stop shrinking, which happens early near a = 1. */
 static const double settled = 1e-9;
 
 static bool solve(function f, struct problem *p, double complex *x, double complex step)
@@ -141,10 +141,10 @@ static double complex schwarzschild(int l, int n)
     return (sum + l + 0.5) / sqrt(27);
 }
 
-/* The curves of all modes are smooth in y = -ln(1 - a). */
+/* Variable of the spin in which the curves of all modes are smooth: y = -ln(1 - a). */
 static double stretched(double a) { return -log1p(-a); }
 
-/* Points too close, or the same on the way back, would give the extrapolation no slope but noise. */
+/* Stores a point for extrapolation, unless it is too close to a stored one: their difference would be noise. */
 static void remember(struct kd_qnm_branch *b)
 {
     double y = stretched(b->a);
@@ -157,7 +157,7 @@ static void remember(struct kd_qnm_branch *b)
     b->points += b->points < 3;
 }
 
-/* The parabola through the last three points, as far as there are. */
+/* Extrapolates by the parabola through the last three points, or as many as there are. */
 static struct kd_qnm extrapolated(const struct kd_qnm_branch *b, double y)
 {
     struct kd_qnm sum = { 0, 0 };
@@ -194,10 +194,10 @@ bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole)
     const double a = hole->a;
     if (!(a >= 0 && a <= KD_QNM_SPIN_MAX))
         return false;
-    /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and turn sharply where the undamped modes part from
-     * the damped (l = 2, m = 1, n = 1 at a = 0.995). What is found within a hundredth of that from where it was
-     * expected is the mode, and not a neighbour; a tenth is not enough. Near a = 0 there is no parabola yet, but no
-     * neighbour either. */
+    /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and curves bend sharply where the undamped modes
+     * separate from the damped ones (l = 2, m = 1, n = 1 at a = 0.995). A solution within a hundredth of that
+     * distance from the prediction is the mode and not a neighbour; a tenth would not be safe. Near a = 0 there is
+     * no parabola yet, but no neighbour either. */
     const double apart = 1 / (branch->n + 0.5), target = stretched(a);
     while (branch->a != a) {
         double y = stretched(branch->a), left = target - y;

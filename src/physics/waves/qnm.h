@@ -1,21 +1,21 @@
-/* Finds the quasi-normal modes of Kerr: the gravitational ones (spin weight s = -2), fields ~ exp(i m phi - i
- * omega t). Double precision, pure functions, any thread. Units G = c = M = 1.
+/* Gravitational quasi-normal modes of Kerr (spin weight s = -2), fields ~ exp(i m phi - i omega t). Double
+ * precision, pure functions, any thread. Units G = c = M = 1.
  *
  *   Teukolsky's equation 1973, ApJ 185, 635, with no wave from the horizon and none from infinity, separates into
- *   S(cos theta) with eigenvalue A_lm(a omega) and R(r); both are three-term recurrences, and omega is where the
+ *   S(cos theta) with eigenvalue A_lm(a omega) and R(r). Both are three-term recurrences, and omega is where the
  *   continued fraction of the radial one vanishes.
  *
  * Sources: E. W. Leaver 1985, Proc. R. Soc. Lond. A 402, 285, eqs. 18-27 (recurrences, inversion of the fraction for
- * the overtone n); H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (what is left of the fraction behind its last term); S.
- * R. Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (the first guess at a = 0). From there a mode is
- * followed in spin, so that l and n keep the meaning that they have at a = 0.
+ * the overtone n); H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (remainder of the fraction after its last term); S. R.
+ * Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (the first guess at a = 0). From there a mode is
+ * followed in spin, so that l and n keep their meaning at a = 0.
  *
- * omega has Re > 0 and Im < 0; the mirror modes are -conj(omega) at -m. A is Leaver's, l(l+1) - 2 at a = 0.
- * A spin a < 0 is the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode turns with the
- * hole. Domain: 2 <= l <= 4, |m| <= l, 0 <= n <= 3, |a| <= 0.9999: there fewer than 1e5 terms do. Beyond it the
- * damped and the undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013, Phys. Rev. D 87, 041502)
- * and l and n stop being names for them. Relative error of both, as complex numbers, measured against another method
- * (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond, rounding leaves 1e-10 of
+ * omega has Re > 0 and Im < 0; the mirror modes are -conj(omega) at -m. A is Leaver's, l(l+1) - 2 at a = 0. A spin a
+ * < 0 is the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode turns with the hole.
+ * Domain: 2 <= l <= 4, |m| <= l, 0 <= n <= 3, |a| <= 0.9999, where fewer than 1e5 terms suffice. Beyond it the
+ * damped and the undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013, Phys. Rev. D 87, 041502),
+ * and l and n no longer identify them. Relative error of both, as complex numbers, measured against another method
+ * (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond, rounding leaves 1e-10 for
  * the overtones of l = 4. */
 #ifndef KD_PHYSICS_WAVES_QNM_H
 #define KD_PHYSICS_WAVES_QNM_H
@@ -33,13 +33,13 @@ struct kd_qnm {
     double complex separation; /* A_lm, no unit        */
 };
 
-/* A mode on its way in spin. Moving to a near spin is cheap, 20 to 200 us: go along a curve with one branch. */
+/* A mode followed in spin. Moving to a nearby spin is cheap, 20 to 200 us: use one branch for a whole curve. */
 struct kd_qnm_branch {
     int l, m, n;
-    double a; /* >= 0: its sign belongs to m      */
+    double a; /* >= 0; a negative spin is expressed by the sign of m */
     struct kd_qnm at;
-    double step; /* in -ln(1 - a), the next one      */
-    int points;  /* behind, to extrapolate from      */
+    double step; /* next step in -ln(1 - a) */
+    int points;  /* number of past points, for extrapolation */
     double y[3];
     struct kd_qnm past[3];
 };
@@ -47,11 +47,11 @@ struct kd_qnm_branch {
 /* Begins a branch at a = 0. False if (l, m, n) is outside the domain. */
 bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n);
 
-/* Moves the branch to spin a >= 0. False, with the branch left where it came to, if a is outside the domain or the
- * iteration fails. */
+/* Moves the branch to spin a >= 0. False, with the branch at the last spin reached, if a is outside the domain or
+ * the iteration fails. */
 bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole);
 
-/* Does both, from a = 0, for a of either sign. On false *mode is NAN. */
+/* Both, from a = 0, for a of either sign. On failure returns false, and *mode is NAN. */
 bool kd_qnm_find(int l, int m, int n, const struct kd_hole *hole, struct kd_qnm *mode);
 
 #endif

@@ -1,4 +1,4 @@
-/* What is heard of a quasi-normal mode (physics/waves/qnm.h): quality factor, damped oscillation, and two fits that are
+/* Ringdown of a quasi-normal mode (physics/waves/qnm.h): quality factor, damped oscillation, and two fits that are
  * in use instead of the mode itself. Double precision, pure functions, any thread. Times in M, omega as M omega. */
 #ifndef KD_PHYSICS_WAVES_RINGDOWN_H
 #define KD_PHYSICS_WAVES_RINGDOWN_H
@@ -13,9 +13,8 @@ double kd_ringdown_quality(double complex omega);
 /* e^(Im(omega) t) cos(Re(omega) t), t >= 0 from the start, where it is 1. */
 double kd_ringdown_wave(double complex omega, double t);
 
-/* 2.1 + 11.3 a^3, which circulates for the l = m = 2 fundamental mode without a source that could be found. It is
- * right to 4.1 % below a = 0.33 only: +30 % at 0.5, +104 % at 0.8, -71 % at 0.999. Shown to be compared, not to be
- * used. */
+/* 2.1 + 11.3 a^3, a fit in circulation for the l = m = 2 fundamental mode; no source could be found. It is within
+ * 4.1 % only below a = 0.33: +30 % at 0.5, +104 % at 0.8, -71 % at 0.999. For comparison only. */
 double kd_ringdown_quality_cubic(const struct kd_hole *hole);
 
 /* Berti, Cardoso & Will 2006, Phys. Rev. D 73, 064030, table VIII, l = m = 2, n = 0, 1, 2; 0 <= a < 1 (else NaN):

@@ -1,8 +1,8 @@
-/* A star is torn by the tide of a black hole. Double precision, pure functions, any thread. G = c = 1; all masses,
+/* Tidal disruption of a star by a black hole. Double precision, pure functions, any thread. G = c = 1; all masses,
  * lengths and times in one unit, which may be the hole's M or a metre.
  *
  * Newtonian estimates on a parabolic orbit, within a factor of two of simulations; the hole's spin enters through
- * the capture orbit alone.
+ * the capture orbit only.
  *
  * Sources: J. G. Hills 1975, Nature 254, 295; M. J. Rees 1988, Nature 333, 523; E. S. Phinney 1989, IAU Symp. 136,
  * 543; N. Stone, R. Sari & A. Loeb 2013, MNRAS 435, 1809 [S]; M. Kesden 2012, Phys. Rev. D 85, 024037 (capture).
@@ -12,30 +12,30 @@
 
 #include "physics/spacetime/hole.h"
 
-struct kd_tidal { double hole, mass, radius; /* of the hole, of the star, of the star */ };
+struct kd_tidal { double hole, mass, radius; /* the hole's mass; the star's mass and radius */ };
 
-/* r_t = R (M/m)^(1/3) [Hills 1975; Rees 1988]: inside it the hole's tide beats the star's gravity. */
+/* r_t = R (M/m)^(1/3) [Hills 1975; Rees 1988]: inside it the hole's tide exceeds the star's gravity. */
 double kd_tidal_radius(struct kd_tidal t);
 
 /* beta = r_t/r_p for a pericentre r_p: above 1 the star is disrupted. */
 double kd_tidal_penetration(struct kd_tidal t, double pericentre);
 
-/* Half the range of specific orbital energy in the debris, M R/r_t^2: frozen in where the star passes r_t, whatever its
- * pericentre [S]. (Rees took r_p for r_t, which is beta^2 times more.) */
+/* Half width of the debris' specific orbital energies, M R/r_t^2: frozen in where the star passes r_t, whatever its
+ * pericentre [S]. (Rees used r_p instead of r_t, which gives beta^2 times more.) */
 double kd_tidal_energy_spread(struct kd_tidal t);
 
-/* When the first debris comes back: the Kepler period at binding energy kd_tidal_energy_spread, 2 pi M/(2 energy)^(3/2)
- * [S]. 41 days for the sun and 1e6 solar masses. */
+/* Return time of the first debris: the Kepler period at binding energy kd_tidal_energy_spread, 2 pi M/(2
+ * energy)^(3/2) [S]. 41 days for the sun and 1e6 solar masses. */
 double kd_tidal_fallback_time(struct kd_tidal t);
 
-/* Mass per time that comes back at t after the disruption, for debris spread evenly in energy [Phinney 1989]:
- * m/(3 t_fb) (t/t_fb)^(-5/3), 0 before t_fb. Half the star in all. The peak rate is that at t_fb. */
+/* Rate at which mass comes back at t after the disruption, for debris spread evenly in energy [Phinney 1989]: m/(3
+ * t_fb) (t/t_fb)^(-5/3), 0 before t_fb. Its integral is half the star; its peak is at t_fb. */
 double kd_tidal_fallback_rate(struct kd_tidal t, double time);
 
-/* The heaviest hole of spin a, |a| < 1, that tears such a star before it takes it whole (`hole` of t is not read).
- * On a parabolic orbit it takes it inside the marginally bound one: r_t = r_mb(a) [Kesden 2012], 4M at a = 0; a < 0
- * is an orbit against the hole. With the horizon in its place, r_t = r+(a), this is Hills's mass, 1.1e8 solar masses
- * for the sun at a = 0. */
+/* Mass of the heaviest hole of spin a, |a| < 1, that disrupts the star before capturing it whole (`hole` of t is
+ * ignored). On a parabolic orbit capture is inside the marginally bound orbit: r_t = r_mb(a) [Kesden 2012], 4M at a
+ * = 0; a < 0 is an orbit against the hole. With the horizon instead, r_t = r+(a), this is Hills's mass, 1.1e8 solar
+ * masses for the sun at a = 0. */
 double kd_tidal_capture_mass(struct kd_tidal t, const struct kd_hole *hole);
 double kd_tidal_hills_mass(struct kd_tidal t, const struct kd_hole *hole);
 
