@@ -12,12 +12,11 @@
 #define KD_GUESSES_MOST 20u  /* wrong tokens that an address may present in a burst */
 #define KD_GUESSES_EACH_S 3u /* seconds after which it may present one more */
 #define KD_GUESSES_NAMES 64u /* accepted token owners remembered for each address, the latest ones */
-#define KD_GUESSES_CLIENTS
-/* addresses tracked; when full, the address with the fewest recent failures is evicted, of equals the least
- * recently seen */
-256u
+/* addresses tracked; when full, the address with the fewest recent failures is evicted, of equals the least recently
+ * seen */
+#define KD_GUESSES_CLIENTS 256u
 
-    struct kd_guesses;
+struct kd_guesses;
 
 struct kd_guesses *kd_guesses_create(void);          /* NULL: out of memory */
 void kd_guesses_destroy(struct kd_guesses *guesses); /* accepts NULL */
