@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* This is the temperature of a node of both tables. */
+/* Temperature of node i of both tables. */
 static double kelvin(int i)
 {
     return ldexp(KD_COLOUR_LEAST * (1 + (double)(i % KD_COLOUR_NODES) / KD_COLOUR_NODES), i / KD_COLOUR_NODES);

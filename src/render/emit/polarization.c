@@ -1,4 +1,4 @@
-/* This is how light of the plane is polarised: shaders/emit/polarization.glsl. It shines nowhere itself. */
+/* Polarisation of light from the plane: shaders/emit/polarization.glsl. It emits nothing itself. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/scattering.h"
