@@ -40,7 +40,7 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
     for (uint32_t band = 0; band < j->plan->bands; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
-        /* An interpolated ray takes about thirty times less than a traced one. */
+        /* Slices are sized by the time that tracing these rays would take. */
         const uint32_t step = kd_frame_slice(j->plan->trace_ns * part->list->lattice.rays, (uint32_t)part->n);
         for (; from < to; from += step) {
             struct kd_between_push push = {
