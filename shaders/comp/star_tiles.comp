@@ -35,11 +35,8 @@ layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 #define KD_STAR_TILE_BENT 0.7
 #define KD_STAR_TILE_OFF 0.2
 const int HALF = int(TILE) / 2;
-const float NEAR =
-    TILE == KD_STAR_TILE || AT_RIM
-        ? 0.72
-        /* largest distance, in rays, of a star from the ray that it is paired with: images are searched up to 0.6 */
-        : 0.65;
+/* largest distance, in rays, of a star from the ray that it is paired with: images are searched up to 0.6 */
+const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
 /* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, with u and v from -1 to 1 from its first to its
  * last rays. aa, ab and bb are in units of a and b. */

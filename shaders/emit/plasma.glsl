@@ -303,9 +303,8 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        m.electrons.heat =
-            /* at zero temperature no fit is valid, but there is no matter */
-            emission.plasma.heat + max(more, KD_TORUS_COLD);
+        /* at zero temperature no fit is valid, but there is no matter */
+        m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD);
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field - emission.plasma.field_index * log2_r);

@@ -514,9 +514,8 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        if (KD_OVERS || (KD_MARCH_TURNS &&
-                         /* of the next crossing, or of the previous one while the ray moves away from the plane */
-                         ORDERS > 0)) {
+        /* of the next crossing, or of the previous one while the ray moves away from the plane */
+        if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =
                 passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;

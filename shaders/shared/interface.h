@@ -133,8 +133,7 @@
 /* State of a node: its number of crossings, plus this if it is captured; negative: the ray is open. */
 #define KD_NODE_CAPTURED 16.0
 #define KD_NODE_OPEN -1.0
-#define KD_NODE_OWN 2 /* planes after those of the nodes: their states, and a value that vanishes where fates change \
-                       */
+#define KD_NODE_OWN 2 /* planes after those of the nodes: their states; a value that vanishes where fates change */
 
 #define KD_FOOTPRINT_WANTED -1.0
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than any footprint */
@@ -162,7 +161,8 @@
 /* clang-format on */
 #define KD_RIM_ANGLES 256
 #define KD_RIM_EDGES 512
-#define KD_STAR_TILE 9           /* rays along the sides of a large tile of star_tiles.comp; odd, and a multiple of 3 */
+/* rays along the sides of a large tile of star_tiles.comp; odd, and a multiple of 3 */
+#define KD_STAR_TILE 9
 #define KD_STAR_LEAST 0.03       /* fraction of sky.brightness: images that brighten a pixel less are left out */
 #define KD_STAR_LEAST_BRIGHT 1.0 /* the same if only bright images are made */
 #define KD_STAR_PATCH 0.15       /* radians: largest distance of rays between which images of stars are searched, */

@@ -20,8 +20,8 @@
  * of any other set if that is larger, because few steps lose more edge-on. The near-critical set is left out, since
  * no number of steps helps there. This is only the first choice: in a list of rays, those whose own error exceeds
  * the tolerance are followed again (rays/hold.h). */
-#define KD_ACCURACY_STRAY 0.01 /* a row meets no tolerance if a larger fraction of rays differs in one of these sets \
-                                */
+/* a row meets no tolerance if more than this fraction of rays differ in one of these sets */
+#define KD_ACCURACY_STRAY 0.01
 
 enum kd_accuracy_quantity { KD_ACCURACY_R, KD_ACCURACY_PHI, KD_ACCURACY_DELAY, KD_ACCURACY_G, KD_ACCURACY_QUANTITIES };
 extern const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES]; /* "r", "phi", "delay", "g" */

@@ -40,9 +40,8 @@ struct kd_renderer {
     struct kd_prepared prepared;
     struct kd_aside asides[KD_ASIDES];
     uint64_t asides_used;
-    struct kd_vk_buffer
-        /* buffers of rays/device.c, reused for the next list: the list, its results, and both on the host */
-        *rays[2][3];
+    /* buffers of rays/device.c, reused for the next list: the list, its results, and both on the host */
+    struct kd_vk_buffer *rays[2][3];
     struct kd_rays_pace {
         enum kd_engine engine;
         enum kd_precision precision;

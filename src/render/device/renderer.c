@@ -185,8 +185,8 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
+    /* submitted work may hang only now; the device then cannot be closed, and a second one is never opened */
     if (r->vk)
-        /* submitted work may hang only now; the device then cannot be closed, and a second one is never opened */
         kd_vk_wait(r->vk, 0, NULL);
     if (kd_renderer_hangs(r))
         return kd_error_set(error, KD_EDEVICE, "%s hangs: a submission missed its deadline", r->opened.name);

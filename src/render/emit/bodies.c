@@ -144,9 +144,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     const struct kd_bodies_view view = view_of(scene);
     size_t n;
     struct kd_seen_body *bodies = listed(scene, &n);
-    out->bodies =
-        /* out of memory: `prepare` fails as well and reports it */
-        (struct kd_bodies_block) { .least = 1, .leaves = 1 };
+    /* out of memory: `prepare` fails as well and reports it */
+    out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 };
     if (bodies)
         kd_bodies_bound(bodies, n, &view, &out->bodies);
     free(bodies);

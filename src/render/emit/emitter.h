@@ -68,9 +68,8 @@ struct kd_emitter {
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind; /* an emitter whose sentences apply to it as well; NULL: none */
-    const struct kd_emitter
-        /* an emitter whose numbers and tables it reads besides its own, including what that one reads; NULL: none */
-        *reads;
+    /* an emitter whose numbers and tables it reads besides its own, including what that one reads; NULL: none */
+    const struct kd_emitter *reads;
     const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
 };
 

@@ -190,9 +190,8 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error)
-                                                 /* a march is slow, and its time is not a measurement for these rays */
-                                                 : KD_OK;
+    /* a march is slow, and its time is not a measurement for these rays */
+    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)
         status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);

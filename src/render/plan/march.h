@@ -19,9 +19,8 @@ struct kd_march {
     double weight;  /* cost of a ray, relative to one through a smooth volume at the balanced profile */
     /* quarters of a stretch per grain, 2 to 64: where light is smooth the error falls at least as the fourth power */
     uint32_t fine;
-    double
-        /* a ray ends where less than this fraction of the light behind is transmitted: a tenth of the error aimed at */
-        opaque;
+    /* a ray ends where less than this fraction of the light behind is transmitted: a tenth of the error aimed at */
+    double opaque;
     /* octaves of noise are left out whose amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
     double unseen;

@@ -291,9 +291,8 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool closed_form =
-        /* lens_closed.comp can trace it */
-        scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY);
+    /* lens_closed.comp can trace it */
+    bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY);
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);

@@ -26,10 +26,9 @@ struct kd_sky_tangent {
 struct kd_sky_map {
     uint32_t width, height;
     double coarse; /* rad */
-    const double
-        /* for each star the largest solid angle of a pixel, sr, at which an image must be reported; NULL: all are
-         * reported */
-        *most;
+    /* for each star the largest solid angle of a pixel, sr, at which an image must be reported; NULL: all are
+     * reported */
+    const double *most;
     /* how many pixels the square of four rays about a place covers; NULL: 1 */
     double (*pixels)(const void *of, double x, double y);
     const void *of;

@@ -265,9 +265,8 @@ static void divide(const struct layout *o, struct part p)
         return;
     }
     const struct kd_rim_grid g = grid_of(o, &p);
-    o->out->rays +=
-        /* more than the limit: counts as too many */
-        kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1;
+    /* more than the limit: counts as too many */
+    o->out->rays += kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1;
     if (o->out->n < KD_RIM_GRIDS)
         o->out->of[o->out->n] = g;
     o->out->n++;
