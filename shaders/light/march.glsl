@@ -21,15 +21,17 @@
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"
 
-#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* shortest stretch, as a fraction of a step, */
-#define KD_MARCH_LEAST 0.05              /* or, if that is shorter, of the longest stretch that the distance allows */
+#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* shortest stretch: this fraction of a step, */
+/* or, if that is shorter, this fraction of the longest stretch by distance */
+#define KD_MARCH_LEAST 0.05
 #define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
 #define KD_MARCH_DEPTH 1.0 /* longest stretch in optical depth, */
 #define KD_MARCH_TURN 1.0  /* and in radians of Faraday rotation and conversion, */
-/* but at least this fraction of a grain: light rotated further is mixed and mostly depolarised */
+/* but at least this fraction of the length otherwise allowed: light rotated further is mixed and mostly depolarised */
 #define KD_MARCH_TURNED 0.125
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
-#define KD_MARCH_BEHIND 1.5   /* largest ratio of the grain of barely visible matter to that in front */
+/* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
+#define KD_MARCH_BEHIND 1.5
 #define KD_MARCH_LOOPS \
     65536u /* more than needed: lavapipe may end loops before their condition does, and work left undone must be \
               detected */

@@ -91,11 +91,10 @@ struct kd_accuracy_report {
     /* difference of displayed values there, as a fraction of white: root mean square for the picture; worst of the
      * sample */
     double pixel_error, pixel_error_worst;
-    /* for scenes with volumes: rays followed again KD_MARCH_FINER times as finely, whose light changed by the
-     * following, */
+    /* for scenes with volumes: number of rays that were followed again KD_MARCH_FINER times as finely */
     uint32_t volume_sampled;
     double volume_error,
-        /* relative to their light or KD_MARCH_DARK of the brightest: nine of ten are within the first; worst; 1 if
+        /* change of their light, relative to it or to KD_MARCH_DARK of the brightest: 90th percentile; worst; 1 if
          * light is not finite or a ray has no end */
         volume_error_worst;
     /* of the displayed picture: rays given up in volumes, also magenta, and pixels whose light is not finite */
