@@ -141,9 +141,8 @@ void main()
     KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
-    float lost_before = 0.0,
-          /* at the last crossing: the error of w due to the steps, and the divergence of two neighbouring rays */
-        spread = 1.0;
+    /* at the last crossing: the error of w due to the steps, and the divergence of two neighbouring rays */
+    float lost_before = 0.0, spread = 1.0;
     bool alive = polar.crosses;
     uint at = 3 * ORDERS + 4, o = at * i;
     for (uint n = 0; n < 3 * ORDERS; n++)

@@ -93,10 +93,9 @@ struct kd_accuracy_report {
     double pixel_error, pixel_error_worst;
     /* for scenes with volumes: number of rays that were followed again KD_MARCH_FINER times as finely */
     uint32_t volume_sampled;
-    double volume_error,
-        /* change of their light, relative to it or to KD_MARCH_DARK of the brightest: 90th percentile; worst; 1 if
-         * light is not finite or a ray has no end */
-        volume_error_worst;
+    /* change of their light, relative to it or to KD_MARCH_DARK of the brightest: 90th percentile; worst; 1 if light
+     * is not finite or a ray has no end */
+    double volume_error, volume_error_worst;
     /* of the displayed picture: rays given up in volumes, also magenta, and pixels whose light is not finite */
     uint64_t lost;
 };

@@ -58,9 +58,8 @@ struct kd_store {
     struct kd_bands radiance;
     struct kd_bands layers; /* layers of numbers, kd_plan_layer_bytes each, in sequence; none: no frame had any */
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
-    struct kd_vk_buffer *transfer,
-        /* parameters and tables, read at each crossing: in device memory, uploaded through `staging` */
-        *staging;
+    /* parameters and tables, read at each crossing: in device memory, uploaded through `staging` */
+    struct kd_vk_buffer *transfer, *staging;
     struct kd_emit_data *sent;                   /* the uploaded contents; NULL: nothing yet */
     bool sent_whole;                             /* false: the contents are unknown, since a frame was given up */
     struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES each, and their staging buffer; NULL: none yet */

@@ -25,10 +25,9 @@ struct kd_told_glow {
 struct kd_told_place {
     uint32_t order;                 /* of the crossing */
     float w, phi, slope, footprint; /* from the lens map; 0 for what it does not hold */
-    float g, temperature,
-        /* of gas at the place, whether there is any or not: redshift factor; K; angle between light and normal in
-         * the frame of the gas, radians */
-        angle;
+    /* g, temperature, angle: of gas at the place, whether there is any or not: redshift factor; K; angle between
+     * light and normal in the frame of the gas, radians */
+    float g, temperature, angle;
     float through;  /* transmission of everything in front */
     bool polarized; /* whether its light is polarised: Stokes Q and U over I */
     float stokes[2];

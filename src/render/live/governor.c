@@ -6,9 +6,9 @@
 
 /* These constants were chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in
  * twenty ten times as long. */
-static const double OVER = 1.1, FAR_OVER = 1.5,
-                    /* of the budget; far enough below OVER that noise does not cause a move down and up again */
-    CLIMB_BELOW = 0.8;
+/* OVER, FAR_OVER, CLIMB_BELOW: fractions of the budget. CLIMB_BELOW is far enough below OVER that noise does not
+ * cause a move down and up again. */
+static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8;
 static const double MORE =
     1.1; /* factor by which a target must change to count as another: shares of a device fluctuate a little */
 static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: of the target, of the fixed part */

@@ -32,9 +32,8 @@ struct kd_sky_map {
     /* how many pixels the square of four rays about a place covers; NULL: 1 */
     double (*pixels)(const void *of, double x, double y);
     const void *of;
-    void (*row)(const void *of, uint32_t y,
-                /* directions from which the rays of a row come, unit vectors; NAN where one does not escape */
-                struct kd_vec *out);
+    /* directions from which the rays of a row come, unit vectors; NAN where one does not escape */
+    void (*row)(const void *of, uint32_t y, struct kd_vec *out);
     bool (*exact)(const void *of, double x, double y,
                   struct kd_vec *out); /* the same of any single ray; false: unknown. NULL: no ray can be followed */
     /* The map between its rays, except `area`, to 1e-3 of a ray; it saves exact rays where there is no image. False:

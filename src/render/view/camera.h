@@ -52,8 +52,8 @@ bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction
 
 /* Labels from E, L/sin(theta), and beta |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
+/* kd_camera_label_towards: direction of any length; the camera must be at a finite radius */
 void kd_camera_label_towards(const struct kd_camera_exact *camera, const double direction[3],
-                             /* direction: of any length; the camera must be at a finite radius */
                              struct kd_camera_label *out);
 void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);
 
