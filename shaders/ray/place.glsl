@@ -9,7 +9,6 @@
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
-/* A word of the lens map. */
 #ifndef KD_MAP_AT
 #define KD_MAP_AT(at) lens[at]
 #endif

@@ -7,10 +7,9 @@
 uint kd_place_word(uvec2 at) { return at.x | at.y << KD_PLACE_BITS; }
 uvec2 kd_place_at(uint word) { return uvec2(word & ((1u << KD_PLACE_BITS) - 1u), word >> KD_PLACE_BITS); }
 
-/* Number of rays of a stage. */
 uint kd_stage_count(uint stage) { return words[4u * stage + 3u]; }
 
-/* Number of its first node. */
+/* Number of a stage's first node. */
 uint kd_stage_first(uint stage)
 {
     uint first = 0u;

@@ -1,3 +1,4 @@
+/* The accuracy table that is embedded in the program. */
 #include "render/accuracy/table.h"
 
 #include <pthread.h>

@@ -1,3 +1,4 @@
+/* Writes the accuracy table as a JSON document, and reads it back. */
 #include "render/accuracy/table.h"
 
 #include "base/json.h"

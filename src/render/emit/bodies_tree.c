@@ -1,3 +1,4 @@
+/* Packs bodies for the device: their data, and a tree of bounding balls over them. */
 #include "render/emit/bodies.h"
 
 #include "physics/spacetime/kerr.h"

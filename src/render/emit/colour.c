@@ -1,3 +1,4 @@
+/* Fills the tables of black bodies: their colours, and how luminous they are. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/colour.h"

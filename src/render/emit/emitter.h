@@ -26,7 +26,6 @@ struct kd_sentence {
     bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);
 };
 
-/* A part of struct kd_scene. */
 struct kd_scene_part { size_t at, size; };
 #define KD_SCENE_PART(section) { offsetof(struct kd_scene, section), sizeof(((struct kd_scene *)0)->section) }
 #define KD_EMITTER_PARTS 7

@@ -37,7 +37,6 @@ static void fill_kappa(struct kd_stokes_block *out, double kappa)
     out->kappa_past = (float)(place - node);
 }
 
-/* Nowhere. */
 static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
 /* Jones & O'Dell 1977, for electrons of gamma^-p, where (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) is their

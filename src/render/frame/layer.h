@@ -19,7 +19,6 @@ struct kd_layer {
     void *data; /* rows from the top, channels of a pixel adjacent, no padding, native byte order; malloc'd */
 };
 
-/* Bytes of a pixel. */
 static inline size_t kd_layer_pixel_bytes(const struct kd_layer *layer)
 {
     static const size_t sizes[] = { [KD_LAYER_U8] = 1, [KD_LAYER_U16] = 2, [KD_LAYER_F32] = 4 };

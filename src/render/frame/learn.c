@@ -1,3 +1,4 @@
+/* Updates the costs of passes from the device times of a frame. */
 #include "render/frame/job.h"
 #include "render/plan/cost_class.h"
 

@@ -74,7 +74,6 @@ extern const struct kd_figure {
 enum kd_pass_id { KD_PASSES(KD_PASS_ID_) KD_PASS_COUNT };
 #undef KD_P
 
-/* Cost of one invocation. */
 struct kd_pass_cost {
     const char *kernel;
     double ns;

@@ -285,7 +285,6 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
     return KD_OK;
 }
 
-/* Chooses the kernel and the engine. */
 static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {

@@ -126,7 +126,6 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
     }
 }
 
-/* Submits a part. */
 static enum kd_status send(const struct work *w, const struct set *set, const struct kd_ray_labels *rays,
                            uint64_t *ticket)
 {

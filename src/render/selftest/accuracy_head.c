@@ -1,3 +1,4 @@
+/* Fills in the head of an accuracy table: version, date, machine and device. */
 #include "render/selftest/accuracy_measure.h"
 #include "render/device/internal.h"
 #include "base/cores.h"

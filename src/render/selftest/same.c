@@ -35,7 +35,6 @@ done:
     return status;
 }
 
-/* Number of pixels that differ. */
 static double differing(const struct kd_frame *a, const struct kd_frame *b)
 {
     const unsigned char *x = kd_frame_pixels(a), *y = kd_frame_pixels(b);

@@ -224,7 +224,6 @@ static double cost(const struct layout *o, const struct part *p)
     return OVERHEAD + rays + (rays > KD_RIM_GRID_RAYS ? 1e3 * rays : 0);
 }
 
-/* Cost of two halves. */
 static double cost_of(const struct layout *o, struct part halves[2])
 {
     double sum = 0;
