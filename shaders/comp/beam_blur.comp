@@ -1,7 +1,6 @@
-/* This kernel blurs a grid of cells by a Gaussian along one of its axes (render/plan/beam.h). An invocation makes
- * four cells next to one another on the axis, which share what they read: the weight of a cell for one of them is
- * the weight of the cell before it for the one before. ROWS: along columns, from row to row. What lies beyond the
- * ends is dark. */
+/* Kernel: blurs a grid of cells by a Gaussian along one axis (render/plan/beam.h). An invocation makes four adjacent
+ * cells on the axis, which share what they read: the weights for each are those for the one before, shifted by a
+ * cell. ROWS: along columns, from row to row. There is no light beyond the ends. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -30,7 +29,7 @@ void main()
     int x = int(n % across), y = int(n / across), i = ROWS ? int(push.row0) + 4 * y : 4 * x;
     int step_ = ROWS ? int(push.columns) : 1, base = ROWS ? x : (int(push.row0) + y) * int(push.columns);
     int begin = max(i - int(push.reach), 0), end = min(i + 4 + int(push.reach), int(push.length_));
-    /* w(t + 1)/w(t) falls by the same factor with each step. */
+    /* w(t + 1)/w(t) decreases by the same factor at each step. */
     float t = float(begin - i), ratio = exp(-push.narrow * (2 * t + 1)), fall = exp(-2 * push.narrow);
     vec4 w = exp(-push.narrow * vec4(t * t, (t - 1) * (t - 1), (t - 2) * (t - 2), (t - 3) * (t - 3)));
     vec3 sum[4] = { vec3(0), vec3(0), vec3(0), vec3(0) };

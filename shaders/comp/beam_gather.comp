@@ -1,6 +1,6 @@
-/* This kernel makes rows of cells of rows of light (render/plan/beam.h). An invocation makes one cell of one row:
- * the mean of the pixels of the row round it, weighted by a quadratic B-spline of the cells' width; or, where a cell
- * is a pixel, the pixel. Light that is no number, or 10^30 and more, counts as none: it would be all over the
+/* Kernel: converts rows of light to rows of cells (render/plan/beam.h). An invocation makes one cell of one row: the
+ * mean of the adjacent pixels of the row, weighted by a quadratic B-spline of the cells' width; or the pixel itself
+ * if a cell is a pixel. Light that is NaN, or 10^30 and more, counts as 0, because it would spread over the whole
  * picture. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -31,7 +31,7 @@ void main()
     if (n >= push.columns * push.rows)
         return;
     int i = int(n % push.columns), width = int(push.pixels_x), cell = int(push.cell);
-    int row = int(n / push.columns) * width; /* the pixel that the row begins at */
+    int row = int(n / push.columns) * width; /* index of the row's first pixel */
     int from = row + (COARSE ? max(cell * (i - 2), 0) : i), to = row + (COARSE ? min(cell * (i + 1), width) : i + 1);
     float middle = COARSE ? float(i) - 0.5 : 0.0;
     vec3 sum = vec3(0);

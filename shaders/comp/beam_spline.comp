@@ -1,6 +1,6 @@
-/* This kernel writes rows of pixels as rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An
- * invocation makes one cell of a slice of rows from `count` cells above and below it. What lies beyond the ends is
- * dark. */
+/* Kernel: converts rows of pixels to rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An
+ * invocation makes one cell of a slice of rows from `count` cells above and below it. There is no light beyond the
+ * ends. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-/* This kernel makes rows of light of rows of cells: the way back from beam_gather.comp. An invocation makes four
+/* Kernel: converts rows of cells back to rows of light, the inverse of beam_gather.comp. An invocation makes four
  * pixels of a band, three times four floats. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -21,8 +21,8 @@ vec3 cell(int i) { return lines[i].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Light { vec4 light[]; };
 
-/* This is the place of the band's pixel n. The quotient as a float is wrong by one at most (post.comp). Behind the
- * end of the band there are no others than its last. */
+/* Light of the band's pixel n. The quotient as a float is wrong by at most one (post.comp). n beyond the band's end
+ * means its last pixel. */
 vec3 pixel(int n)
 {
     int width = int(push.pixels_x);
@@ -34,7 +34,7 @@ vec3 pixel(int n)
         return cell(row + x);
     float u = (float(x) + 0.5) * push.cells, left = floor(u), t = u - left - 0.5;
     int i =
-        row + int(left); /* the cell before the one that it lies in: the grid has one more to the left of the picture */
+        row + int(left); /* the cell before the pixel's own: the grid has one more cell to the left of the picture */
     return beam_spline(t + 1) * cell(i) + beam_spline(t) * cell(i + 1) + beam_spline(t - 1) * cell(i + 2);
 }
 

@@ -1,17 +1,16 @@
-/* This kernel puts rays between rays: it makes the lens map of a square grid of rays on listed pixels by
- * interpolation in the map of the picture's grid, which has one ray in the middle of each pixel. No light is
- * followed: what this saves is rays, and what it gives is the source across the pixel, as the ray bundle of James,
- * von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001, appendix A.2) does to first order.
+/* Kernel: makes the lens map of a square grid of rays on listed pixels, by interpolation in the map of the picture's
+ * grid, which has one ray in the middle of each pixel. It saves rays, since no light is traced, and gives the source
+ * across the pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32,
+ * 065001, appendix A.2) does to first order.
  *
- * Through a pixel and its eight neighbours goes one biquadratic polynomial, for w and for the azimuth of each
- * crossing, and so on; of directions in the sky for the unit vector. At (x, y) of a pixel's side from the middle it
- * is off by x(x^2 - 1)/6 of the third difference along x, at most by 1/17 of it, and likewise along y.
+ * One biquadratic polynomial through a pixel and its eight neighbours interpolates w and each other quantity of a
+ * crossing; for directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
+ * error is x(x^2 - 1)/6 of the third difference along x, at most 1/17 of it, and likewise along y.
  *
- * MARK: instead say of each listed pixel, in the word that is its own behind the list, whether that may be done: 1,
- * or 0. All nine rays must have crossings of the same orders and the same fate; in the metric of the source the
- * second differences must be less than BENT of the first, and of crossings the third ones less than TWISTED: the
- * error is then less than 0.004 of a pixel. At the edges of the picture, and of the band that the buffer holds, it
- * may not. */
+ * MARK: instead writes for each listed pixel whether interpolation is accurate, 1 or 0, in its word after the list.
+ * All nine rays must have crossings of the same orders and the same fate. In the metric of the source the second
+ * differences must be less than BENT of the first, and for crossings the third ones less than TWISTED: the error is
+ * then below 0.004 of a pixel. It is 0 at the edges of the picture, and of the band in the buffer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -32,8 +31,8 @@ layout(set = 0, binding = 1) readonly buffer LensMap { float lens[]; };
 const float BENT = 0.3, TWISTED = 0.06;
 const bool SKY = (QUANTITIES & KD_LENS_SKY_U) != 0u, FATE = (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* The polynomial: its value in the middle, slopes along x and y, half second differences, and the mixed terms xy,
- * x^2 y, x y^2, x^2 y^2. */
+/* A biquadratic polynomial: its value in the middle, slopes along x and y, half second differences, and the mixed
+ * terms xy, x^2 y, x y^2, x^2 y^2. */
 struct kd_biquadratic { vec3 slope_x, slope_y, bend_x, bend_y, xy, xxy, xyy, xxyy; };
 
 vec3 turned(vec3 d, bool angle)
@@ -43,7 +42,7 @@ vec3 turned(vec3 d, bool angle)
     return d;
 }
 
-/* A quantity of the ray at a place of the map: of crossings w, and a second one; of the sky a unit vector. */
+/* Values of the ray at a place of the map: for crossings w and a second quantity; for the sky a unit vector. */
 vec3 crossing(uint n, uint quantity, uint at)
 {
     return vec3(lens[at + n * push.map_stride], lens[at + (kd_plane(quantity) + n) * push.map_stride], 0.0);
@@ -56,7 +55,7 @@ vec3 direction(uint at)
     return vec3(s * phi.c, s * phi.s, u);
 }
 
-/* n: which crossing, ORDERS: the sky. */
+/* n: number of the crossing; ORDERS: the sky. */
 vec3 spot(uint n, uint quantity, uint at) { return n < ORDERS ? crossing(n, quantity, at) : direction(at); }
 
 kd_biquadratic patch_of(uint n, uint quantity, uint at)
@@ -84,16 +83,16 @@ vec3 change(kd_biquadratic p, float x, float y)
            x * y * (p.xy + x * p.xxy + y * p.xyy + x * y * p.xxyy);
 }
 
-/* Whether a patch is straight enough, m being its metric. */
+/* Whether a patch is straight enough; m: its metric. */
 bool straight(kd_biquadratic p, vec3 m)
 {
     vec3 i = m * p.slope_x, j = m * p.slope_y, a = 2.0 * m * p.bend_x, b = 2.0 * m * p.bend_y, c = m * p.xy;
-    return dot(a, a) + dot(b, b) + dot(c, c) < BENT * BENT * (dot(i, i) + dot(j, j)); /* false of what is no number */
+    return dot(a, a) + dot(b, b) + dot(c, c) < BENT * BENT * (dot(i, i) + dot(j, j)); /* false for NaN */
 }
 
-/* Whether what the polynomial of crossing n leaves out, the third difference along x and y, is small beside its
- * slopes. Each of the four rays two pixels off tells it, if it has such a crossing. A map that bends one way on one
- * side of a pixel and the other way on its other side has no second difference there. */
+/* Whether the error of the polynomial of crossing n, the third difference along x and y, is small relative to its
+ * slopes. Each of the four rays two pixels away provides it, if it has such a crossing. A map that bends in opposite
+ * directions on the two sides of a pixel has no second difference there. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;
@@ -113,7 +112,7 @@ bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint
     return most < TWISTED * TWISTED * slope;
 }
 
-/* Orders and fate of all nine. */
+/* Whether all nine rays have the same orders and fate. */
 bool alike(uint at)
 {
     bool same = true;
@@ -153,10 +152,10 @@ bool may(uint x, uint y, uint at)
     return yes;
 }
 
-/* An invocation is a pixel, whose patches serve all of its rays. */
+/* An invocation is a pixel; its polynomials serve all of its rays. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
-/* This writes w of crossing n, and what comes with it. */
+/* Writes w of crossing n, and a second quantity. */
 void interpolate(uint n, uint quantity, uint at, uint to)
 {
     kd_biquadratic p = patch_of(n, quantity, at);
@@ -180,7 +179,7 @@ void interpolate_sky(uint at, uint to)
     }
 }
 
-/* The same for all rays of a pixel. */
+/* Copies a value to all rays of a pixel. */
 void copy(uint plane, uint at, uint to)
 {
     float value = lens[at + plane * push.map_stride];
@@ -196,7 +195,7 @@ void fill(uint at, uint to)
             copy(n, at, to);
             continue;
         }
-        for (int i = 0; i < 4; i++) /* w comes with the others */
+        for (int i = 0; i < 4; i++) /* w is written with the others */
             if ((QUANTITIES & beside[i]) != 0u &&
                 (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
                 interpolate(n, beside[i], at, to);

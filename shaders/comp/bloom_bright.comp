@@ -1,12 +1,12 @@
-/* This kernel adds up the light that a lens takes from its places (shared/bloom.glsl) over blocks of BLOCK_X times
- * BLOCK_Y pixels, which are smaller than the cells of the finest grid. An invocation takes four columns of pixels,
- * or one block where that is larger.
+/* Kernel: sums the light that a lens removes from its place (shared/bloom.glsl) over blocks of BLOCK_X times BLOCK_Y
+ * pixels, which are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or one
+ * block if that is wider.
  *
- * A block's rows may lie in two bands or more: each band adds its rows to what those before it have left, one after
- * the other, so that the sum does not depend on where bands end.
+ * A block's rows may be in two or more bands: each band adds its rows to the sum of earlier bands, in order, so that
+ * the result does not depend on where bands end.
  *
- * Two kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four
- * pixels; it needs rows of a multiple of four pixels. */
+ * This file is compiled to two kernels: KD_TEXELS reads the radiance as texels of four floats, three of which are
+ * four pixels; rows must then be multiples of four pixels. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -22,7 +22,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { KD_BLOOM_BRIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 1) buffer Blocks { vec4 blocks[]; };
 
-/* What is taken of four pixels beside one another. */
+/* Light removed from four adjacent pixels. */
 struct quad { vec3 a, b, c, d; };
 vec3 taken(vec3 light) { return bloom_of(push.gain * light, push.strength); }
 
@@ -49,9 +49,9 @@ quad quad_at(uint x, uint row)
 #endif
 
 const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
-           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation, blocks that it has */
+           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of its blocks */
 
-/* What the bands before have left of block n of an invocation. */
+/* Sum of earlier bands for block n of an invocation. */
 vec3 begun(uint at, uint n, uint left) { return BEGUN && n < EACH && n < left ? blocks[at + n].rgb : vec3(0); }
 
 void main()

@@ -1,6 +1,6 @@
-/* This kernel makes a grid of half as many cells each way from the next finer one: weights are 1, 3, 3, 1 over 8, so
- * that each fine cell gives all that it has, and that a quadratic B-spline of the fine grid becomes one of the
- * coarse grid. */
+/* Kernel: makes a grid of half as many cells along each side from the next finer one. Weights are 1, 3, 3, 1 over 8:
+ * each fine cell gives everything that it has, and a quadratic B-spline of the fine grid becomes one of the coarse
+ * grid. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,7 +15,7 @@ layout(push_constant) uniform Push
     uint cells_x, cells_y;
     float share, coarse_share;
 }
-push; /* of the coarse grid */
+push; /* sizes of the coarse grid */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer fine;
 vec3 cell(int at) { return texelFetch(fine, at).rgb; }

@@ -1,7 +1,7 @@
-/* This kernel spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its
- * own cell and to the eight round it, by where in its cell its middle is, so that what is spread moves and widens
- * evenly with it. What it would give to cells beyond the edge comes back to those inside, or is given to those at
- * the other edge. An invocation makes two cells each way, which share what they read. */
+/* Kernel: spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block contributes to
+ * its own cell and the eight round it, weighted by the position of its centre in the cell, so that the spread light
+ * moves and widens evenly with it. Contributions beyond the edge are mirrored inside, or go to the opposite edge. An
+ * invocation makes two cells along each side, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -24,32 +24,32 @@ vec3 light(int at) { return blocks[at].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* So many pixels, pixels a block, blocks and cells along an axis. */
+/* Numbers along an axis: pixels, pixels a block, blocks, cells. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
-/* A block, and its weights for two neighbouring cells. */
+/* A block, and its weights for two adjacent cells. */
 struct kd_tap {
     int at;
     float a, b;
 };
 
-/* The blocks whose middles are at most 1.5 cells from the middles of cell i and the next one are among these and
- * those that follow. */
+/* First of the blocks whose centres are at most 1.5 cells from the centres of cell i or the next one; the others
+ * follow it. */
 int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
     return int(ceil((float(i) - 1) / step_ - 0.5)) -
-           (around && RAGGED ? 1 : 0); /* before the left edge lies the narrow block of the right one */
+           (around && RAGGED ? 1 : 0); /* the right edge's narrow block is to the left of the left edge */
 }
 
-/* What a block gives: which, and how far its middle is from that of cell i, in cells. */
+/* A block, and its weights by the distance of its centre from that of cell i, in cells. */
 kd_tap tap_of(kd_bloom_axis axis, int within, float at)
 {
     float scale = float(axis.cells) / float(axis.pixels);
     return kd_tap(clamp(within, 0, int(axis.blocks) - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
 }
 
-/* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others: its middle
- * lies before its place, and what is mirrored in the edge, too. */
+/* Block k, which may be a mirror image beyond an edge. If the last block is narrower than the others, its centre is
+ * before its regular place; so is the centre of its mirror image. */
 kd_tap tap(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;
@@ -62,7 +62,7 @@ kd_tap tap(kd_bloom_axis axis, int i, int k)
     return tap_of(axis, within, at);
 }
 
-/* Block k of a picture that goes all round; k beyond an edge is one of the other side. */
+/* Block k in a picture of all directions; beyond an edge it is on the other side. */
 kd_tap tap_around(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), within = bloom_column(k, count, true),

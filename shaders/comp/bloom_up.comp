@@ -1,10 +1,10 @@
-/* This kernel adds up what the cells of one grid spread, and of all coarser ones: this grid's share, and the coarser
+/* Kernel: sums the light spread by the cells of one grid and of all coarser ones: this grid's share, and the coarser
  * grid's sum on this one.
  *
- * The coarser sum: weights 3 and 1 over 4 (G. Chaikin 1974) are those by which a quadratic B-spline is one of half
- * the spacing: all grids together are a sum of such splines, whatever grid they are looked up on. The share is
- * smoothed by 1, 2, 1 over 4 each way, which has a zero where a grid mistakes waves for longer ones: so a point of
- * light spreads alike wherever in its cell it is. */
+ * The coarser sum: by weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing,
+ * so all grids together are a sum of such splines, whichever grid they are evaluated on. The share is smoothed by 1,
+ * 2, 1 over 4 along each side, which is zero at the frequency that a grid aliases: a point of light thus spreads
+ * alike wherever it is in its cell. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push
     uint cells_x, cells_y;
     float share, coarse_share;
 }
-push; /* of the fine grid */
+push; /* sizes of the fine grid */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer coarse;
 layout(set = 0, binding = 1) uniform textureBuffer light;
@@ -33,7 +33,7 @@ vec3 cell(int at) { return light[at].rgb; }
 #endif
 layout(set = 0, binding = 2) writeonly buffer Fine { vec4 fine[]; };
 
-/* Four cells in a row as two: those in the middle smoothed by 1, 2, 1. */
+/* Two cells from four in a row: the middle ones smoothed by 1, 2, 1. */
 struct pair { vec3 a, b; };
 
 pair smoothed(int row, ivec4 x)
@@ -42,14 +42,14 @@ pair smoothed(int row, ivec4 x)
     return pair(p + 2 * q + r, q + 2 * r + s);
 }
 
-/* Makes of three coarse cells the two fine ones in the middle, times 4. */
+/* Two fine cells from three coarse ones, times 4. */
 pair finer(int row, ivec3 x)
 {
     vec3 p = coarse_cell(row + x.x), q = coarse_cell(row + x.y), r = coarse_cell(row + x.z);
     return pair(p + 3 * q, 3 * q + r);
 }
 
-/* Two cells each way share what they read. */
+/* Two cells along each side share what they read. */
 void main()
 {
     int across = int(push.cells_x), rows = int(push.cells_y), columns = (across + 1) / 2;

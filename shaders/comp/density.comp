@@ -1,5 +1,4 @@
-/* This kernel makes of the weights that particles.comp has counted the density at each node, over the one expected
- * there. */
+/* Kernel: converts the weights counted by particles.comp to the density at each node over the expected one. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -8,7 +7,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { uint columns; }
 push;
 layout(set = 0, binding = 0) readonly buffer Grid { uint grid[]; };
-layout(set = 0, binding = 1) readonly buffer Expected { float per_unit[]; }; /* of a row */
+layout(set = 0, binding = 1) readonly buffer Expected { float per_unit[]; }; /* for each row */
 layout(set = 0, binding = 2) writeonly buffer Density { float density[]; };
 
 void main()

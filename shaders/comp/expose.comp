@@ -1,6 +1,6 @@
-/* This kernel counts the picture's luminance into a histogram, for auto exposure. Integer counts: the same on every
- * run. Of a large picture each `skip`-th pixel is counted, a number that shares no factor with usual widths, so that
- * all columns have their turn. */
+/* Kernel: histogram of the picture's luminance, for auto exposure. Counts are integers, so every run gives the same.
+ * In a large picture each `skip`-th pixel is counted; `skip` shares no factor with usual widths, so that all columns
+ * are sampled. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

@@ -1,22 +1,22 @@
-/* This kernel finds the footprint of each ray: the size of what it stands for, on the disk for each crossing, and in
- * the sky (shared/lens.h).
+/* Kernel: footprint of each ray, the size of what it stands for, on the disk for each crossing, and in the sky
+ * (shared/lens.h).
  *
- * A step of the camera is a square in the picture; the map takes it, to first order, to a parallelogram, and a disc
- * one step across to an ellipse. The footprint is the long axis of that ellipse: the largest singular value of the
- * map's derivative J,
+ * A step of the camera is a square in the picture. To first order the map takes it to a parallelogram, and a disc of
+ * one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest singular value of the
+ * map's derivative J:
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
- * The derivative comes from differences to the neighbouring rays of the same order or fate. The rays next to it
- * on both sides give it to second order; so do two on one side, at the edge of the picture or of what the buffer
- * holds; one ray alone gives it to first order. Where neither side has any, the ray is by itself at an edge, and its
- * footprint is KD_FOOTPRINT_EDGE. Half the second difference counts as well: where the map turns back within a step
- * it has a size all the same. It is of second order, too.
  *
- * Rays on listed pixels stand on a square grid, which is taken by itself for each pixel, or on a lattice
- * (ray/place.glsl). On a lattice J is the linear map that fits best, by least squares, the differences to the
- * neighbours in this pixel and those beside it, for a step of the side of the area that one ray has; what the fit
- * leaves is counted like the second difference.
+ * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
+ * it to second order; so do two on one side, at the edge of the picture or of the buffer; one neighbour gives it to
+ * first order. Without a neighbour on either side, the ray is isolated at an edge, and its footprint is
+ * KD_FOOTPRINT_EDGE. Half the second difference is included as well, because a map that turns back within a step still
+ * has a size. It is of second order, too.
  *
- * Differences are those of 32-bit numbers: a footprint of less than some 1e-6 of r, or 1e-6 radians, is noise. */
+ * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
+ * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
+ * long as the side of the area of one ray; residuals of the fit are included like the second difference.
+ *
+ * Differences are between 32-bit numbers: a footprint below about 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -31,10 +31,9 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define U(name) uint name;
 struct kd_footprint { KD_FOOTPRINT_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_footprint push_; };
-kd_footprint push; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
+kd_footprint push; /* read before the first branch: after one, lavapipe reads it again for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-/* A word of the map that was traced. */
-/* Places of rays that are followed alone (ray/places.glsl). */
+/* Places of rays that are traced singly (ray/places.glsl). */
 layout(set = 0, binding = KD_FOOTPRINT_PLACES) readonly buffer Places { uint words[]; };
 #include "ray/places.glsl"
 #ifdef KD_TEXELS
@@ -47,13 +46,13 @@ float map_at(uint at) { return lens[at]; }
 const uint FIRST = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u ? KD_LENS_FOOTPRINT : KD_LENS_SKY_FOOTPRINT;
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
-/* A ray comes here: of a crossing (w, phi), of the sky a unit vector. */
+/* Where a ray ends: for a crossing (w, phi), for the sky a unit vector. */
 struct kd_spot {
     vec3 at;
     bool there;
 };
 
-/* n: which crossing; ORDERS: the sky. */
+/* n: number of the crossing; ORDERS: the sky. */
 kd_spot spot(uint n, uint at, bool there)
 {
     if (n < ORDERS) {
@@ -66,7 +65,7 @@ kd_spot spot(uint n, uint at, bool there)
     return kd_spot(vec3(s * phi.c, s * phi.s, u), there && escapes);
 }
 
-/* This is the way from the ray's own spot to another's, azimuths the short way round. */
+/* Difference from the ray's own spot to another's, with azimuths reduced to half a turn. */
 vec3 apart(uint n, kd_spot own, kd_spot other)
 {
     vec3 d = other.at - own.at;
@@ -75,36 +74,36 @@ vec3 apart(uint n, kd_spot own, kd_spot other)
     return d;
 }
 
-/* The change from ray to ray along one axis of the picture, and half the second difference. */
+/* Change from ray to ray along one axis of the picture, and half the second difference. */
 struct kd_change {
     vec3 slope, bend;
     bool there;
 };
 
-/* At this place of so many along the axis, a step of which is `step_` in a plane of the map. */
+/* The change at index `place` of `places` along the axis; step_: distance of neighbours in a plane of the map. */
 kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;
-    int o = first ? 1 : -1, p = first ? 2 : last ? -2 : 1; /* the two neighbours */
+    int o = first ? 1 : -1, p = first ? 2 : last ? -2 : 1; /* the two neighbours used */
     bool has_o = places > 1, has_p = int(place) + p >= 0 && int(place) + p < int(places);
     kd_spot near = spot(n, has_o ? at + o * step_ : at, has_o), other = spot(n, has_p ? at + p * step_ : at, has_p);
     vec3 d = apart(n, own, near), e = apart(n, own, other);
     float fo = float(o), fp = float(p), unit = 1.0 / (fo * fp * (fp - fo));
-    if (near.there && other.there) /* the parabola through all three */
+    if (near.there && other.there) /* by the parabola through all three */
         return kd_change((fp * fp * d - fo * fo * e) * unit, (fo * e - fp * d) * unit, true);
     if (near.there)
         return kd_change(fo * d, vec3(0.0), true);
     return kd_change(fp * e, vec3(0.0), other.there && abs(p) == 1);
 }
 
-/* The metric of a spot: steps of w and phi in M; of the sky they are radians. */
+/* Metric at a spot: converts steps of w and phi to M; for the sky they are in radians. */
 vec3 scale(uint n, kd_spot own)
 {
     float r = 1.0 / own.at.x;
     return n < ORDERS ? vec3(r * r, r, 0.0) : vec3(1.0);
 }
 
-/* The ray's place in a grid, all of which lies in the map row by row. */
+/* The ray's place in a grid that is stored completely in the map, row by row. */
 struct kd_grid { uint x, y, width, rows; };
 
 kd_oval on_grid(uint n, uint at, kd_grid grid)
@@ -123,14 +122,15 @@ kd_oval on_grid(uint n, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for the linear map that fits best: of v v^T, of d v^T, and of d.d; how many neighbours lack what the ray has. */
+/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and how many neighbours lack what the ray
+ * has. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;
     float dd, count, lacks;
 };
 
-/* Which pixels beside this one are listed too: they are next to it in the list. */
+/* Which of the adjacent pixels are listed too; they are adjacent in the list. */
 struct kd_beside { bool left, right; };
 
 vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
@@ -141,7 +141,7 @@ kd_beside beside(uint pixel)
     return kd_beside(before == own - vec2(1.0, 0.0), after == own + vec2(1.0, 0.0));
 }
 
-/* Count the neighbour of ray k in the pixel that is a vector away. */
+/* Adds a neighbour of ray k, at the vector (vx, vy), to the fit; it may be in an adjacent pixel. */
 void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
     int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
@@ -150,7 +150,7 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
     vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
     float there = other.there ? 1.0 : 0.0;
     if (!other.there)
-        d = vec3(0.0); /* it may be no number */
+        d = vec3(0.0); /* it may be NaN */
     fit.xx += there * v.x * v.x;
     fit.xy += there * v.x * v.y;
     fit.yy += there * v.y * v.y;
@@ -175,7 +175,8 @@ kd_oval on_lattice(uint n, uint at)
     BOTH(X2, Y2);
     BOTH(X3, Y3);
     BOTH(X4, Y4);
-    float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
+    /* area of one ray; det is at least area^2, or 0 */
+    float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy;
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
     kd_oval o =
@@ -184,7 +185,7 @@ kd_oval on_lattice(uint n, uint at)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
-    /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all
+    /* Four rays of a pixel without adjacent pixels are collinear: the change along their line is taken for all
      * directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
@@ -200,11 +201,11 @@ kd_oval footprint(uint n, uint at, kd_grid grid)
     return on_grid(n, at, grid);
 }
 
-/* The footprints of a crossing, or of the sky, are not there yet, for the rays next to it are not. */
+/* Marks the footprints of a crossing, or of the sky, as missing, because neighbouring rays are not traced yet. */
 void mark(uint at) { lens[at + kd_plane(FIRST) * push.stride] = KD_FOOTPRINT_WANTED; }
 bool is_marked(uint at) { return map_at(at + kd_plane(FIRST) * push.stride) == KD_FOOTPRINT_WANTED; }
 
-/* The ray of this invocation; false: none. */
+/* The ray of this invocation; false if there is none. */
 bool this_ray(out kd_grid grid, out uint at)
 {
     uint x = gl_GlobalInvocationID.x, y = push.first + gl_WorkGroupID.y;
@@ -234,7 +235,7 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        for (; n < ORDERS; n++) { /* crossings come without gaps */
+        for (; n < ORDERS; n++) { /* crossings are without gaps */
             if (map_at(at + n * push.stride) <= 0.0)
                 break;
             kd_oval o = footprint(n, at, grid);

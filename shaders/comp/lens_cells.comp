@@ -1,13 +1,13 @@
-/* This kernel decides where a lens map is followed ray by ray and where it is interpolated. An invocation is a cell
- * (ray/cells.glsl) of one level, all of whose nodes are followed: if the polynomials through them tell two more rays of
- * it, it is done; else its four quarters are cells of the next level, whose nodes are listed, and a cell of the last
- * level is followed ray by ray. The map is analytic in a cell but where orders or fates change, and whether they do the
- * nodes say: by their states, and by R at the barrier, which vanishes where fates change. What a cell becomes depends
- * on its own rays alone: a tile's cells are those of its picture.
+/* Kernel: decides where a lens map is traced ray by ray and where it is interpolated. An invocation is a cell
+ * (ray/cells.glsl) of one level, all of whose nodes are traced. If the polynomials through them predict two further
+ * rays, the cell is smooth. Otherwise its four quarters become cells of the next level, whose nodes are listed; the
+ * rays of a cell of the last level are traced singly. The map is analytic in a cell except where orders or fates
+ * change. Nodes show such changes by their states, and by R at the barrier, which vanishes where fates change. The
+ * decision depends on the cell's own rays only: a tile has the same cells as its picture.
  *
- * The tolerance is relative, of w, an angle and a direction alike; where the map is so steep that the rounding of the
- * camera's directions to 32 bits moves it more, it is CONDITION of that: of the change of ln w, or of the angle, that
- * a direction twice as far from the hole would have. A strict one fails by noise. */
+ * The tolerance is relative, for w, angles and directions alike. Where the map is so steep that the rounding of the
+ * camera's directions to 32 bits moves it more, the tolerance is CONDITION times that: the change of ln w, or of the
+ * angle, for a direction twice as far from the hole. A stricter one would fail by noise. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -26,12 +26,13 @@ layout(set = 0, binding = 2) readonly buffer Nodes { float nodes[]; };
 
 const float CONDITION = 0.3;
 
-/* The lists of cells, those of a level four times as long as those of the level before; and places. */
+/* Start of the lists: of the cells of a level, each list four times as long as that of the level before; and of the
+ * places. */
 uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * (level - 1u))) - 1u) / 3u); }
 uint places_of_nodes() { return units_of(2u); }
 uint places_alone() { return places_of_nodes() + push.room; }
 
-/* Takes so many numbers of a list whose counts begin there, and asks for workgroups of so many each. */
+/* Reserves n entries of the list whose counts are at `counts`, and requests workgroups of `each` entries. */
 uint take(uint counts, uint n, uint each)
 {
     uint first = atomicAdd(words[counts + 3u], n);
@@ -39,7 +40,7 @@ uint take(uint counts, uint n, uint each)
     return first;
 }
 
-/* Part of the picture, or of the rows of it that are wanted. */
+/* Whether a cell overlaps the picture, or its requested rows. */
 bool is_wanted(uvec2 corner, uint side)
 {
     ivec2 low = place_of(corner), high = low + ivec2(int(side));
@@ -53,16 +54,15 @@ void list_cell(uint level, uvec2 cell)
         words[queue_of(level) + take(KD_SAMPLE_CELLS + 4u * (level - 1u), 1u, KD_GROUP_SIZE)] = cell.x | (cell.y << 16);
 }
 
-/* The two rays that a cell is checked by, next to the middles of two of its sides: where polynomials are furthest off.
- * Of all levels but the last they lie at even places. */
+/* The two rays that check a cell, next to the middles of two sides, where polynomials have the largest errors. On
+ * all levels but the last they are at even places. */
 uvec2 check_of(uvec2 corner, uint side, uint i)
 {
     return corner + (i == 0u ? uvec2(side / 8u, side / 2u) : uvec2(side / 2u, side / 8u));
 }
 
-/* Places that become nodes where a cell is divided: among 9 x 9 those 16 on the edge that were none, which the cells
- * beside it may list as well, and 38 within, all of which it lists itself; two there were what the cell was checked by.
- */
+/* New nodes when a cell is divided: among 9 x 9 places there are 16 on the edge, which adjacent cells may list as
+ * well, and 38 inside, which only this cell lists; two of those inside were the rays that checked it. */
 uvec2 edge_of_nine(uint k)
 {
     uint along = 2u * (k % 4u) + 1u, far = 8u * (k / 4u & 1u);
@@ -77,7 +77,7 @@ uvec2 within_nine(uint k)
     uint i = k < 31u ? k - 27u : k < 34u ? k - 30u : k - 34u;
     return uvec2(2u * i + 1u, k < 31u ? 2u : k < 34u ? 4u : 6u);
 }
-/* And where a block is begun: 16 and 9 of 5 x 5. */
+/* Nodes of a new block: 16 and 9 of 5 x 5. */
 uvec2 edge_of_five(uint k)
 {
     uint i = k % 4u, side = k / 4u;
@@ -85,15 +85,15 @@ uvec2 edge_of_five(uint k)
 }
 uvec2 within_five(uint k) { return uvec2(k % 3u + 1u, k / 3u + 1u); }
 
-/* This makes a place a node. word: of the index. */
+/* Makes a place a node. word: of the index. */
 void make_node(uint node, uint word, uvec2 at)
 {
     number[word] = node + 1u;
     words[places_of_nodes() + node] = kd_place_word(at);
 }
 
-/* Lists the nodes of a cell's four quarters, or of a block, that are none yet, and the two rays by which each of these
- * is checked. stage: of these rays. */
+/* Lists the missing nodes of a cell's four quarters, or of a block, and the two rays that check each quarter or the
+ * block. stage: of these rays. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -121,7 +121,7 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     }
 }
 
-/* The nodes that a cell's polynomials are checked by: along its middle row, or its middle column, and behind them the
+/* Nodes that are compared with a cell's check: along its middle row or its middle column, followed by the checking
  * ray next to the first of them. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
@@ -131,16 +131,15 @@ uint node_along(uvec2 corner, uint side, uint axis, uint i)
     return number[word] - 1u;
 }
 
-/* What both lines tell of a quantity: what the polynomials are off by at those two rays at most, for each component and
- * all together; the sum of the squares of the slopes in the middle; and the largest second difference, of quarters of
- * the side. */
+/* Results of both lines for a quantity: largest error of the polynomials at the two rays, for each component and in
+ * total; sum of the squared slopes in the middle; and the largest second difference between quarters of the side. */
 struct kd_line_told {
     vec3 off, slope2, bend;
     float apart;
 };
 const kd_line_told KD_NOTHING_TOLD = kd_line_told(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
 
-/* What is no number is within no tolerance. */
+/* Replaces NaN and infinity by a value outside every tolerance. */
 float or_far(float x) { return kd_is_finite(x) ? x : 1e18; }
 
 void tell(inout kd_line_told t, vec3 v[6])
@@ -154,7 +153,7 @@ void tell(inout kd_line_told t, vec3 v[6])
     t.bend = max(t.bend, max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d)));
 }
 
-/* VALUE: of `node`. Both lines and all their nodes by the same code, which a driver compiles once. */
+/* VALUE: for `node`. Both lines and all their nodes share the same code, which a driver then compiles once. */
 #define KD_ALONG_BOTH(told, VALUE) \
     [[dont_unroll]] for (uint axis = 0u; axis < 2u; axis++) { \
         vec3 v[6]; \
@@ -167,8 +166,8 @@ void tell(inout kd_line_told t, vec3 v[6])
         tell(told, v); \
     }
 
-/* How far a step from ray to ray is from the direction to the hole, at most: what rounding moves a ray by is a part of
- * that. In such steps. */
+/* Largest distance of a step between rays from the direction to the hole, in such steps: rounding moves a ray by a
+ * fraction of it. */
 float steps_to_hole(uvec2 corner, uint side)
 {
     ivec2 middle = place_of(corner + uvec2(side / 2u));
@@ -181,8 +180,9 @@ float steps_to_hole(uvec2 corner, uint side)
     return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
 }
 
-/* Between nodes a curve leaves them by an eighth of its second difference: whether what vanishes where fates change,
- * and is this at least at the nodes, can vanish between them. Four times that, and twice what the polynomials miss. */
+/* Whether the function that vanishes where fates change, and is at least `least` at the nodes, is nonzero between
+ * them. Between nodes a curve deviates by an eighth of its second difference; the margin is four times that, plus
+ * twice the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -190,8 +190,8 @@ bool curve_is_far(uvec2 corner, uint side, float least)
     return least > max(0.5 * t.bend.x, 2.0 * t.off.x);
 }
 
-/* far: of quarters of the side. Whether the polynomials tell both rays: w relative to w, an angle, and a slope relative
- * to the steepest. */
+/* Whether the polynomials predict both rays: w relative to w, an angle, and a slope relative to the steepest. far:
+ * in quarters of the side. */
 bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -213,7 +213,8 @@ bool sky_is_smooth(uvec2 corner, uint side, float far)
     return t.apart <= push.tolerance * max(1.0, steep);
 }
 
-/* Whether all rays of a cell cross as often and end alike, and its polynomials tell those between its nodes. */
+/* Whether all rays of a cell have the same number of crossings and the same fate, and its polynomials predict those
+ * between its nodes. */
 bool is_smooth(uvec2 corner, uint side, out float state)
 {
     state = state_of(node_along(corner, side, 0u, 2u));
@@ -242,7 +243,7 @@ void list_units(uint kind, uvec2 corner, uint level)
         words[word + i] = kd_unit(corner / 8u, i, level);
 }
 
-/* A cell of the last level whose rays are followed one by one. */
+/* Lists the rays of a cell of the last level, to be traced singly. */
 void follow_alone(uvec2 corner)
 {
     ivec2 place = place_of(corner), low = max(place, ivec2(0, int(push.row0))),
@@ -252,7 +253,7 @@ void follow_alone(uvec2 corner)
         words[word++] = kd_place_word(uvec2(low - place_of(uvec2(0u)) + ivec2(k % n.x, k / n.x)));
 }
 
-/* A cell of a level; of level 0 a block, which is a cell of the first one. */
+/* Processes a cell of a level; at level 0 a block, which becomes a cell of level 1. */
 void look_at(uvec2 cell, uint level)
 {
     const bool begins = level == 0u;

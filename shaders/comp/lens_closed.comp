@@ -1,11 +1,11 @@
-/* This kernel makes the lens map in closed form, for an observer at infinity or outside the photon orbits: radii of
- * the crossings, and as the scene requires their azimuths, radial slopes, the direction in which a ray escapes and
- * its fate. Planes: shared/lens.h, all but the delay and alpha.
+/* Kernel: makes the lens map in closed form, for an observer at infinity or outside the photon orbits: radii of the
+ * crossings and, if the scene requires them, their azimuths, radial slopes, the direction in which a ray escapes and
+ * its fate. Planes: shared/lens.h, all except the delay and alpha.
  *
- * When a ray crosses the plane is known (polar.glsl), and where it then is (arc.glsl). The azimuth by which the hole
- * drags it is an integral over each half period, by Gauss and Legendre's rule: its places are reached from the
- * crossings at both ends, and the times that they lie from there are the same for all half periods but the first.
- * The ray escapes when w vanishes, and that is known from w and w' at its last crossing. */
+ * The times at which a ray crosses the plane are known (polar.glsl), and where it then is (arc.glsl). The azimuth by
+ * which the hole drags it is an integral over each half period, by Gauss-Legendre quadrature. Its nodes are reached
+ * from the crossings at both ends, and their distances from there in time are the same for all half periods but the
+ * first. The ray escapes when w vanishes, which is known from w and w' at its last crossing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -34,21 +34,20 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 const uint MORE =
     12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
 
-/* Where a ray is between two crossings. */
+/* A ray between two crossings. */
 struct kd_leg {
     kd_centre last; /* the last crossing, or the start        */
-    kd_centre to;   /* and where the plane is crossed next,   */
-    kd_state next;  /* if it                                  */
-    bool alive;     /* still is outside then                  */
-    float psi, chi; /* azimuth there, but for the drag since `last`; the drag up to `last`, */
-    float drag;     /* and since                                      */
+    kd_centre to;   /* the next crossing of the plane, */
+    kd_state next;  /* if the ray */
+    bool alive;     /* is still outside then */
+    float psi, chi; /* azimuth there without the drag since `last`; the drag up to `last`, */
+    float drag;     /* and since */
     float tau;      /* time there                                     */
-    float side;     /* 1: it leaves the last crossing upwards; -1: downwards */
-    bool crossed;   /* the start is no longer `last`                  */
+    float side;     /* 1: the ray leaves the last crossing upwards; -1: downwards */
+    bool crossed;   /* `last` is not the start any more */
 };
 
-/* This is an upper bound of the time to the horizon, or to infinity for a ray that sets out outwards: R is above its
- * least value. */
+/* Upper bound of the time to the horizon, or to infinity for a ray that starts outwards: R is above its least value. */
 float time_limit(kd_barrier b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
@@ -59,22 +58,22 @@ float time_limit(kd_barrier b, kd_state start, float e, bool falls)
     return start.dw < 0.0 ? 1.01 * start.w / sqrt(max(least, 1e-12 * e2)) : 1e30;
 }
 
-/* The closed form goes on beyond the horizon, turns inside and comes back out: a ray that falls must still be
- * falling, and within the time that it can take at most. One that escapes comes back from infinity on the other
- * side, where w < 0. */
+/* The closed form continues beyond the horizon, turns inside and comes back out: a ray that falls must still be
+ * falling, and within its largest possible time. A ray that escapes comes back from infinity on the other side,
+ * where w < 0. */
 bool goes_on(kd_leg leg, bool falls, float limit)
 {
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Whether rounding may have made, or missed, its next crossing. The drag costs half of the kernel's time: it is not
- * asked for where nothing else needs it. */
+/* Whether rounding may have created, or removed, its next crossing. The drag takes half of the kernel's time, so it
+ * is only used if something else needs it. */
 bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
 {
     return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
 }
 
-/* A half period further. nodes, arc, z: of its time. */
+/* Advances by half a period. nodes, arc, z: for its time. */
 void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_arc arc, float z, float psi, float tau,
            float edge, float limit)
 {
@@ -89,16 +88,16 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* Whether polar.first is a time at all. Where A > 0 it is none if Q < 0, and rounding has its way where Q nearly
- * vanishes (polar.glsl): the plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), as u'^2
- * = Q + A u^2 - e u^4 is s^2/4e at its largest. Where A < 0 and Q = 0, in the plane, half periods are counted as
- * ever, though nothing is crossed. */
+/* Whether polar.first is a valid time. If A > 0 it is not for Q < 0, and rounding decides where Q nearly vanishes
+ * (polar.glsl): the plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), because u'^2 = Q
+ * + A u^2 - e u^4 is at most s^2/4e. If A < 0 and Q = 0, in the plane, half periods are counted as usual, though
+ * nothing is crossed. */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
     return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));
 }
 
-/* Keep crossing n; zeros for none. */
+/* Stores crossing n; zeros if there is none. */
 void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
 {
     float w = any ? leg.next.w * drag.unit : 0.0;
@@ -111,8 +110,8 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Keep where the ray ends, and say whether that is told. nodes, z: of the leg that it does not finish; before: time
- * from the last crossing to the start, if it is the start that the leg begins with. */
+/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that it does not complete;
+ * before: time from the last crossing to the start, if the leg begins with the start. */
 bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)
 {
@@ -153,7 +152,7 @@ void main()
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
-    kd_ray tilted = ray; /* in the plane the azimuth has no start: a little beside it */
+    kd_ray tilted = ray; /* in the plane the azimuth has no start, so a nearby ray is used */
     tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
     kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
     kd_state start;
@@ -182,7 +181,7 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* The scale of w far out is E over the larger of E and |(l, p)|, which a.scale is at most sqrt(3) times, or 1; and
+    /* The scale of w far out is E over the larger of E and |(l, p)|, which is at least a.scale / sqrt(3), or 1; and
      * at most that of the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start) || is_open(leg, polar, margins);
@@ -190,7 +189,7 @@ void main()
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    if (!PHI && !SKY) { /* a half period costs as much as keeping that there is none */
+    if (!PHI && !SKY) { /* a half period costs as much as storing that there is none */
         for (; n < ORDERS; n++) {
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);
@@ -199,8 +198,7 @@ void main()
             keep(at, n, leg.alive && polar.crosses, leg, drag);
         }
     }
-    /* These loops ask at their ends whether they go on: of those that ask at their heads lavapipe goes through the
-     * body once more. */
+    /* These loops test at their ends: lavapipe executes the body of loops that test at their heads once more. */
     if ((PHI || SKY) && leg.alive && n < legs) {
         do {
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

@@ -1,10 +1,10 @@
-/* This kernel fills a lens map from the nodes of its smooth cells (ray/cells.glsl): w, azimuth and slope of each ray's
- * crossings, or where in the sky it ends, by the polynomials through the nodes, and the footprints that the derivatives
- * of these tell. An invocation is a column of rays of a cell: 25 nodes become five numbers for the column, and these
- * one number for each of its rays. All is counted from the cell's middle node, so that rounding is that of what changes
- * in the cell.
+/* Kernel: fills a lens map from the nodes of its smooth cells (ray/cells.glsl), by the polynomials through the nodes:
+ * w, azimuth and slope of each ray's crossings, or where in the sky it ends, and the footprints from their derivatives.
+ * An invocation is a column of rays of a cell: 25 nodes are reduced to five numbers for the column, and these to one
+ * number for each ray. All values are relative to the cell's middle node, so that rounding is relative to the change
+ * within the cell.
  *
- * What no ray has is there already: the planes of w are 0, and all fates captured. */
+ * The map is already initialised: the planes of w are 0, and all fates are captured. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -34,7 +34,7 @@ const bool FOOTPRINT = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u, SHAPED = (QUANTIT
            SKY_FOOTPRINT = (QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u;
 const bool STEEP = OF_SKY ? SKY_FOOTPRINT : FOOTPRINT; /* derivatives are needed */
 
-/* What the five nodes along a line count for at t quarters of the side, Lagrange's polynomials, and for the derivative
+/* Weights of the five nodes along a line at t quarters of the side (Lagrange's polynomials), and for the derivative
  * there. */
 struct kd_weights { float value[5], slope[5]; };
 
@@ -56,13 +56,13 @@ kd_weights weigh(float t)
     return o;
 }
 
-/* The cell of a column: its nodes row by row, and what they count for in the column. */
+/* The cell of a column: its nodes row by row, and their weights in the column. */
 struct kd_column {
     uint node[25];
     kd_weights by;
 };
 
-/* What becomes of a quantity in a column: in its five rows the value, and its change from column to column. */
+/* A quantity in a column: its value in the five rows, and its change from column to column. */
 struct kd_lines { vec3 value[5], slope[5]; };
 
 vec3 along(float weight[5], vec3 v[5])
@@ -89,11 +89,10 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* A value that is nothing but stored lavapipe computes lane by lane, in the loop that stores it; not what comes of max.
- */
+/* lavapipe computes a value that is only stored lane by lane, in the loop that stores it, but not a result of max. */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
-/* A ray's place in the cell's polynomials: the value there, and how it changes from ray to ray. */
+/* The cell's polynomials at a ray: the value, and its change from ray to ray. */
 struct kd_patch_at { vec3 v, i, j; };
 
 void put_crossing(uint at, uint n, kd_patch_at s, bool falls)
@@ -103,7 +102,7 @@ void put_crossing(uint at, uint n, kd_patch_at s, bool falls)
         put(at, kd_plane(KD_LENS_PHI) + n, falls ? s.v.y - cam.spin * kd_fall(s.v.x, cam.root) : s.v.y);
     if (SLOPE)
         put(at, kd_plane(KD_LENS_SLOPE) + n, s.v.z);
-    if (FOOTPRINT) { /* in the metric of the disk, azimuths with their logarithm */
+    if (FOOTPRINT) { /* in the metric of the disk, including the azimuths' logarithm */
         float r = 1.0 / s.v.x, drag = falls ? cam.spin / kd_horizons(s.v.x, cam.root) : 0.0;
         vec2 i = vec2(r * r * s.i.x, r * (s.i.y - drag * s.i.x)), j = vec2(r * r * s.j.x, r * (s.j.y - drag * s.j.x));
         kd_oval o = kd_oval_of(i.x * i.x + j.x * j.x, i.y * i.y + j.y * j.y, i.x * i.y + j.x * j.y);
@@ -122,7 +121,8 @@ void put_end(uint at, kd_patch_at s)
         put(at, kd_plane(KD_LENS_SKY_FOOTPRINT), kd_longest(dot(s.i, s.i), dot(s.j, s.j), dot(s.i, s.j)));
 }
 
-/* Rows of a column: their first place in a plane, and in the cell's quarters, how many, and how far they are apart. */
+/* Rows of a column: their first index in a plane, and their first place in quarters of the cell; their number and
+ * spacing. */
 struct kd_rows {
     uint at, n;
     float from, unit;
@@ -172,7 +172,7 @@ void main()
     const float state = state_of(c.node[12]);
     const uint last = OF_SKY ? 1u : min(crossings_of(state), ORDERS);
     uint n = 0u;
-    do { /* loops ask at their ends, as in lens_closed.comp */
+    do { /* loops test at their ends, as in lens_closed.comp */
         vec3 middle = value_of(c.node[12], n);
         fill_rows(lines_of(c, n, middle), rows, middle, n, captured(state));
     } while (++n < last);

@@ -1,11 +1,12 @@
-/* This kernel makes the lens map by integration: radii of the crossings, and as the scene requires their azimuths,
- * radial slopes, the direction in which a ray escapes and its fate; for an observer at any radius.
+/* Kernel: makes the lens map by integration, for an observer at any radius: radii of the crossings and, if the scene
+ * requires them, their azimuths, radial slopes, the direction in which a ray escapes and its fate.
  *
- * When a ray crosses the plane is known in closed form (polar.glsl), so the steps end exactly on the crossings: each
- * half period is STEPS equal steps of the radial equation, the same for every ray, without a search and without
- * divergence. From the last crossing before it escapes, a ray goes on with the full vector equation of the angles.
+ * The times at which a ray crosses the plane are known in closed form (polar.glsl), so steps end exactly on the
+ * crossings: each half period is STEPS equal steps of the radial equation, the same for every ray, without a search and
+ * without divergence. From its last crossing on, a ray that escapes is followed by the full vector equation of the
+ * angles.
  *
- * Planes: shared/lens.h, all but the delay and alpha. */
+ * Planes: shared/lens.h, all except the delay and alpha. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -32,24 +33,24 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/node.glsl"
 #include "ray/escape.glsl"
 
-/* Boole's weights of five places. */
+/* Boole's weights for five nodes. */
 float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 
-/* A group of four steps in which a ray turns that goes back to the horizon. */
+/* A group of four steps in which a ray turns back to the horizon. */
 struct kd_turning {
     kd_state start;
-    float part, drag; /* the steps up to the turn, 0 to 4; what Boole's rule gave the group: to be done again */
-    float w;          /* where it turns */
-    bool any, last;   /* none comes after it in its half period */
+    float part, drag; /* the steps before the turn, 0 to 4; the group's result by Boole's rule, which is replaced */
+    float w;          /* where the ray turns */
+    bool any, last;   /* last: the last group of its half period */
 };
 
-/* The drag of that group in two parts, in ingoing coordinates up to the turn and from there on in outgoing ones,
- * which are smooth there and have no pole on their way. */
+/* Frame dragging over that group in two parts: in ingoing coordinates up to the turn and in outgoing ones after it.
+ * They are smooth there and have no pole on their part. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
     float sum = 0.0;
-    for (uint j = 0; j < (t.any ? 10 : 0); j++) { /* a loop, for it alone skips work */
+    for (uint j = 0; j < (t.any ? 10 : 0); j++) { /* a loop, because only loops skip work */
         uint k = j < 5 ? j : j - 5;
         float of = j < 5 ? 0.25 * t.part : 1.0 - 0.25 * t.part;
         z = kd_radial_step(m, z, k == 0 ? 0.0 : of * h);
@@ -57,7 +58,7 @@ float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
         t.w = j == 5 ? z.w : t.w;
         float beside = INGOING || (k > 0 && k < 4) || k == (j < 5 ? 4 : 0) || (j == 9 && t.last) ? 0.0
                        : j == 0 ? -7.0
-                                : 7.0; /* groups share a place where they meet */
+                                : 7.0; /* adjacent groups share a node */
         sum += (of * kd_boole(k) + beside) * kd_drag_ingoing(m, z, e, cam.spin, cam.root, j < 5 ? -1.0 : 1.0);
     }
     return sum;
@@ -102,17 +103,17 @@ void main()
     uint crossings = 0u;
     bool open = !dark && !kd_is_decided(barrier, start);
     const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
-    float lost = kd_start_noise(m, start, rounding); /* of R; what steps lose shows at each crossing */
+    /* rounding error of R; the error of steps shows at each crossing */
+    float lost = kd_start_noise(m, start, rounding);
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
-    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0);
-         n++) /* those of crossings come first, without gaps */
+    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* crossings come first, without gaps */
         lens[at + n * slice.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
         kd_turning turn = kd_turning(y, 0.0, 0.0, 0.0, false, false);
-        if (!INGOING && (PHI || SKY) && way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
+        if (!INGOING && (PHI || SKY) && way == 0.0) { /* whether the rest is in ingoing or outgoing coordinates */
             returns = y.dw < 0.0 && !kd_flies_out(barrier, y);
             way = returns ? -1.0 : kd_way(barrier, y);
             fallen = -way * kd_drag_fall(y.w, cam.spin, cam.root);
@@ -125,7 +126,7 @@ void main()
             float part = -1.0;
             if (INGOING && (PHI || SKY))
                 sum += 7.0 * kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way);
-            /* Boole's rule on each four steps. */
+            /* Boole's rule on each group of four steps. */
             for (uint j = 0; j < 4; j++) {
                 const float speed = y.dw;
                 y = kd_radial_step(m, y, h);
@@ -133,10 +134,11 @@ void main()
                     part = float(j) + speed / (speed - y.dw);
                 if (INGOING && y.w > cam.horizon && y.dw < 0.0)
                     y.dw = kd_leaving(m, y.w, ray.e);
-                /* Beyond the horizon the numbers mean nothing: keep them finite. */
+                /* Beyond the horizon the values are meaningless: keep them finite. */
                 y.w = clamp(y.w, -2.0, deepest);
                 low = min(low, y.w);
-                high = max(high, INGOING && y.dw <= 0.0 ? 0.0 : y.w); /* what still leaves may be within the horizon */
+                /* a ray on its way out may be inside the horizon */
+                high = max(high, INGOING && y.dw <= 0.0 ? 0.0 : y.w);
                 if (INGOING && (PHI || SKY))
                     sum += (j == 3   ? 7.0
                             : j == 1 ? 12.0
@@ -148,7 +150,7 @@ void main()
                                      : 32.0) *
                            kd_drag(m, y, ray.e, cam.spin, cam.root, way);
             }
-            if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) { /* from here on in outgoing coordinates */
+            if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) { /* the rest is in outgoing coordinates */
                 way = 1.0;
                 turn = kd_turning(before, part, sum - whole, 0.0, true, i + 4 == STEPS);
             }
@@ -193,7 +195,7 @@ void main()
         open = end.fate == KD_FATE_UNDECIDED;
     }
     float curve = barrier.r;
-    if (INGOING && start.w >= cam.horizon) { /* and where light comes from outside (kd_from_outside) */
+    if (INGOING && start.w >= cam.horizon) { /* and if light comes from outside (kd_from_outside) */
         curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;
     }
     kd_finish_ray(open, at, crossings, dark || !kd_flies_out(barrier, start), curve);

@@ -1,10 +1,10 @@
-/* This kernel puts the particles of the disk where they are at one time: each from its number, in closed form, onto
- * the grid or into a list (src/render/emit/particles.h).
+/* Kernel: computes the particles of the disk at one time, each from its number in closed form, and adds them to the
+ * grid or writes them to a list (src/render/emit/particles.h).
  *
- * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four
- * nodes around it. A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its
- * neighbour on the right, so that two additions do. Those that fall are laid out by phase and by azimuth at the ISCO
- * (src/render/emit/plunging.h). */
+ * Phases are 32-bit fractions of a turn, so that sums wrap exactly. A particle's weight is divided among the four
+ * nodes around it. A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 bits for
+ * its right neighbour, so that two additions suffice. Falling particles are on a grid of phase and azimuth at the
+ * ISCO (src/render/emit/plunging.h). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -22,7 +22,7 @@ layout(push_constant) uniform Push { KD_PARTICLES_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
 layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
 
-/* These are the cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
+/* Cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
 kd_phasor swing(uint random, uint phase)
 {
     kd_phasor t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
@@ -32,10 +32,10 @@ kd_phasor swing(uint random, uint phase)
     return t;
 }
 
-/* Adds to the grid from word `first` on. */
+/* Adds a particle to the grid that starts at word `first`. */
 void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
 {
-    if (row < 0.0 || row > float(rows)) /* beyond the edge for now */
+    if (row < 0.0 || row > float(rows)) /* beyond the edge at present */
         return;
     uint i = min(uint(row), rows - 1), j = phi >> (32 - columns_log2);
     uint upper = uint((row - float(i)) * float(push.unit) + 0.5), lower = push.unit - upper;
@@ -46,8 +46,8 @@ void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
     atomicAdd(grid[at + (1 << columns_log2)], (upper - upper_right) | upper_right << 16);
 }
 
-/* A particle that falls is back at its start when it is at its end, on another lap and so at another azimuth. Beyond
- * the ends of the curve its grid, as far as it reaches, holds those of the laps before and after. */
+/* A particle that has reached the end of the plunge starts again, on another lap and so at another azimuth. Beyond
+ * the ends of the curve its grid, as far as it reaches, holds particles of the previous and next laps. */
 uint launch(uint random, uint lap) { return kd_hash(random + kd_hash(lap)) + push.turn; }
 
 void plunge(uint random, uint n)
@@ -75,7 +75,8 @@ void main()
         plunge(random, n);
         return;
     }
-    /* Invocations have equal shares of the particles, in order of radius: neighbours meet on the grid. */
+    /* Invocations have equal numbers of particles, in order of radius, so that neighbours access the same part of
+     * the grid. */
     umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low);
     uint phi = random + guides[k].phi;
     float row = guides[k].row;

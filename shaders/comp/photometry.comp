@@ -1,10 +1,11 @@
-/* This kernel adds up the light of a picture, for its sum and its centre. Over pixels at x and y steps from the
- * middle, of luminance Y, and with f = 1/|(1, x step, y step)| (1 in the image plane),
+/* Kernel: sums the light of a picture for its flux and centroid. Over pixels at x and y steps from the middle, of
+ * luminance Y, and with f = 1/|(1, x step, y step)| (1 in the image plane), it computes
  *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
- * of the whole picture and of the hot spots' own light; and of Stokes Q, U and V and of the spots' Q and U, where
- * they are kept, that of each by f^3. f^3 is the solid angle of a pixel over that of the middle one, f times (1, x
- * step, y step) the unit vector towards it. An invocation adds up KD_LIGHT_PIXELS pixels and compensates (W. Kahan
- * 1965, CACM 8, 40); the host adds its sums in double. Always in the same order. */
+ *
+ * for the whole picture and for the hot spots' own light; and, if they are kept, the sums of Stokes Q, U and V and
+ * of the spots' Q and U, times f^3. f^3 is the solid angle of a pixel relative to the middle one, f times (1, x
+ * step, y step) the unit vector towards it. An invocation sums KD_LIGHT_PIXELS pixels with compensation (W. Kahan
+ * 1965, CACM 8, 40); the host adds these sums in double. The order is always the same. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -18,7 +19,7 @@ layout(push_constant) uniform Push { KD_LIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) writeonly buffer Sums { vec4 sums[]; };
 
-/* A compensated sum holds the sum so far, and what its rounding has added too much. */
+/* A compensated sum: the sum so far, and the excess due to its rounding. */
 struct sum4 { precise vec4 value, lost; };
 
 sum4 add(sum4 s, vec4 term)
@@ -31,7 +32,7 @@ sum4 add(sum4 s, vec4 term)
 
 void main()
 {
-    /* Neighbouring invocations read neighbouring pixels. */
+    /* Adjacent invocations read adjacent pixels. */
     uint o = gl_WorkGroupID.x * (KD_GROUP_SIZE * KD_LIGHT_PIXELS) + gl_LocalInvocationID.x;
     uint px = o % push.pixels_x, row = o / push.pixels_x;
     sum4 all = sum4(vec4(0.0), vec4(0.0)), spots = all, stokes = all, stokes_spots = all;

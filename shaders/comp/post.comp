@@ -1,10 +1,10 @@
-/* This kernel makes pixels of light: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four
- * pixels as whole words: RGB of 8 bits in three, of 16 bits in six, packed without padding as a PNG encoder wants
- * them. The invocations behind the last pixel write zeros.
+/* Kernel: converts light to pixels: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four
+ * pixels as whole words: RGB of 8 bits in three, of 16 bits in six, packed without padding as a PNG encoder needs them.
+ * Invocations after the last pixel write zeros.
  *
- * Eight kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are
- * four pixels; KD_BLOOM takes away the light that a lens spreads, and adds what arrives; KD_HEAT shows luminance,
- * behind the tone curve, in false colour. */
+ * This file is compiled to eight kernels: KD_TEXELS reads the radiance as texels of four floats, three of which are
+ * four pixels; KD_BLOOM removes the light that a lens spreads, and adds what arrives; KD_HEAT shows the luminance
+ * after the tone curve in false colour. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -62,8 +62,8 @@ vec3 aces(vec3 c)
     return outof * c;
 }
 
-/* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, but for an offset of 0.04, its
- * brightness; above, the largest channel tends to 1, and colour to white, the slower the brighter it is. */
+/* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, except for an offset of 0.04, its
+ * brightness. Above, the largest channel tends to 1, and the colour to white, more slowly the brighter it is. */
 vec3 neutral(vec3 c)
 {
     const float start = 0.8 - 0.04, desaturation = 0.15, d = 1 - start;
@@ -75,9 +75,9 @@ vec3 neutral(vec3 c)
     return peak < start ? c : bright;
 }
 
-/* LEVELS times what IEC 61966-2-1 encodes c in [0, 1] as. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s =
- * c^(1/4): of those that are 1 at 1 the minimax one for c from 0.0031308 to 1, good to 3.4e-7, and 2e-7 more, so
- * that roundoff leaves white at 65535. Its error stays below 5.4e-7, a thirtieth of a step of 16 bits. */
+/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s
+ * = c^(1/4): the minimax one for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7, plus 2e-7,
+ * so that roundoff leaves white at 65535. Its error is below 5.4e-7, a thirtieth of a step of 16 bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);
@@ -93,7 +93,7 @@ vec3 srgb(vec3 c)
 }
 
 #ifdef KD_HEAT
-/* LEVELS times the colour of a luminance in [0, 1], linear between the entries of the table, which are encoded. */
+/* The colour of a luminance in [0, 1], times LEVELS; linear between the entries of the table, which are encoded. */
 vec3 heat(float y)
 {
     float at = clamp(y, 0.0, 1.0) * float(textureSize(colours) - 1);
@@ -102,10 +102,10 @@ vec3 heat(float y)
 }
 #endif
 
-/* Where a pixel is in the picture, as floats: both are exact. */
+/* Place of a pixel in the picture, as floats, which are exact. */
 struct place { float x, y; };
 
-/* The quotient as a float is wrong by one at most: places reach 2^30, rows 2^15. */
+/* The quotient as a float is wrong by at most one: places reach 2^30, rows 2^15. */
 place place_of(uint i)
 {
     int n = int(i), width = int(push.pixels_x), y = int(float(n) * (1 / float(width))), x = n - y * width;
@@ -119,17 +119,17 @@ place next(place at)
     return place(ends ? 0.0 : at.x + 1, ends ? at.y + 1 : at.y);
 }
 
-/* A threshold in [0, 1) that depends on the place alone: interleaved gradient noise (J. Jimenez 2014). */
+/* A threshold in [0, 1) that depends only on the place: interleaved gradient noise (J. Jimenez 2014). */
 float threshold(place at)
 {
     return fract(52.9829189 * fract(0.06711056 * (at.x + push.left) + 0.00583715 * (at.y + push.top)));
 }
 
-/* A lens spreads this to the four pixels of an invocation. */
+/* Light that a lens spreads to the four pixels of an invocation. */
 struct spread { vec3 a, b, c, d; };
 
 #ifdef KD_BLOOM
-/* The light that arrives at a pixel. */
+/* Spread light that arrives at a pixel. */
 vec3 arriving(place at)
 {
     float u = (at.x + 0.5) * push.scale_x, v = (at.y + 0.5) * push.scale_y;
@@ -143,14 +143,14 @@ vec3 arriving(place at)
     return sum;
 }
 
-/* A column of three cells, by the weights of its rows. */
+/* A column of three cells, weighted by row. */
 vec3 column(ivec3 rows, int x, vec3 b)
 {
     int at = bloom_column(x, int(push.cells_x), AROUND);
     return b.x * cell(rows.x + at) + b.y * cell(rows.y + at) + b.z * cell(rows.z + at);
 }
 
-/* Where all four lie beside one another and the cells are larger, five columns of cells are all that they see. */
+/* If all four pixels are adjacent and the cells are larger, five columns of cells cover them. */
 spread arriving_all(place first, place second, place third, place fourth)
 {
     if (!TOGETHER)
@@ -169,7 +169,7 @@ spread arriving_all(place first, place second, place third, place fourth)
 }
 #endif
 
-/* Rounded to the next level, or dithered by less than half a level; arrives: what a lens spreads there. */
+/* Rounds to the next level, or dithers by less than half a level; arrives: light that a lens spreads there. */
 ivec3 pixel(vec3 c, place at, vec3 arrives)
 {
     c *= push.gain;
@@ -183,12 +183,13 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
     c = srgb(clamp(c, 0.0, 1.0));
 #endif
     float spread = 0.998 * push.dither;
-    return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS); /* positive: towards 0 is down */
+    /* positive, so truncation rounds down */
+    return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS);
 }
 
 bool is_number(vec3 c) { return kd_is_finite(c.r) && kd_is_finite(c.g) && kd_is_finite(c.b); }
 
-/* How many of the four pixels have light that is no number; of the last four `left` lie in the band. */
+/* How many of the four pixels have light that is not finite; of the last four only `left` are in the band. */
 uint without_number(vec4 a, vec4 b, vec4 c, uint left)
 {
     return (is_number(a.xyz) ? 0u : 1u) + (left < 2u || is_number(vec3(a.w, b.xy)) ? 0u : 1u) +
@@ -208,8 +209,8 @@ void main()
 #endif
     ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first, to.a), pixel(vec3(a.w, b.xy), second, to.b),
                                 pixel(vec3(b.zw, c.x), third, to.c), pixel(c.yzw, fourth, to.d) };
-    /* Behind the end a word is 0. It is chosen rather than skipped: a word that is chosen is a finished vector to
-     * lavapipe, which else packs it anew for each lane that it stores, at a fifth of the whole kernel. */
+    /* After the end a word is 0. It is selected instead of skipped: for lavapipe a selected word is a finished
+     * vector, which it would otherwise pack again for each lane that it stores, a fifth of the kernel's time. */
     bool inside = i < push.pixels;
     uint untold = inside && push.counter > 0u ? without_number(a, b, c, push.pixels - i) : 0u;
     if (untold > 0u)

@@ -1,30 +1,31 @@
-/* This kernel finds the end points of listed rays, by integration in Mino time; in single precision, and as double
+/* Kernel: finds the end points of listed rays by integration in Mino time; in single precision, and converted to double
  * by shaders/to_double.py.
  *
- * As lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated beside w: the
- * smooth part of the azimuth and of the delay need it. A second integration of w with half the steps, and the
- * variation of w with its start, give the error: what the steps lose, and what rounding loses. (An embedded pair is
- * cheaper, but a hundred times looser: docs/rays.md.)
+ * As in lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated together with w,
+ * because the smooth parts of azimuth and delay need it. A second integration of w with half the steps, and the
+ * variation of w with its start, give the errors of steps and of rounding. (An embedded pair is cheaper, but a hundred
+ * times looser: docs/rays.md.)
  *
- * Azimuth: psi + chi. psi' = L/(1 - u^2), of which polar_azimuth.glsl takes out the peak near the axis exactly; the
- * rest is L e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
+ * Azimuth: psi + chi. polar_azimuth.glsl integrates the peak of psi' = L/(1 - u^2) near the axis exactly; the rest is L
+ * e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
  *
  * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
- * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity, on the way in and on the way out;
- * but
+ * Delta_w = 1 - 2w + a^2 w^2. The first two terms grow without bound towards infinity, on the way in and on the way
+ * out; but
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
- * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. That
- * has a pole at the horizon. A ray that falls in is counted in ingoing time instead: with D = Delta_w and W as in
+ * so that the remaining integrand is smooth, and subtracting r_o + 2 ln r_o for an observer at infinity is exact.
+ *
+ * It has a pole at the horizon. A ray that falls in therefore uses ingoing time: with D = Delta_w and W as in
  * radial_step.glsl
  *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
- * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole at all; one that comes
- * from next to the horizon in outgoing time, with -w' for w'. */
+ * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole. A ray that comes from next
+ * to the horizon uses outgoing time, with -w' for w'. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_RAYS(KD_SPEC_U_, KD_SPEC_B_)
-const bool INGOING = false; /* observers stand outside the horizon */
+const bool INGOING = false; /* observers are outside the horizon */
 
 #define KD_NYSTROEM_ORDER METHOD
 #include "ray/kerr_ray.glsl"
@@ -57,7 +58,7 @@ kd_state radial(kd_full p)
     return y;
 }
 
-/* This is E + w' for E = 1, without cancellation on the way out. */
+/* E + w' for E = 1, without cancellation on the way out. */
 float energy_and_fall(kd_geodesic m, float w, float dw)
 {
     return dw > 0.0 ? 1.0 + dw : max(-w * w * (m.a2 + w * (2.0 * m.k - m.d * w)), 1e-30) / (1.0 - dw);
@@ -80,7 +81,7 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     return o;
 }
 
-/* This is what the regularisations leave at a point, to be taken between the ends; nothing at infinity. */
+/* The integrated terms at a point, to be subtracted between the ends; 0 at infinity. */
 float delay_edge(kd_geodesic m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
@@ -90,17 +91,17 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* Estimates how far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the
- * time of a half period. */
+/* Estimated error of w where the first integral w'^2 = W^2 - D K w^2 is violated: a wrong velocity for the time of a
+ * half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_fall_squared(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
-/* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: thirty times what is left is
- * a bound even where the steps are too coarse for that law. And what a half turn of such steps loses where no
- * crossing says so. */
+/* Halving the steps of a method of order p increases the error by 2^p - 1 times the remaining one, 15 or 63. Thirty
+ * times the remaining error is thus a bound even if the steps are too coarse for that law. lost_in_a_turn: error of
+ * such steps over a half turn, if no crossing shows it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -118,7 +119,7 @@ void main()
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
-    /* This is psi without its smooth part; see polar_azimuth.glsl. */
+    /* psi without its smooth part; see polar_azimuth.glsl. */
     float dp = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
     float root = sqrt(polar.b + m.energy2 * cam.u * cam.u), side = ray.l < 0.0 ? -1.0 : 1.0;
     float peak = side * kd_angle_upper(-dp / root, abs(cam.u) * abs(ray.l) / sqrt(polar.b + m.energy2));
@@ -132,7 +133,7 @@ void main()
     kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root,
                                        kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
-    /* The start is rounded: w is, and so is R, of which w' is the root. */
+    /* Rounding at the start: of w, and of R, whose root is w'. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
@@ -140,15 +141,15 @@ void main()
     KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
-    float lost_before = 0.0,
-          spread = 1.0; /* at the last crossing: what the steps had lost of w, and how far two rays had parted */
+    /* at the last crossing: the error of w due to the steps, and the divergence of two neighbouring rays */
+    float lost_before = 0.0, spread = 1.0;
     bool alive = polar.crosses;
     uint at = 3 * ORDERS + 4, o = at * i;
     for (uint n = 0; n < 3 * ORDERS; n++)
         ends[o + n] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
-        if (way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
+        if (way == 0.0) { /* whether the rest is in ingoing or outgoing coordinates */
             way = kd_way(barrier, radial(p));
             delay += delay_edge(m, radial(p), 0.0) - started;
             started = delay_edge(m, radial(p), way);
@@ -161,7 +162,7 @@ void main()
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
             KD_TRACE_STEP(float(n), h, vec4(0.0, 0.0, p.y.yx), vec4(0.0, 0.0, p.dy.yx), 0.0);
-            p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray so amplified is lost anyway */
+            p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray amplified that much is lost anyway */
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
             r = rates(m, p, polar.b, way);
@@ -178,16 +179,16 @@ void main()
         alive = j > STEPS && w > 0.0;
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
-        /* The error of w is what the steps lose and what rounding does. The steps lose what separates the two
-         * integrations, where that is small; but no less than what the last crossing was off by, times what the
-         * variation has grown by since, for two wrong paths may meet. Rounding adds some ten operations of a unit
-         * each, which the variation amplifies, as much in the time of the crossing, and the drift of the first
+        /* The error of w comes from the steps and from rounding. The steps' error is the difference of the two
+         * integrations, where that is small; but at least the error at the last crossing times the growth of the
+         * variation since, because two wrong paths may meet by chance. Rounding adds about ten operations of a unit
+         * each, amplified by the variation, as much again in the time of the crossing, and the drift of the first
          * integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +
                     cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
-        /* So close to the horizon or to infinity a crossing may exist or not: only what certainly does is told. */
+        /* So close to the horizon or to infinity a crossing may or may not exist: only certain ones are reported. */
         if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
             error = max(error, 1.0);
             alive = false;
@@ -213,7 +214,7 @@ void main()
     }
 
     kd_escape end = kd_path_escape(m, ray, last);
-    if (error == 0.0) /* no crossing: nothing amplifies */
+    if (error == 0.0) /* no crossing: nothing amplifies errors */
         error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
     if (!kd_is_decided(barrier, start) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
         end.fate = KD_FATE_UNDECIDED;

@@ -1,15 +1,15 @@
-/* This kernel follows listed rays the common way: Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates,
- * for comparison.
+/* Kernel: follows listed rays the common way, by Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for
+ * comparison.
  *
  *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),  l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 +
  *                                       a^2), z/r)
  *
- * A traced-back ray is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that flies away from the observer:
- * it falls through the future horizon, where these coordinates are regular. The independent variable s has d(lambda)
- * = r ds, that is, the Hamiltonian is r H, which has the same null orbits: steps of a constant size then shrink with
- * r, and stay symplectic.
+ * A ray traced backwards is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that moves away from the
+ * observer: it falls through the future horizon, where these coordinates are regular. The independent variable s has
+ * d(lambda) = r ds, that is, the Hamiltonian is r H, which has the same null orbits: steps of constant size then shrink
+ * with r, and stay symplectic.
  *
- * METHOD 0: symplectic Euler, p first, with one fixed-point iteration, as the shaders of the web do. 1: classical
+ * METHOD 0: symplectic Euler, p first, with one fixed-point iteration, as in common web shaders. 1: classical
  * Runge-Kutta of order 4. 2: M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with Yoshida's
  * composition of order 6, solution A (1990, Phys. Lett. A 150, 262). Crossings of z = 0 by cubic Hermite
  * interpolation. The start (position and momentum) comes from the host in double. */
@@ -27,16 +27,15 @@ push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
     float spin, horizon_r, far, pad;
-    float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, 0 and 0 where there is
-                     none */
+    float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, or 0 and 0 */
 }
 rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "ray/trace.glsl"
 
-/* This is Tao's omega, in units of 1/s. A small one lets the copies part on long orbits, a large one costs accuracy
- * as it costs phase: of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half
- * turns of a ray. */
+/* Tao's omega, in units of 1/s. If it is small the copies diverge on long orbits; if it is large it costs accuracy
+ * and phase. Among 0.1, 0.5, 2 and 10 the first was the most accurate, by factors of 15 to 10^4 over the half turns
+ * of a ray. */
 #define KD_BIND 0.1
 
 struct kd_point { vec3 x, p; };
@@ -48,7 +47,7 @@ float radius(vec3 x)
     return sqrt(rho2 > 0.0 ? 0.5 * (rho2 + root) : 2.0 * az * az / max(root - rho2, 1e-30));
 }
 
-/* This is d/ds of (x, p) under r H, with E = 1. */
+/* d/ds of (x, p) under r H, with E = 1. */
 kd_point flow(vec3 x, vec3 p)
 {
     float a = rays.spin, r = radius(x), r2 = r * r, q = 1.0 / (r2 + a * a), den = 1.0 / (r2 * r2 + a * a * x.z * x.z);
@@ -88,7 +87,7 @@ kd_point runge_kutta(kd_point y, float h)
     return o;
 }
 
-/* Tao's method holds two copies of the phase space. */
+/* The two copies of the phase space in Tao's method. */
 struct kd_copies { kd_point a, b; };
 
 kd_copies drift_a(kd_copies y, float h)
@@ -105,7 +104,7 @@ kd_copies drift_b(kd_copies y, float h)
     y.a.x += h * k.x;
     return y;
 }
-/* A rotation binds the copies: (x - x', p - p') turns by 2 omega h, whose cosine and sine are t. */
+/* Rotation that couples the copies: (x - x', p - p') rotates by 2 omega h, whose cosine and sine are t. */
 kd_copies bind(kd_copies y, kd_phasor t)
 {
     vec3 sx = 0.5 * (y.a.x + y.b.x), sp = 0.5 * (y.a.p + y.b.p), dx = 0.5 * (y.a.x - y.b.x), dp = 0.5 * (y.a.p - y.b.p);
@@ -135,7 +134,7 @@ kd_copies tao_6(kd_copies y, float h, kd_phasor turns[4])
     return y;
 }
 
-/* Gives position and slope along the step, by the cubic through both ends. */
+/* Position and slope within the step, by the cubic through both ends. */
 float hermite(float y0, float d0, float y1, float d1, float s)
 {
     float c2 = 3.0 * (y1 - y0) - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * (y1 - y0);
@@ -147,8 +146,8 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Counts what a step from x to y adds to the turns about the axis that atan2 forgets: whether the chord between them
- * crosses the half plane x < 0. Within a step's bend of the axis the ray may pass on the other side of it. */
+/* Change of the number of turns about the axis, which atan2 does not give, in a step from x to y: whether the chord
+ * crosses the half plane x < 0. Very close to the axis the ray may pass on the other side of it than the chord. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -156,7 +155,7 @@ float turned(vec3 x, vec3 y)
     return y.y < 0.0 ? 1.0 : -1.0;
 }
 
-/* This is the Boyer-Lindquist azimuth, source minus observer. */
+/* Boyer-Lindquist azimuth, source minus observer. */
 float azimuth(vec3 x, float turns)
 {
     float a = rays.spin, r = radius(x), root = rays.horizon_r - 1.0;
@@ -176,9 +175,10 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
-    /* lavapipe leaves all loops of an invocation after 65535 rounds, inner ones counted, with whatever the variables
-     * then hold: stay below it, and a ray that needs more is undecided. At the most steps of src/render/rays/check.c
-     * these are 16 half turns (Tao's method) or 60; a ray that passes the hole takes 8 to 13. */
+    /* lavapipe leaves all loops of an invocation after 65535 rounds, including inner ones, with whatever the
+     * variables then hold: stay below that, and leave a ray that needs more undecided. With the most steps that
+     * src/render/rays/check.c accepts these are 16 half turns (Tao's method) or 60; a ray that passes the hole takes
+     * 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -189,7 +189,7 @@ void main()
         n = 1;
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
-    /* This is done once, and not in each step: the series has ten rounds. */
+    /* Computed once, and not in each step: the series has ten rounds. */
     kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
@@ -227,7 +227,7 @@ void main()
         }
         if (r > far && dot(y.a.x, y.a.p) > 0.0) {
             fate = KD_FATE_ESCAPED;
-            if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the rest is straight, and meets the plane once more */
+            if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the rest is straight, and crosses the plane once more */
                 vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
                 ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);
                 ends[o + 3 * n + 1] = azimuth(vec3(hit.x, hit.y, 0.0), about + turned(y.a.x, hit));
@@ -236,12 +236,12 @@ void main()
         }
     }
     ends[o + 3 * ORDERS + 2] = fate;
-    if (fate == KD_FATE_ESCAPED) { /* the momentum is nearer to its limit than the position */
+    if (fate == KD_FATE_ESCAPED) { /* the momentum is closer to its limit than the position */
         vec3 p = y.a.p;
         ends[o + 3 * ORDERS] = p.z / sqrt(dot(p, p));
         ends[o + 3 * ORDERS + 1] = -kd_atan2(p.y, p.x);
     }
-    /* Says how far the null condition has drifted, of E^2 = 1. */
+    /* Drift of the null condition, relative to E^2 = 1. */
     vec3 x = y.a.x, p = y.a.p;
     float a = rays.spin, r = radius(x), q = r * r + a * a;
     float s = 1.0 + ((r * x.x + a * x.y) * p.x + (r * x.y - a * x.x) * p.y) / q + x.z * p.z / r;

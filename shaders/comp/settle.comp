@@ -1,4 +1,4 @@
-/* This kernel writes rays that were followed again, in double on the host, to their places in the lens map
+/* Kernel: writes rays that were traced again, in double on the host, to their places in the lens map
  * (src/render/frame/settle.c). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +11,7 @@ layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) readonly buffer Settled
 {
     uint places[];
-}; /* a word a ray; then a plane after the other, the bits of a float each */
+}; /* a word a ray; then one plane after the other, as the bits of floats */
 
 void main()
 {

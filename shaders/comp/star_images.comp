@@ -1,21 +1,21 @@
-/* This kernel spreads the images of stars over pixels. Of each pair of star_tiles.comp and star_search.comp: the
- * places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to the star; and there the
- * star's light, magnified, over the nearest pixels.
+/* Kernel: spreads the images of stars over pixels. For each pair of star_tiles.comp and star_search.comp it finds the
+ * places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to the star, and spreads the
+ * star's magnified light there over the nearest pixels.
  *
- * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic
- * projection): coefficients by the eight rays round it, least squares for the first ones, second differences for the
- * others; on the rim of higher order, by twenty; beside rays that do not escape, and at edges, by those that there
- * are, to first order. It has its roots by Newton's method, from four starts where it is not plain that there is but
- * one, each counted once: up to four where a caustic passes.
+ * About its ray the map is taken as quadratic, in the plane of the sky perpendicular to the ray (orthographic
+ * projection). Its coefficients come from the eight surrounding rays: the linear ones by least squares, the others by
+ * second differences; on the rim, of higher order, from twenty rays; beside rays that do not escape, and at edges, from
+ * the rays that exist, to first order. Roots are found by Newton's method, from four starts unless there is clearly
+ * only one root, each counted once: up to four where a caustic passes.
  *
- * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F
- * over the solid angle of the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray),
- * and the picture's own drops out. It is spread as ray/star_light.glsl has it.
+ * A star's flux F in an image is F dOmega/dOmega_s. With the solid angle of a pixel, its mean radiance there is F over
+ * the solid angle of the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the
+ * pixel's own solid angle cancels. It is spread as in ray/star_light.glsl.
  *
- * Rays of the rim (ray/rim.glsl) are taken likewise, with steps of its own, and what those are in the picture.
+ * Rays of the rim (ray/rim.glsl) are processed likewise, with their own steps, and the size of these in the picture.
  *
- * What is done of several rays or starts is one code in a loop that is not unrolled, and no array has an index that
- * changes, for which drivers unroll it all the same: lavapipe compiles this in a third of the time. */
+ * Code for several rays or starts is in loops that are not unrolled, and no array has a variable index, because
+ * drivers unroll such loops all the same: lavapipe then compiles this in a third of the time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,7 +35,7 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_STAR_LIGHT_BINDING 6
 #include "ray/star_light.glsl"
 
-#define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
+#define KD_STAR_THIN 0.02 /* area of a patch over the square of its size */
 
 /* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim +
  * aaab x^3 y + abbb x y^3; in radians. */
@@ -57,11 +57,11 @@ kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
     bool inside = place.x >= 0;
     uint there = inside ? uint(place.y) * push.width + uint(place.x) : at;
     vec3 n = kd_sky_from(there);
-    n -= c.n; /* so that what is near has all its digits */
+    n -= c.n; /* so that small differences keep all their digits */
     return kd_neighbour(vec2(dot(c.e1, n), dot(c.e2, n)), inside && kd_sky_escapes(there));
 }
 
-/* From one side alone, along an axis. */
+/* Derivatives along an axis from one side only. */
 void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2 aa, inout bool there)
 {
     bool both = before.there && after.there;
@@ -70,9 +70,9 @@ void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2
     there = there && (before.there || after.there);
 }
 
-/* Next to a caustic a patch is thin: what numbers of 32 bits have lost is much of its width, and so are terms of
- * third order. There it is the cubic that fits 7 x 7 rays best, in the mean of squares: by the polynomials 1, u, u^2
- * - 4, u^3 - 7u, which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
+/* Next to a caustic a patch is thin: rounding of 32 bits, and terms of third order, are a large part of its width.
+ * There it is the least-squares cubic for 7 x 7 rays: by the polynomials 1, u, u^2 - 4, u^3 - 7u, which are
+ * orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
 void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
 {
     float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);
@@ -109,16 +109,16 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
-/* Of the twelve rays of 5 x 5 without the corners that are not among 3 x 3: the middles of the sides, left, right,
- * upper and lower, and beside each of these two. */
+/* Ray k of the twelve that 5 x 5 without its corners has beyond 3 x 3: the middles of the left, right, upper and
+ * lower sides, then the two beside each of these. */
 ivec2 outer(int k)
 {
     int side = k < 4 ? k : (k - 4) / 2, far = (side & 1) == 0 ? -2 : 2, near = k < 4 ? 0 : (k & 1) == 0 ? 1 : -1;
     return side < 2 ? ivec2(far, near) : ivec2(near, far);
 }
 
-/* On the rim steps are long, and its numbers have lost next to nothing: by 20 rays, 5 x 5 without the corners, all
- * terms of third order, and x^3 y and x y^3. near: 3 x 3 of them. */
+/* On the rim steps are long, and its numbers have almost no rounding error: all terms of third order, and x^3 y and
+ * x y^3, from 20 rays, 5 x 5 without the corners. near: 3 x 3 of them. */
 void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 {
     vec2 far[12];
@@ -170,7 +170,7 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
     o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
     one_sided(kd_neighbour(f[3], (there & 8u) != 0u), kd_neighbour(f[5], (there & 32u) != 0u), o.a, o.aa, o.there);
     one_sided(kd_neighbour(f[1], (there & 2u) != 0u), kd_neighbour(f[7], (there & 128u) != 0u), o.b, o.bb, o.there);
-    if ((there | 16u) == 511u) { /* but for the ray itself */
+    if ((there | 16u) == 511u) { /* all except the ray itself */
         o.a = ((f[2] - f[0]) + (f[5] - f[3]) + (f[8] - f[6])) * (1.0 / 6.0);
         o.b = ((f[6] - f[0]) + (f[7] - f[1]) + (f[8] - f[2])) * (1.0 / 6.0);
         o.ab = 0.25 * (f[8] - f[6] - f[2] + f[0]);
@@ -201,7 +201,7 @@ mat2 derivative(kd_patch m, vec2 p)
 }
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 
-/* A root near `p`; beyond all cells if there is none. */
+/* A root near `p`; outside all cells if there is none. */
 vec2 root(kd_patch m, vec2 q, vec2 p)
 {
     float far = 1.0;
@@ -215,7 +215,7 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
     return far < 1e-3 ? p : vec2(1e9);
 }
 
-/* Whether the map has one inverse over a ray's cell: its derivative changes by less than itself. */
+/* Whether the map has a unique inverse over a ray's cell: its derivative changes by less than itself. */
 bool is_plain(kd_patch m)
 {
     mat2 j = mat2(m.a, m.b);
@@ -224,13 +224,13 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-/* Where two cells meet each has a share of the light, which goes from 0 to 1 over a fifth of a step: their maps put
- * an image at slightly different places, and none is lost or counted twice. */
+/* Where two cells meet they share the light, with weights that go from 0 to 1 over a fifth of a step: their maps put
+ * an image at slightly different places, and no image is lost or counted twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
-/* A place p in a ray's cell: in the picture, in its steps; how many of them, squared, there are to a step of the
- * ray, squared; the share that the ray's image there has, beside those by the rim or by the grid; and, over what is
- * measured as 1, the energy at infinity. */
+/* A place p in a ray's cell: in the picture, in its steps; squared steps of the picture per squared step of the ray;
+ * fraction of the image that comes from this grid, rather than from the rim or another grid; and the energy at
+ * infinity of light that is measured as 1. */
 struct kd_star_pixel {
     vec2 place;
     float steps, share, energy;
@@ -268,7 +268,7 @@ void images(uint at, uint k)
     kd_patch m = patch_about(c, at, x, y);
     float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
     vec2 found0 = vec2(-1e9), found1 = found0, found2 = found0, found3 = found0;
-    uint fresh = 0u; /* bits of those that count */
+    uint fresh = 0u; /* bits of the roots that count */
     int starts = is_plain(m) ? 1 : 4;
     [[dont_unroll]] for (int i = 0; i < starts; i++) {
         vec2 p = root(m, q, starts == 1 ? vec2(0.0) : vec2((i & 1) == 0 ? -0.3 : 0.3, i < 2 ? -0.3 : 0.3));
@@ -280,7 +280,7 @@ void images(uint at, uint k)
         found2 = i == 2 ? p : found2;
         found3 = i == 3 ? p : found3;
     }
-    [[dont_unroll]] for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, for it alone skips work */
+    [[dont_unroll]] for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, because only loops skip work */
         vec2 p = (fresh & 1u) != 0u ? found0 : (fresh & 2u) != 0u ? found1 : (fresh & 4u) != 0u ? found2 : found3;
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
         kd_star_pixel spot = spot_at(x, y, p);

@@ -1,18 +1,18 @@
-/* This kernel lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands
- * for a cell of the picture one step wide; star_images.comp finds where in it the star's image is.
+/* Kernel: lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands for a
+ * cell of the picture one step wide; star_images.comp finds the star's image in it.
  *
- * Nine rays of a tile, in threes, give the map over it to second order, from places in the tile to the plane of the
- * sky that is square to the middle ray. A tile is simple where all nine escape; where the map's derivative changes
- * by less than KD_STAR_TILE_BENT of itself, so that it has one inverse there, which Newton's method finds; and where
- * the corners say that terms of third order amount to less than KD_STAR_TILE_OFF rays. Tiles that are not simple are
- * listed: large ones, KD_STAR_TILE rays a side, as small ones of three rays a side, for the next run of this kernel;
- * and of small ones the rays, for star_search.comp.
+ * Nine rays of a tile, three by three, give the map over it to second order, from places in the tile to the plane of
+ * the sky perpendicular to the middle ray. A tile is simple if all nine escape; if the map's derivative changes by less
+ * than KD_STAR_TILE_BENT of itself, so that it has a unique inverse there, which Newton's method finds; and if the
+ * corners show that terms of third order are less than KD_STAR_TILE_OFF rays. Other tiles are listed: large ones,
+ * KD_STAR_TILE rays a side, as small ones of three rays a side, for the next run of this kernel; the rays of small ones
+ * for star_search.comp.
  *
- * Stars are sorted as faces.h says, the brightest of a cell first; a cell's search ends with the star that would
- * brighten a pixel by less than push.least.
+ * Stars are sorted as in faces.h, the brightest of a cell first; a cell's search ends with the star that would brighten
+ * a pixel by less than push.least.
  *
- * BRIGHT: the light of stars in simple tiles is spread here and now, at the places and as much magnified as the
- * tile's map of second order has it. */
+ * BRIGHT: the light of stars in simple tiles is spread here, at the places and with the magnification of the tile's
+ * map of second order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,13 +35,11 @@ layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 #define KD_STAR_TILE_BENT 0.7
 #define KD_STAR_TILE_OFF 0.2
 const int HALF = int(TILE) / 2;
-const float NEAR =
-    TILE == KD_STAR_TILE || AT_RIM
-        ? 0.72
-        : 0.65; /* rays that a star may be off the one that it is paired with: images are sought to 0.6 */
+/* largest distance, in rays, of a star from the ray that it is paired with: images are searched up to 0.6 */
+const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
-/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, u and v from -1 to 1 from its first rays to its
- * last ones. In units of a and b for aa, ab and bb. */
+/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, with u and v from -1 to 1 from its first to its
+ * last rays. aa, ab and bb are in units of a and b. */
 struct kd_tile {
     vec3 n, e1, e2;
     vec2 a, b, aa, ab, bb;
@@ -54,7 +52,7 @@ vec2 solve(kd_tile t, vec2 q) { return vec2(t.b.y * q.x - t.b.x * q.y, t.a.x * q
 
 float most(vec2 v) { return max(abs(v.x), abs(v.y)); }
 
-/* whole: all its rays are there. */
+/* whole: the tile has all its rays. */
 kd_tile tile_about(uint at, bool whole)
 {
     kd_tile t;
@@ -62,8 +60,9 @@ kd_tile tile_about(uint at, bool whole)
     vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
     bool escape = whole && kd_sky_escapes(at);
     uint face = kd_face_of(kd_sky_galactic(n)).number;
-    vec2 low = vec2(1e9), high = vec2(-1e9);     /* of the places of all nine */
-    vec2 corners = vec2(0.0), sides = vec2(0.0); /* of u v^2 and u^2 v: what the corners have beyond the rest */
+    vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine */
+    /* terms of u v^2 and u^2 v: what the corners have beyond the other terms */
+    vec2 corners = vec2(0.0), sides = vec2(0.0);
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
     for (int k = 0; k < 9; k++) {
         int row = k / 3, i = k - 3 * row - 1, j = row - 1;
@@ -90,7 +89,7 @@ kd_tile tile_about(uint at, bool whole)
     t.aa = solve(t, t.aa);
     t.ab = solve(t, t.ab);
     t.bb = solve(t, t.bb);
-    vec2 room = (high - low) * (0.5 * NEAR / float(HALF) + 0.05); /* cells reach beyond the rays by half a step */
+    vec2 room = (high - low) * (0.5 * NEAR / float(HALF) + 0.05); /* cells extend beyond the rays by half a step */
     t.cells = kd_cells_of(face, low - room, high + room);
     escape = escape && most(low - room) < KD_FACE_EDGE && most(high + room) < KD_FACE_EDGE;
     t.bent = 2.0 * (most(t.aa) + most(t.ab) + most(t.bb));
@@ -102,7 +101,7 @@ kd_tile tile_about(uint at, bool whole)
     return t;
 }
 
-/* From the place by the linear map to that by the quadratic one. */
+/* Converts a place by the linear map to that by the quadratic one. */
 vec2 place_of(kd_tile t, vec2 linear)
 {
     vec2 p = linear;
@@ -114,17 +113,17 @@ vec2 place_of(kd_tile t, vec2 linear)
     return p;
 }
 
-/* The area that the map takes a ray's cell to there. */
+/* Solid angle to which the map takes a ray's cell at a place. */
 float area(kd_tile t, vec2 p)
 {
     vec2 du = vec2(1.0, 0.0) + 2.0 * p.x * t.aa + p.y * t.ab, dv = vec2(0.0, 1.0) + p.x * t.ab + 2.0 * p.y * t.bb;
     return abs((du.x * dv.y - du.y * dv.x) * t.det) * (1.0 / float(HALF * HALF));
 }
 
-/* The light of star k, whose place is that many rays from the middle one of a tile, which is the ray (x, y) of the
- * picture; magnified: its flux, over the sky that a pixel is mapped to. Where two tiles meet each has a share of it,
- * which goes from 0 to 1 over a fifth of a step, as that of two rays (star_images.comp): their maps differ a little
- * there. */
+/* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its
+ * flux over the solid angle of the sky that a pixel is mapped to. Where two tiles meet they share the light, with
+ * weights that go from 0 to 1 over a fifth of a step, as for two rays (star_images.comp), because their maps differ
+ * slightly. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
@@ -137,7 +136,7 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
                    emission.sky.brightness * magnified * share.x * share.y * colour);
 }
 
-/* The pairs of star k, whose place is that many rays from the middle one; none, if it is too faint. */
+/* Lists the pairs of star k, whose place is this many rays from the middle one; none if it is too faint. */
 void note(uint at, vec2 place, uint k, bool bright)
 {
     ivec2 low = max(ivec2(ceil(place - NEAR)), ivec2(-HALF)), high = min(ivec2(floor(place + NEAR)), ivec2(HALF));
@@ -154,8 +153,8 @@ void note(uint at, vec2 place, uint k, bool bright)
     }
 }
 
-/* What a tile is made of, from ray `first` of the map at (x, y) on, as far as it is there: rays, or small tiles,
- * onto their list. */
+/* Lists the parts of a tile that begins with ray `first` of the map at (x, y), as far as they exist: rays, or small
+ * tiles. */
 void list(uint first, uint x, uint y)
 {
     const bool large = TILE == KD_STAR_TILE;
@@ -169,8 +168,8 @@ void list(uint first, uint x, uint y)
     }
 }
 
-/* Whether others have all images that a tile's rays have: another of the rim's grids, or the rim: it has those of
- * its corners, and its edge is not hollow. */
+/* Whether all images that a tile's rays have belong to others: another of the rim's grids, or the rim, if it has
+ * those of the tile's corners; its edge is convex. */
 bool is_left_out(uint x, uint y)
 {
     if (AT_RIM)
@@ -185,21 +184,22 @@ bool is_left_out(uint x, uint y)
     return least >= 1.0;
 }
 
-/* The tile whose first ray is at (x, y). */
+/* Processes the tile whose first ray is at (x, y). */
 void seek(uint x, uint y)
 {
     uint first = y * push.width + x;
     bool whole = x + TILE <= push.width && y + TILE <= push.end;
     uint at = whole ? first + uint(HALF) * (push.width + 1u) : first;
     kd_tile t = tile_about(at, whole);
-    /* u and v of a star are these products; of one in a cell of the tile, by the linear map, at most so large. */
+    /* Vectors whose products with a star are u and v; and the largest such value for a star in a cell of the tile,
+     * by the linear map. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
     float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
     float unit =
         push.least * float(SIDE * SIDE) /
-        (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* of the rim's rays the last stand for a little less */
+        (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a little less */
     float sharp = 1.0 - t.bent,
-          least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* where it is brightest */
+          least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* at the largest magnification */
     bool left_out = is_left_out(x, y);
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {

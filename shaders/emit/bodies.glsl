@@ -1,15 +1,16 @@
-/* Bodies are opaque spheres, off the plane or in it, that rays meet on their way (light/meet.glsl).
+/* Bodies as an emitter: opaque spheres, in the plane or off it, that rays may meet (light/meet.glsl).
  *
- * A body is a sphere of radius R in its own frame, and space is taken for flat within its scale. The map A of a body
- * takes what lies from its centre to places by the orthonormal frame of zero angular momentum there: by r, theta and
- * phi, stretched by the metric. The light that arrives from it at one time is a plane wave there, t = n.Y, n being
- * the direction that it flies in. A body of velocity v meets it where, in its own frame, t' = gamma (t - v.Y),
+ * A body is a sphere of radius R in its own frame, and space is taken as flat on its scale. The map A of a body
+ * converts coordinate differences from its centre to lengths in the orthonormal frame of zero angular momentum there:
+ * along r, theta and phi, stretched by the metric. Light arriving from it at one time is a plane wave there, t = n.Y,
+ * where n is the direction of propagation. It meets a body of velocity v where, in the body's frame, t' = gamma (t -
+ * v.Y),
  *
- *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2,
+ *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2.
  *
- * and b, the distance of the ray from the centre, does not depend on v: what moves is seen as a sphere, turned
- * (Penrose 1959, Terrell 1959). The cosine of the angle of emission in the body's frame is t'/R. Its surface shines
- * as a black body, by a linear law of limb darkening:
+ * The distance b of the ray from the centre does not depend on v: a moving body appears as a sphere, rotated (Penrose
+ * 1959, Terrell 1959). The cosine of the emission angle in the body's frame is t'/R. Its surface emits as a black body
+ * with linear limb darkening:
  *
  *   light = brightness B(g T) (1 - c (1 - cos)) / (1 - c/3),   1/g = -k.U = (u^t E - u^phi L) - u^r p_r - u^theta
  *     p_theta. */
@@ -17,20 +18,20 @@
 /* clang-format off */
 #define KD_BLOCK_bodies(F, U, A) \
     F(least)                  /* 1/r of the outermost place that a body may be at */ \
-    /* a ball round all of them, M: x and y by azimuths that are mirrored, 0 at the observer */ \
+    /* a ball round all of them, M: x and y by mirrored azimuths, 0 at the observer */ \
     F(x) F(y) F(z) F(reach) \
-    U(leaves)                   /* of the tree, a power of two */
+    U(leaves)                   /* leaves of the tree, a power of two */
 /* clang-format on */
 #define KD_TABLES_bodies(T)
-#define KD_TRAIT_LIT 64u /* some throw back light of the disk */
+#define KD_TRAIT_LIT 64u /* some bodies reflect light of the disk */
 #define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
-/* A tree of balls in the order of a heap: nodes from 1 on, of x, y, z and radius, two below each, of which the last
- * `leaves` are the bodies'. Behind it lie the bodies, KD_BODY_WORDS each: three rows of the map A, each with what it
- * makes of the centre; velocity and gamma; the velocity past which coordinates turn, R, limb darkening and
- * brightness; factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and which body of the
- * list it is; and the light of the disk that it throws back (src/render/emit/bodies_lit.c): its sum and its sum
- * along r, theta and phi; that along rr, thetatheta and phiphi, and its temperature over the disk's largest; that
- * along rtheta, rphi and thetaphi. */
+/* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, two below each; the last `leaves` belong
+ * to the bodies. The bodies follow, KD_BODY_WORDS each: three rows of the map A, each with its value at the centre;
+ * velocity and gamma; the velocity relative to which coordinates rotate, R, limb darkening and brightness; factors
+ * of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and index of the body in the list; and the
+ * disk's light that it reflects (src/render/emit/bodies_lit.c): its sum, and its moments along r, theta and phi;
+ * those along rr, thetatheta and phiphi, and its temperature over the disk's largest; those along rtheta, rphi and
+ * thetaphi. */
 #define KD_BODY_WORDS 40
 #define KD_BUFFERS_bodies(B) B(3, stored, bodies)
 #define KD_PASS_bodies(P)
@@ -47,7 +48,7 @@ vec4 kd_body_row(uint body, uint row)
 
 uint kd_bodies_which(kd_met met) { return uint(kd_body_row(met.body, 6u).y); }
 
-/* As the observer sees it: 1/g. */
+/* 1/g, as the observer sees the body. */
 float kd_bodies_shift(kd_met met)
 {
     vec4 u = kd_body_row(met.body, 5u);
@@ -57,12 +58,12 @@ float kd_bodies_shift(kd_met met)
                1e-6);
 }
 
-/* In its own frame. */
+/* Temperature in the body's frame. */
 float kd_bodies_kelvin(kd_met met) { return emission.disk.peak * kd_body_row(met.body, 6u).x; }
 
-/* What falls on a surface of normal y from light of these moments of direction n, to their second order (R.
+/* Irradiance of a surface of normal y from light with these moments of its direction n, to second order (R.
  * Ramamoorthi & P. Hanrahan 2001, "On the relationship between radiance and irradiance", J. Opt. Soc. Am. A 18,
- * 2448): a cosine that is cut at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
+ * 2448): a cosine clamped at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
 vec3 kd_bodies_reflected(kd_met met)
 {
     vec4 a = kd_body_row(met.body, 7u), b = kd_body_row(met.body, 8u), c = kd_body_row(met.body, 9u);
@@ -70,7 +71,7 @@ vec3 kd_bodies_reflected(kd_met met)
     vec4 p = vec4(s * cos(met.phi), -s * sin(met.phi), met.u, met.w);
     vec3 y =
         vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
-    /* The normal, by the frame of the body: light left it at t' = R cos there. */
+    /* The normal in the body's frame, where light left at t' = R cos. */
     vec4 v = kd_body_row(met.body, 3u), own = kd_body_row(met.body, 4u);
     y /= max(met.w, 1e-12);
     float t = (met.cosine * own.y / v.w + dot(v.xyz, y)) / (1.0 + v.z * own.x);

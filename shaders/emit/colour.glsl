@@ -1,20 +1,21 @@
-/* The colours of black bodies are read from tables that no scene changes.
+/* Colours of black bodies, from tables that do not depend on the scene.
  *
- * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES): those are the floats whose low bits are zero, so that the place of a
- * temperature in the table is its bits. A row holds red and blue of linear sRGB of luminance 1, and what they grow
- * by up to the next node; green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
+ * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES), which are the floats whose low bits are zero: the bits of a
+ * temperature are its place in the table. A row holds red and blue of linear sRGB of luminance 1, and their
+ * differences to the next node; green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
 #ifndef KD_BLOCK_colour
 #define KD_BLOCK_colour(F, U, A)
-#define KD_COLOUR_NODES 64 /* an octave */
-#define KD_COLOUR_SHIFT 17 /* 23 bits of fraction less 6 */
+#define KD_COLOUR_NODES 64 /* nodes an octave */
+#define KD_COLOUR_SHIFT 17 /* 23 bits of fraction minus 6 */
 #define KD_COLOUR_LEAST 64.0
 #define KD_COLOUR_LEAST_BITS 0x42800000
-#define KD_COLOUR_OCTAVES 24           /* to 1.07e9 K */
-#define KD_COLOUR_MOST_BITS 0x4e7fffff /* below 64 K 2^24 */
+#define KD_COLOUR_OCTAVES 24           /* up to 1.07e9 K */
+#define KD_COLOUR_MOST_BITS 0x4e7fffff /* just below 64 K 2^24 */
 #define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T) \
-    T(colour, KD_COLOUR_ROWS)   /* red, blue, and their growth */ \
-    T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye weighs, and its growth */
+    T(colour, KD_COLOUR_ROWS)   /* red, blue, and their differences to the next row */ \
+    T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and its difference to \
+                                   the next row */
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -32,7 +33,7 @@ kd_colour_place kd_colour_at(float kelvin)
     return o;
 }
 
-/* The colour is linear sRGB of luminance 1. */
+/* Linear sRGB of luminance 1. */
 vec3 kd_colour_of(kd_colour_place at)
 {
     vec4 row = kd_table_row(colour, at.node);

@@ -1,25 +1,25 @@
-/* Debris that tides have torn off bodies shines here, as a density on the plane of the disk (src/scene/crowd.h,
+/* Debris that tides have torn off bodies as an emitter: a density on the plane of the disk (src/scene/crowd.h,
  * src/playground/show.h).
  *
- * A column of it, S bodies' worth to M^2, is a black body of one temperature with an optical depth D S, seen with
- * the velocity that it has in the mean at the place, (v_r, v_phi) of the observer of zero angular momentum there
- * (Bardeen, Press & Teukolsky 1972): in the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, the lapse^2 is r^2
- * Delta/A, g_rr = r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
+ * A column with S bodies' worth per M^2 is a black body of one temperature with an optical depth D S. It is seen with
+ * its local mean velocity (v_r, v_phi) relative to the observer of zero angular momentum there (Bardeen, Press &
+ * Teukolsky 1972). In the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, lapse^2 is r^2 Delta/A, g_rr =
+ * r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
  *
  *   1/g = gamma ((E - dragging L)/lapse - v_r p_r/sqrt(g_rr) - v_phi L/sqrt(g_phiphi)),   light = (1 - exp(-D S))
  *     B(g T). */
 #ifndef KD_BLOCK_debris
 /* clang-format off */
 #define KD_BLOCK_debris(F, U, A) \
-    U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes, and nodes a row */ \
-    F(first_row) F(first_column) F(rows_octave) /* rows that r doubles in, which count from r = 1 */ \
-    F(depth)                    /* D, over the area of a node where r is 1 */ \
+    U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes; nodes a row */ \
+    F(first_row) F(first_column) F(rows_octave) /* rows in which r doubles, counted from r = 1 */ \
+    F(depth)                    /* D, over the area of a node at r = 1 */ \
     F(temperature)              /* over the disk's largest */
 /* clang-format on */
 #define KD_TABLES_debris(T)
 #define KD_TRAITS_debris(T) T(VISIBLE)
 #define KD_BUFFERS_debris(B) \
-    B(4, floats, debris) /* of each node three numbers: bodies' worth, and that times v_r and v_phi */
+    B(4, floats, debris) /* three numbers a node: bodies' worth, and its products with v_r and v_phi */
 #define KD_PASS_debris(P)
 #endif
 
@@ -30,7 +30,7 @@ vec3 kd_debris_node(uint row, uint column)
     return vec3(KD_OWN_FLOAT(debris, at), KD_OWN_FLOAT(debris, at + 1u), KD_OWN_FLOAT(debris, at + 2u));
 }
 
-/* What nodes hold there, bilinear between them; nothing off the grid. */
+/* Values at a place, bilinear between the nodes; 0 outside the grid. */
 vec3 kd_debris_at(float row, float turn)
 {
     float turns = float(emission.debris.turn), columns = float(emission.debris.columns),
@@ -46,7 +46,7 @@ vec3 kd_debris_at(float row, float turn)
                mix(kd_debris_node(i + 1u, j), kd_debris_node(i + 1u, j + 1u), right), row - float(i));
 }
 
-/* 1/g of what moves so. */
+/* 1/g of matter with this velocity. */
 float kd_debris_shift(kd_sample s, vec2 v)
 {
     float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root), b = 1.0 + a * a * w2,

@@ -1,31 +1,32 @@
-/* The smooth thin disk shines here.
+/* The smooth thin disk as an emitter.
  *
- * An element at radius r shines as a black body of temperature T(r). Liouville: I_nu/nu^3 is constant along the ray,
- * so that it is seen as a black body of g T, its bolometric intensity g^4 F / pi. Radiance is in units of the
- * brightest surface brightness at g = 1. */
+ * An element at radius r emits as a black body of temperature T(r). By Liouville I_nu/nu^3 is constant along the
+ * ray, so it is seen as a black body of g T, with bolometric intensity g^4 F / pi. Radiance is in units of the
+ * largest surface brightness at g = 1. */
 #ifndef KD_BLOCK_disk
 #define KD_DISK_TABLE 1024
 /* clang-format off */
 #define KD_BLOCK_disk(F, U, A) \
     F(r_in) F(r_out)       /* M */ \
-    F(fade)                /* 1 over the width of the outer fade, 1/M */ \
+    F(fade)                /* reciprocal width of the outer fade, 1/M */ \
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening, K */ \
-    F(luminous)            /* log2 of the fraction that the eye weighs of a black body of that */
+    F(luminous)            /* log2 of the fraction that the eye perceives of a black body of that temperature */
 /* clang-format on */
 #define KD_TABLES_disk(T) \
-    T(disk, KD_DISK_TABLE)  /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its growth */
-#define KD_TRAIT_VISIBLE 8u /* brightness as the eye weighs it instead of bolometric */
+    T(disk, KD_DISK_TABLE)  /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the \
+                               next row */
+#define KD_TRAIT_VISIBLE 8u /* brightness weighted as by the eye instead of bolometric */
 #define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE)
 #define KD_BUFFERS_disk(B)
 #define KD_PASS_disk(P)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* What shines at a crossing: its temperature over the disk's largest, as it is seen, and its opacity. */
+/* Gas at a crossing: its observed temperature over the disk's largest, and its opacity. */
 struct kd_gas { float t, alpha; };
 
-/* This is the light of a black body of t, over the disk's largest temperature. */
+/* Light of a black body of temperature t, relative to the disk's largest temperature. */
 vec3 kd_black_body(float t, uint traits)
 {
     kd_colour_place at = kd_colour_at(emission.disk.peak * t);
@@ -35,7 +36,7 @@ vec3 kd_black_body(float t, uint traits)
     return weight * kd_colour_of(at);
 }
 
-/* This is T r^(3/4) at r = 1/w, T over the disk's largest. */
+/* T r^(3/4) at r = 1/w, with T relative to the disk's largest. */
 float kd_disk_heat(float w)
 {
     float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
@@ -52,8 +53,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Elsewhere t may be no number: inside the orbit of light u^t is none, and E (r^(3/2) + a) - L, which g is
-     * divided by, vanishes. */
+    /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, by which g is
+     * divided, vanishes. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
 }
 

@@ -1,42 +1,43 @@
-/* Turbulent gas takes the place of the smooth disk: what shines is that disk, its temperature and its optical depth
- * multiplied by a procedural pattern, and each crossing is as opaque as the way of the ray through the gas is long.
+/* Turbulent gas in place of the smooth disk: the disk's temperature and optical depth are multiplied by a procedural
+ * pattern, and the opacity of a crossing depends on the length of the ray's path through the gas.
  *
- * Pattern. Rings, KD_GAS_RING apart in ln r, turn rigidly with the Omega of their middle. Each holds noise of its
- * own in the plane that turns with it, at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear ln(r/r_j):
- * features grow with r, there is no seam in phi, and nothing winds up, whatever t is. Of the two rings about a place
- * the noises b are added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere. Octaves are
- * those of fractional Brownian motion; each has a lattice turned, shifted at random and adrift, and is displaced by
- * those before it (domain warp).
+ * Pattern. Rings, KD_GAS_RING apart in ln r, rotate rigidly with the Omega of their middle. Each holds its own noise in
+ * the plane that rotates with it, at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear ln(r/r_j): features
+ * grow with r, there is no seam in phi, and nothing winds up at any t. The noises b of the two rings about a place are
+ * added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere. Octaves are those of fractional
+ * Brownian motion; the lattice of each is rotated, shifted at random and drifting, and is displaced by the octaves
+ * before it (domain warp).
  *
  * With n = sum of s_k b_k, b_k of variance 1 and nearly Gaussian, flux and depth are multiplied by exp(n - sum
- * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux keeps colour and brightness together.
+ * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux changes colour and brightness consistently.
  *
- * Opacity. A layer of optical depth tau along its normal takes 1 - exp(-tau/cos) of what crosses it at an angle
- * theta to it, in the frame of the gas. There cos(theta) = |p_theta| g / r, p_theta^2 = Q in the plane (Carter
- * 1968), by a photon's energy of 1/g. */
+ * Opacity. A layer of optical depth tau along its normal absorbs 1 - exp(-tau/cos) of light that crosses it at an
+ * angle theta to the normal, in the frame of the gas. There cos(theta) = |p_theta| g / r, with p_theta^2 = Q in the
+ * plane (Carter 1968), for a photon of energy 1/g. */
 #ifndef KD_BLOCK_gas
 #define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
 #define KD_GAS_RINGS 80 /* from 1 to 1e6 M and one beyond */
 #define KD_GAS_OCTAVES 8
-#define KD_GAS_DRIFT 0.15 /* cells that the first octave's lattice moves by while its ring turns by a radian */
-#define KD_GAS_HASTE 1.6  /* that of each octave over the one before */
-#define KD_GAS_FINER 1.9  /* cells a length, likewise */
-#define KD_GAS_TURN 0.9   /* and its lattice is turned by so much, radians */
+#define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by a radian */
+#define KD_GAS_HASTE 1.6  /* ratio of the drift of successive octaves */
+#define KD_GAS_FINER 1.9  /* ratio of the cells a length of successive octaves */
+#define KD_GAS_TURN 0.9   /* rotation of each octave's lattice against the one before, radians */
 #define KD_BLOCK_gas(F, U, A) \
     F(first) /* log2 of the innermost ring's radius */ \
-    F(cells) /* K: of the first octave, over the length r */ \
+    F(cells) /* K: cells of the first octave over the length r */ \
     F(shear) \
-    F(warp)        /* displacement by one standard deviation of an octave, in its own cells */ \
+    F(warp)        /* displacement at one standard deviation of an octave, in its own cells */ \
     F(loudness)    /* s_0 */ \
     F(persistence) /* s_(k+1)/s_k */ \
-    F(finer)       /* square of the steps of an octave over those of the one before, displacement counted in */ \
+    F(finer)       /* squared ratio of the steps of successive octaves, including displacement */ \
     F(depth)       /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
-/* A row is a ring: azimuth less the observer's, in radians, Omega, and the factor of a place in its plane for that
- * in the next one's. A row of an octave: where the lattice has drifted to, part of a cell and whole cells. */
+/* Tables. The row of a ring: azimuth minus the observer's in radians, Omega, and the factor that converts a place in
+ * its plane to that in the next one's. The row of an octave: drift of the lattice, as a fraction of a cell and whole
+ * cells. */
 #define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
-#define KD_TRAIT_GAS_SHIFT 8u /* the bits from here on: octaves; 0: no turbulence */
+#define KD_TRAIT_GAS_SHIFT 8u /* number of octaves from this bit on; 0: no turbulence */
 #define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)
 #define KD_TRAITS_gas(T) KD_TRAITS_disk(T) T(SLOW) T(GAS_DEEP) T(GAS_OCTAVES)
 #define KD_BUFFERS_gas(B)
@@ -45,9 +46,9 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = TRAITS_gas >> KD_TRAIT_GAS_SHIFT;
-const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u; /* of a scene's gas, thin or thick */
+const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u; /* for the scene's gas, thin or thick */
 
-/* There is a gradient for each point of a lattice that repeats after 65536 cells, times 32768. */
+/* Gradient at each point of a lattice that repeats after 65536 cells, times 32768. */
 vec2 kd_gas_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -55,8 +56,8 @@ vec2 kd_gas_gradient(uint point)
     return vec2(float(int(h) >> 16), float(int(h << 16) >> 16));
 }
 
-/* Gradient noise of variance 1 (Perlin 2002) in a lattice that is shifted by at.xy of a cell and at.zw cells; and,
- * uncorrelated with it, that of the gradients turned by a quarter. */
+/* Gradient noise of variance 1 (Perlin 2002) in a lattice shifted by at.xy of a cell and at.zw cells; and,
+ * uncorrelated with it, the noise of the gradients rotated by a quarter turn. */
 vec2 kd_gas_noise(vec2 p, vec4 at)
 {
     p += at.xy;
@@ -71,17 +72,17 @@ vec2 kd_gas_noise(vec2 p, vec4 at)
     vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x),
                     vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
     return mix(low, high, t.y) *
-           (5.677716904867669 / 32768.0); /* E[n^2] over gradients of the square and places of the cell */
+           (5.677716904867669 / 32768.0); /* E[n^2] over the square's gradients and places of the cell */
 }
 
-/* This is a ring's plane, and what moves in it. */
+/* Place in a ring's plane, and the ring's motion. */
 struct kd_gas_ring {
     vec2 p;
     uint row;
     float ahead;
 };
 
-/* ln(r/r_j) = `off`. */
+/* off: ln(r/r_j). */
 kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
 {
     uint row = j * (KD_GAS_OCTAVES + 1u);
@@ -91,7 +92,7 @@ kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
     return kd_gas_ring(emission.gas.cells * exp(off) * vec2(psi.c, psi.s), row, ahead);
 }
 
-/* The lattice of an octave has drifted to here by then. */
+/* Position of an octave's lattice, which drifts with time. */
 vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
 {
     vec4 at = kd_table_row(gas, ring.row + 1u + octave);
@@ -102,8 +103,8 @@ vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
     return at;
 }
 
-/* How many cells of the pattern one ray stands for: of the ellipse that the lens map's is there, the sum of the
- * squared semi-axes and their product squared. A step (dr, r dphi) is one of (dr, r dphi + shear dr) K/r cells. */
+/* Cells of the pattern that one ray stands for: the sum of the squared semi-axes of its footprint there, and their
+ * squared product. A step (dr, r dphi) is one of (dr, r dphi + shear dr) K/r cells. */
 struct kd_gas_steps { float sum, product; };
 
 kd_gas_steps kd_gas_footprint(kd_sample s)
@@ -111,25 +112,25 @@ kd_gas_steps kd_gas_footprint(kd_sample s)
     uint bits = floatBitsToUint(s.shape);
     float i = float(bits & 2047u) * (1.0 / 2047.0), j = float((bits >> 11) & 2047u) * (2.0 / 2047.0) - 1.0;
     float both = i * (1.0 - i), apart = i - 0.5, per = s.w * s.footprint * emission.gas.cells;
-    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both)); /* M_rr + M_ff by the long axis */
+    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both)); /* M_rr + M_ff from the long axis */
     float c = j * sqrt(both), shear = emission.gas.shear;
     return kd_gas_steps(all * (1.0 + shear * (shear * i + 2.0 * c)), all * all * both * (1.0 - j * j));
 }
 
-/* What is left of an octave, in the mean over what a ray stands for: the variance of this noise along a line of q
- * cells is about that at a point over 1 + 0.66 q^2. Nothing is where that is a small part, so that no alias
- * shimmers; and the loop ends. */
+/* Fraction of an octave that remains in the mean over a ray's footprint: the variance of this noise along a line of
+ * q cells is about that at a point over 1 + 0.66 q^2. It is set to 0 where it is small, to avoid flickering aliases;
+ * the loop ends there. */
 float kd_gas_left(kd_gas_steps q)
 {
     float fine = 1.0 + 0.66 * q.sum + 0.4356 * q.product, cut = clamp(1.8 - 0.5 * q.sum, 0.0, 1.0);
     return cut * cut * (3.0 - 2.0 * cut) * inversesqrt(fine);
 }
 
-/* ln of what flux and depth are multiplied by. */
+/* ln of the factor of flux and depth. */
 float kd_gas_excess(kd_sample s)
 {
     float u = max(-(log2(s.w) + emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;
-    /* w_2^2 = x^4 (35 - 84 x + 70 x^2 - 20 x^3) joins 0 and 1 so that both weights have slopes without a break. */
+    /* w_2^2 = x^4 (35 - 84 x + 70 x^2 - 20 x^3) joins 0 and 1 such that both weights have continuous slopes. */
     float x2 = x * x, share = x2 * x2 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
     float w1 = sqrt(max(1.0 - share, 0.0)), w2 = sqrt(share);
     uint k = min(uint(j), KD_GAS_RINGS - 2u);
@@ -139,7 +140,7 @@ float kd_gas_excess(kd_sample s)
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
     for (uint octave = 0u; octave < KD_GAS_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
-        if (!(left > 0.0)) /* a footprint without end may make it no number */
+        if (!(left > 0.0)) /* false also for NaN, from an infinite footprint */
             break;
         vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
         sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
@@ -151,7 +152,7 @@ float kd_gas_excess(kd_sample s)
     return sum;
 }
 
-/* This is the cosine of the angle to the normal at which light leaves gas on a circular orbit. */
+/* Cosine of the emission angle to the normal, for gas on a circular orbit. */
 float kd_gas_cosine(kd_sample s)
 {
     return sqrt(max(s.q, 0.0)) * s.w * kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
@@ -164,8 +165,7 @@ kd_glow kd_gas_glow(kd_sample s)
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
         float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t;
         float taken = 1.0 - exp(-emission.gas.depth * t2 * t2 * more / max(kd_gas_cosine(s), 1e-6));
-        gas.alpha =
-            gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be no number: inside the orbit of light */
+        gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be NaN: inside the photon orbit */
     }
     gas.t *= sqrt(sqrt(more));
     return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_gas), gas.alpha, 0.0);

@@ -1,31 +1,32 @@
-/* Two jets, stylised, are optically thin light in cones along the spin axis, which flies outwards at one speed along
- * the radius, past observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). Those see of a photon the
- * energy and radial momentum
+/* Two stylised jets: optically thin light in cones along the spin axis, from matter that moves outwards along the
+ * radius at one speed relative to observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). In their frame
+ * a photon has the energy and radial momentum
  *
- *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),   and the matter   -k.U = Gamma (e -
+ *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),   and for the matter   -k.U = Gamma (e -
  *                                              beta k_r).
  *
- * A spectrum j_nu as nu^-alpha keeps its shape when it is shifted. j_nu/nu^2 is the same for all: along the
- * observer's affine parameter light is g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind &
- * Blandford 1985, ApJ 295, 358).
+ * A spectrum j_nu ~ nu^-alpha keeps its shape under a shift. j_nu/nu^2 is invariant: per unit of the observer's affine
+ * parameter light is g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind & Blandford 1985, ApJ 295,
+ * 358).
  *
- * Across, with x = tan(theta)/tan(opening), a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2; along,
- * (r/inner)^-falloff, which begins and ends smoothly. */
+ * Profile across, with x = tan(theta)/tan(opening): a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2. Profile
+ * along: (r/inner)^-falloff, with smooth ends. */
 #ifndef KD_BLOCK_jets
-#define KD_JETS_RISE 0.5 /* of the inner radius, over which light begins */
-#define KD_JETS_FADE 0.3 /* of the outer radius, over which it ends */
+#define KD_JETS_RISE 0.5 /* fraction of the inner radius over which light rises */
+#define KD_JETS_FADE 0.3 /* fraction of the outer radius over which it fades */
 /* clang-format off */
 #define KD_BLOCK_jets(F, U, A) \
     F(inner) F(outer)      /* M */ \
     F(cot)                 /* 1/tan of the opening angle */ \
     F(tan_)                /* and its tangent */ \
-    /* log2 of the light of a length, 1/M, at the inner edge of the spine, in units of the disk's brightest surface */ \
+    /* log2 of the light per length, 1/M, at the spine's inner edge, in units of the disk's largest surface \
+     * brightness */ \
     F(brightness) \
-    F(sheath)              /* share of the sheath, 0 to 1 */ \
+    F(sheath)              /* fraction of the sheath, 0 to 1 */ \
     F(falloff) F(power)    /* power: 2 + alpha */ \
     F(gamma) F(gamma_beta) \
-    F(counter)             /* light of the jet below, over that above */ \
-    F(temperature)         /* K, whose colour it has */
+    F(counter)             /* light of the lower jet over that of the upper one */ \
+    F(temperature)         /* K: temperature whose colour it has */
 /* clang-format on */
 #define KD_TABLES_jets(T)
 #define KD_TRAITS_jets(T)
@@ -34,10 +35,10 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* This is -k.U of its matter, with no difference of what is nearly the same: of light that comes along with the jet,
- * e - k_r is what is across over the sum, across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A
- * sin^2))/Sigma, which by p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 has no
- * sine below: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
+/* -k.U of its matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is across^2
+ *   over the sum, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2 = Q
+ *   + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma
+ *   across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
 float kd_jets_energy(kd_midst p)
 {
     float a = cam.spin, w2 = p.w * p.w, aw2 = a * a * w2, b = 1.0 + aw2, delta = max(kd_delta(p.w, cam.root), 1e-30);
@@ -61,14 +62,14 @@ kd_medium kd_jets_along(kd_midst p)
     float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0),
           down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers and the brightness at once: g to the 12th is 2^92 and r/inner to the 10th 2^199, so that one by
-     * one they would be no number where all is one. */
+    /* Both powers and the brightness in one exponential: g to the 12th may be 2^92 and r/inner to the 10th 2^199,
+     * which would overflow separately even if their product is 1. */
     float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
                                  emission.jets.power * log2(kd_jets_energy(p)),
                              -126.0, 120.0));
     float side = p.u > 0.0 ? 1.0 : emission.jets.counter;
     light *= side * across * along;
-    /* Outside, the way to the cone, and no shorter than what its edge, which is smooth, asks for. */
+    /* Outside, the distance to the cone, and not less than its smooth edge requires. */
     float away =
         max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
     float grain = min(max(away, 0.25 * width), r);

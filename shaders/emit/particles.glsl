@@ -1,10 +1,10 @@
-/* The disk shines as particles: its brightness is that of the smooth disk times their number over the mean
+/* The disk as particles: its brightness is that of the smooth disk times their number over the mean
  * (src/render/emit/particles.h). */
 #ifndef KD_BLOCK_particles
 /* clang-format off */
 #define KD_BLOCK_particles(F, U, A) \
     U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */ \
-    F(rows_octave)         /* rows that r doubles in */
+    F(rows_octave)         /* rows in which r doubles */
 /* clang-format on */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
@@ -13,14 +13,14 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place lies on one of the grids, which begins at node `first`. It has a row, and an azimuth in turns on the row
- * before and on the one after. */
+/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and
+ * on the one after. */
 struct kd_place {
     uint first, rows, columns;
     float row, before, after;
 };
 
-/* Says how many turns ahead that is now which went round with a row's Omega and was seen a time `ago`. */
+/* Number of turns ahead of matter that rotates with a row's Omega and was seen a time `ago`. */
 float kd_particles_ahead(uint row, float ago)
 {
     float r = emission.disk.r_in * exp2(float(row) / emission.particles.rows_octave);
@@ -48,22 +48,22 @@ float kd_density_of_row(kd_place at, uint row, float turn)
                KD_OWN_FLOAT(density, first + ((j + 1) & (at.columns - 1))), column - float(j));
 }
 
-/* This is the number of particles over the one expected, bilinear between the nodes. */
+/* Number of particles over the expected number, bilinear between the nodes. */
 float kd_density_at(kd_place at)
 {
     uint i = min(uint(at.row), at.rows - 1);
     return mix(kd_density_of_row(at, i, at.before), kd_density_of_row(at, i + 1, at.after), at.row - float(i));
 }
 
-/* This is the azimuth of a crossing in turns, in the frame that the grids are kept in. */
+/* Azimuth of a crossing in turns, in the frame of the grids. */
 float kd_sample_turn(kd_sample s) { return (s.phi + emission.frame.azimuth) * (0.5 / KD_PI); }
 
-/* These are in plunge.glsl. */
+/* Defined in plunge.glsl. */
 bool kd_plunge_falls(kd_sample s);
 kd_place kd_plunge_place(kd_sample s, float turn);
 kd_gas kd_plunge_gas(kd_sample s, float number);
 
-/* Particles on their orbits and those that plunge (plunge.glsl) share one look at the grids and one black body. */
+/* Particles on orbits and plunging ones (plunge.glsl) share one read of the grids and one black body. */
 kd_glow kd_particles_glow(kd_sample s)
 {
     float turn = kd_sample_turn(s);

@@ -1,49 +1,49 @@
-/* Matter that is seen at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot
- * electrons in a magnetic field by power laws, as A. E. Broderick, H.-Y. Pu and others have them. What is where is
- * one struct, kd_plasma, of which light and, by whoever asks, polarisation are made.
+/* Matter at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot electrons in a
+ * magnetic field by power laws, as used by A. E. Broderick, H.-Y. Pu and others. The state at a point is one struct,
+ * kd_plasma, from which light and, if requested, polarisation follow.
  *
- * Observed at nu, light grows by (nu_obs/nu)^2 j_nu and depth by (nu/nu_obs) alpha_nu of a unit of the affine
- * parameter by the observer's energy: I/nu^3 is invariant, j/nu^2 and alpha nu are, too (Rybicki & Lightman 1979,
- * 4.9), and nu/nu_obs = -k.u. */
+ * At the observed frequency nu_obs, per unit of the affine parameter (by the observer's energy), light grows by
+ * (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu: I/nu^3, j/nu^2 and alpha nu are invariant (Rybicki &
+ * Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
 #ifndef KD_BLOCK_plasma
 /* clang-format off */
 #define KD_BLOCK_plasma(F, U, A) \
     F(inner) F(outer)      /* M */ \
-    F(frequency)           /* log2 of what is observed, GHz */ \
-    F(light) F(depth)      /* log2 of the units of kd_radiates by M of length: of light, and of 1 */ \
-    F(kelvin) F(jansky)    /* of light 1: brightness temperature, K, and Jy a steradian */ \
-    F(jansky_pixel)        /* and Jy from one pixel, where all are as large */ \
-    F(gold_light) F(gold_depth) /* log2 of the light and the depth of a length M where the density is 1, at 230 GHz */ \
+    F(frequency)           /* log2 of the observed frequency, GHz */ \
+    F(light) F(depth)      /* log2 of the units of kd_radiates per M of length: of light; of optical depth */ \
+    F(kelvin) F(jansky)    /* for light 1: brightness temperature, K; Jy a steradian */ \
+    F(jansky_pixel)        /* and Jy from one pixel, if all have the same size */ \
+    F(gold_light) F(gold_depth) /* log2 of light and depth of a length M at density 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
-    F(density) F(density_index) /* log2 of that at r = 1 M, cm^-3, and what it falls as */ \
-    F(heat) F(heat_index)  /* log2 of Theta there, and what it falls as */ \
-    F(steep)               /* 1 over the scale height over the distance from the axis; 0: there is no height */ \
-    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3, and what it falls as */ \
-    F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */ \
-    F(torus_momentum) F(torus_edge) F(torus_index) /* l; what ln h has too much; density as h - 1 to this */ \
-    U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: the same all round */ \
-    /* the first of each, log2 of it for r, and how many there are in 1 */ \
+    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power at which it falls */ \
+    F(heat) F(heat_index)  /* log2 of Theta there; power at which it falls */ \
+    F(steep)               /* distance from the axis over scale height; 0: no layer */ \
+    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power at which it falls */ \
+    F(power_index) F(power_light) F(power_depth) /* for a power law of electrons */ \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* l; offset of ln h; density is h - 1 to this power */ \
+    U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
+    /* first coordinate of each (log2 for r), and nodes per unit of it */ \
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
-    F(grid_fall)           /* a, where phi is that of ingoing coordinates; else 0 */ \
+    F(grid_fall)           /* a if phi is that of ingoing coordinates; else 0 */ \
     F(grid_field)          /* log2 of the unit of its field, gauss */ \
-    F(kappa) F(kappa_width) /* of a kappa distribution, log2(kappa - 3), */ \
-    /* and physics/disk/synchrotron.h */ \
+    F(kappa) F(kappa_width) /* for a kappa distribution: log2(kappa - 3); */ \
+    /* the rest as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)
 /* clang-format on */
 #define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row, */
 #define KD_KAPPA_OCTAVE 16   /* rows for each octave */
 #define KD_KAPPA_ROWS 640
-#define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS) /* log2 of F(z), and what it grows by */
+#define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS) /* log2 of F(z), and its difference to the next row */
 #define KD_TRAIT_PLASMA_GOLD 2u
 #define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis, */
-#define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius, else round the axis */
+#define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius; otherwise round the axis */
 #define KD_TRAIT_PLASMA_REST \
-    512u /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
-#define KD_TRAIT_PLASMA_POWER 64u /* a power law of electrons */
+    512u /* it is at rest for observers of zero angular momentum; otherwise it orbits and falls in */
+#define KD_TRAIT_PLASMA_POWER 64u /* electrons by a power law */
 #define KD_TRAIT_PLASMA_TORUS 128u
-#define KD_TRAIT_PLASMA_KAPPA 256u /* a kappa distribution of electrons */
-#define KD_TRAIT_PLASMA_GRID 1024u /* all of it is in a buffer: src/render/emit/matter_grid.h */
+#define KD_TRAIT_PLASMA_KAPPA 256u /* electrons by a kappa distribution */
+#define KD_TRAIT_PLASMA_GRID 1024u /* all of it from a buffer: src/render/emit/matter_grid.h */
 /* clang-format off */
 #define KD_TRAITS_plasma(T) \
     T(PLASMA_GOLD) \
@@ -51,17 +51,17 @@
         T(AZIMUTH)
 /* clang-format on */
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid)
-#define KD_GRID_CELLS 2.0 /* of the grid, that a grain goes through at most */
+#define KD_GRID_CELLS 2.0 /* largest number of the grid's cells that a grain covers */
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) */
 #define KD_PLASMA_SEEN \
-    7.0 /* scale heights, beyond which there is 2e-11 of the plane's density, and none is looked for */
+    7.0 /* scale heights, beyond which the density is below 2e-11 of the one in the plane and is taken as 0 */
 #endif
 
 #ifdef KD_EMIT_CODE
 #include "emit/synchrotron.glsl"
 
-/* This is the metric at a place, past observers of zero angular momentum: their lapse^2 and their angular velocity,
+/* The metric at a place, relative to observers of zero angular momentum: their lapse^2 and angular velocity,
  * g_phiphi, g_rr and Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
 struct kd_metric { float lapse2, omega, round_, radial, sigma; };
 kd_metric kd_metric_at(float w, float u)
@@ -73,12 +73,12 @@ kd_metric kd_metric_at(float w, float u)
                      sigma);
 }
 
-/* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, u^r and u^theta, which is 0 but
+/* Velocity of matter: u^t and u_phi, where u^phi - omega u^t = u_phi/g_phiphi, u^r, and u^theta, which is 0 except
  * on a grid. */
 struct kd_flow { float time, round_, out_, down; };
 const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 
-/* Its -k.u, by the photon's E, L and p_r. */
+/* -k.u from the photon's E, L and p_r. */
 float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
 {
     float energy = v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ -
@@ -97,7 +97,7 @@ kd_flow kd_flow_gold(kd_metric g, kd_midst p)
     return kd_flow(scale * seen / g.lapse2, scale * l, 0.0, 0.0);
 }
 
-/* On the circular orbit's angular velocity at its r, at whatever latitude. */
+/* With the angular velocity of the circular orbit at its r, at any latitude. */
 kd_flow kd_flow_round(kd_metric g, float r)
 {
     float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega,
@@ -105,10 +105,10 @@ kd_flow kd_flow_round(kd_metric g, float r)
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
-/* Inside the ISCO it keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ
- * 831, 4), and does not change that. With them Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma
- * Delta is a quartic that vanishes at the ISCO: divided by r - r_isco, it has no difference of what is nearly the
- * same. Where it is below 0, off the plane, the matter goes round with the angular velocity of e and l. */
+/* Inside the ISCO matter keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016,
+ * ApJ 831, 4), and stays at that latitude. Then Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma
+ * Delta is a quartic that vanishes at the ISCO; divided by r - r_isco, it has no difference of nearly equal numbers.
+ * Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
@@ -125,8 +125,8 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)), 0.0);
 }
 
-/* This is -ln(1 - z), for z from 0 to 1: GLSL's logarithm is good to 5e-7 only beside 1. By 2 artanh(y), whose next
- * term is below 1e-8 of it. */
+/* -ln(1 - z), for z from 0 to 1: GLSL's logarithm has an absolute error of 5e-7 near 1. By 2 artanh(y), whose next
+ *   term is below 1e-8 of it. */
 float kd_less_ln(float z)
 {
     float y = z / (2.0 - z), y2 = y * y;
@@ -136,8 +136,8 @@ float kd_less_ln(float z)
 
 /* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi
  * U^2 and u^t = sqrt(1 + U^2)/lapse, U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 +
- * q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l, equation 3.6. It is a hundredth, the difference of numbers near 1: U^2 =
- * (sqrt(1 + q) - 1)/2 has ln(1 + U^2)/2 - U^2 of it, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
+ * q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l, equation 3.6. It is about a hundredth, a difference of numbers near 1.
+ * So U^2 = (sqrt(1 + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
 struct kd_equilibrium {
     kd_flow flow;
     float enthalpy;
@@ -152,9 +152,9 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
-/* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency:
- * its log2, GHz; field: the unit vector along B, b.u = 0, contravariant components t, r, theta, phi of Boyer and
- * Lindquist, of a photon that arrives. */
+/* State of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz;
+ * field: the unit vector along B, b.u = 0, as contravariant components t, r, theta, phi of Boyer-Lindquist
+ * coordinates, for an arriving photon. */
 struct kd_plasma {
     kd_electrons electrons;
     kd_flow flow;
@@ -163,7 +163,7 @@ struct kd_plasma {
     vec4 field;
 };
 
-/* A direction is made perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta
+/* Makes a direction e perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta
  * times 1/sin(theta), phi. */
 void kd_plasma_field(inout kd_plasma m, kd_midst p)
 {
@@ -186,8 +186,8 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
 }
 
-/* What lies between the nodes of a grid: linear in log r, theta and phi. matter: log2 of density and Theta, u^r, r
- * u^theta; rest: u_phi/(r sin^2 theta), and b^r, r b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
+/* Interpolated values of a grid: linear in log r, theta and phi. matter: log2 of density and Theta, u^r, r u^theta;
+ * rest: u_phi/(r sin^2 theta), and b^r, r b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
 struct kd_grid_node { vec4 matter, rest; };
 
 kd_grid_node kd_grid_line(uint at, uint next, float part)
@@ -196,8 +196,8 @@ kd_grid_node kd_grid_line(uint at, uint next, float part)
                         mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
 }
 
-/* phi of Kerr and Schild's ingoing coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r -
- * 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
+/* phi of ingoing Kerr-Schild coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r - 1)
+ * artanh(x)/x, x = (r+ - 1)/(r - 1). */
 float kd_grid_fallen(float r)
 {
     float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
@@ -220,7 +220,8 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
           layer = floor(turned), past = turned - layer;
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
-    for (uint n = 0u; n < min(layers, 2u); n++) { /* lavapipe skips what a loop does not do, and nothing else */
+    /* lavapipe skips the unused rounds of a loop, but not the branches of an if */
+    for (uint n = 0u; n < min(layers, 2u); n++) {
         uint k = first + n, from = at + 2u * (k < layers ? k : 0u);
         kd_grid_node low = kd_grid_line(from, from + row, part.x),
                      high = kd_grid_line(from + node, from + node + row, part.x);
@@ -231,9 +232,9 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     return sum;
 }
 
-/* Any u^r, u^theta and u_phi are of a unit vector that is timelike: -lapse^2 (u^t)^2 = -1 - U^2, with U the
- * components for the observer of zero angular momentum. So B is that of b, b.u = 0 gives lapse b^t = B.U/sqrt(1 +
- * U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), no difference of large numbers by the horizon. */
+/* Any u^r, u^theta and u_phi belong to a timelike unit vector: -lapse^2 (u^t)^2 = -1 - U^2, where U are the
+ * components for the observer of zero angular momentum. With B likewise from b, b.u = 0 gives lapse b^t = B.U/sqrt(1
+ * + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), without a difference of large numbers near the horizon. */
 kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
 {
     kd_plasma m;
@@ -260,8 +261,8 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
     return m;
 }
 
-/* A cell's edges are seen in the light: a grain goes through so many. It is no shorter than half of one of the
- * finest rows that a grid may have, which columns and layers next to the axis would ask for. */
+/* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. It is not shorter than half
+ * of one of the finest rows that a grid may have, which columns and layers next to the axis would require. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
@@ -302,8 +303,8 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        m.electrons.heat =
-            emission.plasma.heat + max(more, KD_TORUS_COLD); /* no fit holds at no temperature, but there is nothing */
+        /* at zero temperature no fit is valid, but there is no matter */
+        m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD);
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field - emission.plasma.field_index * log2_r);
@@ -311,7 +312,7 @@ kd_plasma kd_plasma_at(kd_midst p)
     return m;
 }
 
-/* log2((2^-sa + 2^-sb)^(-1/s)): the lesser, less smoothly the larger s is. */
+/* log2((2^-sa + 2^-sb)^(-1/s)): a smooth minimum, the sharper the larger s is. */
 float kd_log2_joined(float a, float b, float s)
 {
     return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s;
@@ -329,7 +330,7 @@ kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
           row = floor(place);
     vec4 f = kd_table_row(kappa, uint(row));
     float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0),
-          size = f.x + (place - row) * f.y + below; /* z^a where z is small */
+          size = f.x + (place - row) * f.y + below; /* z^a for small z */
     return kd_kappa_laws(z, x, emission.plasma.kappa_light_low + x * (1.0 / 3.0),
                          emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x,
                          emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0),
@@ -355,9 +356,9 @@ kd_radiates kd_plasma_gives(kd_plasma m)
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* From logarithms. What is deeper than 2^24 a length shows its own light alone, and so both are made less by the
- * same factor: light of such matter is right up to 6e28 K. Light of thin matter is up to 2^99 a length, beyond what
- * layers of it hold (src/render/frame/layers.c). */
+/* Medium from logarithms. Matter deeper than 2^24 a length shows only its own light, so light and depth are reduced
+ * by the same factor: light of such matter is correct up to 6e28 K. Light of thin matter is limited to 2^99 a
+ * length, beyond the range of layers (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 24.0, 0.0);
@@ -366,8 +367,8 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
     return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);
 }
 
-/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and with it the field: in it by its height
- * and where it is, beyond it the way to where there is something. sharp: kd_radiates's steep. */
+/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary: inside, from its
+ * height and the place; outside, the distance to it. sharp: steep of kd_radiates. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
     float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r,
@@ -413,14 +414,14 @@ kd_medium kd_plasma_along(kd_midst p)
     }
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
-    /* Off the plane the fall begins as the square root of the way from the ISCO: stretches are the shorter the
-     * nearer they are to it. */
+    /* Off the plane infall begins as the square root of the distance to the ISCO: stretches are shorter the nearer
+     * they are to it. */
     if ((TRAITS_plasma &
          (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS | KD_TRAIT_PLASMA_GRID)) == 0u &&
         r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge =
-        min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* within the bounds of other volumes */
+        min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* inside the bounds of other volumes */
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;
 }

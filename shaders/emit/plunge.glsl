@@ -1,25 +1,26 @@
-/* Gas plunges from the ISCO with its energy E and angular momentum L; src/render/emit/plunging.h says in which
+/* Gas that plunges from the ISCO with its energy E and angular momentum L; src/render/emit/plunging.h describes its
  * parcels.
  *
- * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|)
- * times the particles over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D =
+ * A grey body of one temperature. Its optical depth is proportional to its surface density, 1/(r |u^r|) times the
+ * number of particles over the expected one. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D =
  * Delta/r^2, J = L - aE,
  *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
- * the primed ones and w', which is positive where a ray traced back goes in and the light comes out, the light's. */
+ * where primed quantities and w' are the light's; w' is positive where a ray traced back goes inwards and the light
+ * comes outwards. */
 #ifndef KD_BLOCK_plunge
 #define KD_PLUNGE_TABLE 512
 /* clang-format off */
 #define KD_BLOCK_plunge(F, U, A) \
     F(first) F(last)       /* w at the start and at the end of the plunge */ \
-    F(energy) F(j)         /* of its gas: E, and L - aE */ \
+    F(energy) F(j)         /* for its gas: E, and L - aE */ \
     F(temperature)         /* over the disk's largest */ \
-    F(depth)               /* optical depth where r |u^r| is 1, of as many particles as expected */ \
-    F(log_first) F(step_)  /* of the table: its first place, and entries per unit */ \
+    F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
+    F(log_first) F(step_)  /* of the table: its first argument, and entries per unit */ \
     F(laps) F(turns)       /* per M: from start to end; of the orbit at the ISCO */ \
-    U(at)                  /* where its grid lies behind the other particles' */ \
+    U(at)                  /* offset of its grid, which follows the other particles' */ \
     U(rows) U(columns) \
-    U(lap_rows) U(lead_rows) /* from start to end; before the start */
+    U(lap_rows) U(lead_rows) /* rows from start to end; rows before the start */
 /* clang-format on */
 #define KD_TABLES_plunge(T) \
     T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
@@ -29,7 +30,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* On the grid of phases and azimuths at the ISCO: what is here now, or was a time `ago`. */
+/* Place on the grid of phases and azimuths at the ISCO, of what is here now, or was a time `ago`. */
 kd_place kd_plunge_place(kd_sample s, float turn)
 {
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
@@ -44,14 +45,14 @@ kd_place kd_plunge_place(kd_sample s, float turn)
     return kd_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
 }
 
-/* This is u^r of the gas. */
+/* u^r of the gas. */
 float kd_plunge_speed(float w)
 {
     float r0 = emission.frame.r_isco, gap = max(r0 * w - 1.0, 1e-12);
     return -sqrt(gap * (2.0 / 3.0) / r0) * gap;
 }
 
-/* This is g, of the Doppler shift and of gravity, or with one factor and without the other. */
+/* g from Doppler shift and gravity, or from one of them only. */
 float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
 {
     float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);
@@ -70,7 +71,7 @@ float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
     return g;
 }
 
-/* Seen where there is this number of particles over that expected. */
+/* The gas as seen, for this number of particles over the expected one. */
 kd_gas kd_plunge_gas(kd_sample s, float number)
 {
     float g = kd_plunge_shift(s, (TRAITS_plunge & KD_TRAIT_DOPPLER) != 0u, (TRAITS_plunge & KD_TRAIT_REDSHIFT) != 0u);
@@ -78,7 +79,7 @@ kd_gas kd_plunge_gas(kd_sample s, float number)
     return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(depth)));
 }
 
-/* Says whether a crossing lies where the gas plunges. */
+/* Whether a crossing is where the gas plunges. */
 bool kd_plunge_falls(kd_sample s)
 {
     return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last;

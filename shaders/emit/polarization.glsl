@@ -1,43 +1,42 @@
-/* Light that leaves gas in the plane is polarised, and keeps along its ray a direction that the ray carries with it.
- * Walker & Penrose (1970) give that as a number: with F = k ^ f, k the light's wave vector and f the direction of
- * its electric field,
+/* Polarisation of light from gas in the plane. The direction of polarisation is carried along the ray, by a constant of
+ * Walker & Penrose (1970): with F = k ^ f, where k is the light's wave vector and f the direction of its electric
+ * field,
  *
  *   kappa = (A - i B)(r - i a cos(theta)),   A = k^t f^r - k^r f^t,   B = k^phi f^theta - k^theta f^phi
  *
- * stays the same all along the ray, the components being those in Carter's frame (Chandrasekhar 1983, section 60),
- * which have for a vector V
+ * is constant along the ray. The components are those in Carter's frame (Chandrasekhar 1983, section 60), which for a
+ * vector V are
  *
  *   V^t = ((r^2 + a^2) E - a L)/sqrt(Delta Sigma),  V^r = sqrt(Delta/Sigma) V_r,  V^theta = V_theta/sqrt(Sigma),
  *                                                   V^phi = (L/sin(theta) - a E sin(theta))/sqrt(Sigma),
  *
- * E = -V_t and L = V_phi. In the equatorial plane, times sqrt(Delta/Sigma), what is needed of them is finite
- * wherever gas can be. A quarter turn of f from right to up multiplies kappa by -i: so that f = x right + y up has x
- * - i y = kappa/kappa(right), and only that of `right` is computed at the observer.
+ * with E = -V_t and L = V_phi. In the equatorial plane, times sqrt(Delta/Sigma), those needed are finite wherever gas
+ * can be. A quarter turn of f from right to up multiplies kappa by -i. So f = x right + y up has x - i y =
+ * kappa/kappa(right), and only kappa(right) is computed at the observer.
  *
- * Stokes Q and U are those of the IAU (1973): the angle of the electric field counts from the top of the picture, as
- * if that were north, to its left, as if that were east. */
+ * Stokes Q and U follow the IAU (1973): the angle of the electric field counts from the top of the picture, taken as
+ * north, to its left, taken as east. */
 #ifndef KD_BLOCK_polarization
-#define KD_SCATTERING_ROWS 128 /* of the table: by sqrt(mu), the fraction there and that of the next row */
-#define KD_BLOCK_polarization(F, U, A) F(fraction) /* of a field that is in order, times how far it is */
+#define KD_SCATTERING_ROWS 128                     /* rows by sqrt(mu): the fraction there and that of the next row */
+#define KD_BLOCK_polarization(F, U, A) F(fraction) /* for an ordered field, times its degree of order */
 #define KD_TABLES_polarization(T) T(scattering, KD_SCATTERING_ROWS)
 #define KD_TRAIT_SCATTERED \
-    2u /* by electrons: across the plane of the light and the normal; else by a field: across that of the light and \
-          the field, */
-#define KD_TRAIT_RADIAL 4u   /* which points outwards, */
-#define KD_TRAIT_VERTICAL 8u /* along the normal; without either round the axis */
+    2u /* scattered by electrons: polarised across the plane of light and normal; otherwise by a field: across the \
+          plane of light and field, */
+#define KD_TRAIT_RADIAL 4u   /* field along the radius, */
+#define KD_TRAIT_VERTICAL 8u /* or along the normal; otherwise round the axis */
 #define KD_TRAITS_polarization(T) T(SCATTERED) T(RADIAL) T(VERTICAL)
 #define KD_BUFFERS_polarization(B)
 #define KD_PASS_polarization(P)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* This is kappa of the unit vector to the right of a ray in the picture, up to a factor above 0. x, y: its place
- * there. */
+/* kappa of the unit vector to the right of a ray in the picture, up to a positive factor. x, y: its place there. */
 vec2 kd_polarization_right(uvec2 place)
 {
     kd_ray k = kd_camera_ray(place.x, place.y);
     float a = cam.spin, s = cam.s;
-    if (!FINITE) { /* r kappa (alpha) = alpha + a sin(theta) + i beta, and -i times that of beta */
+    if (!FINITE) { /* r kappa (alpha) = alpha + a sin(theta) + i beta; for beta -i times that */
         vec2 alpha = vec2(a * s - k.l, k.p), right = vec2(cam.cxx, cam.cxy);
         return vec2(right.x * alpha.x + right.y * alpha.y, right.x * alpha.y - right.y * alpha.x);
     }
@@ -47,7 +46,7 @@ vec2 kd_polarization_right(uvec2 place)
     float ahead = kd_camera_ahead(off.x, off.y);
     vec3 look = normalize(ahead * c0 + off.x * cx + off.y * cy), up = cy;
     if (SIGHT ==
-        KD_SIGHT_DOME) { /* as carried from the middle along the great circle: no place of the dome is a pole of that */
+        KD_SIGHT_DOME) { /* transported from the middle along great circles: no place of the dome is a pole of that */
         float d = length(at);
         vec2 to = d > 0.0 ? at / d : vec2(0.0, 1.0), angle = kd_quarter_turns(d * cam.turn_x);
         up = to.y * (angle.x * (to.x * cx + to.y * cy) - angle.y * c0) + to.x * (to.x * cy - to.y * cx);
@@ -65,8 +64,8 @@ vec2 kd_polarization_right(uvec2 place)
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* What there is of light from a crossing: the fraction that is polarised, and kappa of its electric field, up to a
- * factor above 0 or below. */
+/* Polarisation of light from a crossing: its fraction, and kappa of its electric field, up to a positive or negative
+ * factor. */
 struct kd_polarized {
     float fraction;
     vec2 kappa;
@@ -77,7 +76,7 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
 {
     float a = cam.spin, w = s.w, w2 = w * w, delta = kd_delta(w, cam.root), root = sqrt(max(delta, 1e-12));
     bool falls = kd_plunge_falls(s);
-    /* Light, gas and field in Carter's frame, times sqrt(Delta)/r those that point to t and r. */
+    /* Light, gas and field in Carter's frame; components along t and r times sqrt(Delta)/r. */
     float k_theta = (down ? w : -w) * sqrt(max(s.q, 0.0));
     vec4 k = vec4(s.energy * (1.0 + a * a * w2) - a * w2 * s.momentum, s.slope, root * k_theta,
                   root * w * (s.momentum - a * s.energy));
@@ -90,7 +89,7 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
         b = vec4(0.0, 1.0, 0.0, 0.0);
     if ((TRAITS_polarization & (KD_TRAIT_VERTICAL | KD_TRAIT_SCATTERED)) != 0u)
         b = vec4(0.0, 0.0, 1.0, 0.0);
-    /* f is orthogonal to all three: what b has of u, or of k, does not count. */
+    /* f is orthogonal to all three; components of b along u or k do not matter. */
     vec3 f = u.x * cross(k.yzw, b.yzw) - k.x * cross(u.yzw, b.yzw) + b.x * cross(u.yzw, k.yzw);
     float f_t = dot(u.yzw, cross(k.yzw, b.yzw));
     kd_polarized out_ =
@@ -106,9 +105,9 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     return out_;
 }
 
-/* Stokes Q and U of the light of a crossing, as parts of its I. A ray traced back from above the plane goes down
- * through it first, so that the light comes up; one from the plane itself by where it looks. right: of the ray's
- * place, kd_polarization_right. */
+/* Stokes Q and U of the light of a crossing, relative to its I. A ray traced back from above the plane first goes
+ * down through it, so that the light comes up; for an observer in the plane the direction of look decides. right:
+ * kappa of the ray's place, from kd_polarization_right. */
 vec2 kd_polarization_at(kd_sample s, vec2 right, float up)
 {
     float above = cam.u != 0.0 ? cam.u : up;

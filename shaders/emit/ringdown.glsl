@@ -1,4 +1,4 @@
-/* A struck hole rings, as an illustration: the light of image orders 1 and up rings. */
+/* Ringdown of a struck hole, as an illustration: light of image orders 1 and up oscillates. */
 #ifndef KD_BLOCK_ringdown
 #define KD_BLOCK_ringdown(F, U, A) F(factor)
 #define KD_TABLES_ringdown(T)

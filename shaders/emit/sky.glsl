@@ -1,17 +1,17 @@
-/* The sky is what lies at infinity, where rays end that escape.
+/* The sky: what lies at infinity, where escaping rays end.
  *
- * grid: a celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a
- * fortieth of the spacing. Of all others, light that is spread over the sky, and stars.
+ * Model "grid": a celestial sphere with four quadrants in quiet colours, meridians and parallels in white; a line's
+ * width is a fortieth of the spacing. All other models: diffuse light, and stars.
  *
- * Spread light is a panorama in galactic coordinates (src/render/sky/panorama.h), at the level of its mips that a
- * ray's footprint asks for, between two of them. A texel is reached through a quadratic B-spline, which has no
- * corners where the picture is magnified. Stars are points: comp/star_images.comp has spread each of their images
- * over some pixels before, and they are read here as a pixel's light, 64 bits a channel.
+ * Diffuse light is a panorama in galactic coordinates (src/render/sky/panorama.h), interpolated between the two levels
+ * of its mips that fit a ray's footprint. Texels are interpolated by a quadratic B-spline, which shows no corners when
+ * the picture is magnified. Stars are points: comp/star_images.comp has spread each of their images over some pixels
+ * before, and this light is read here, 64 bits a channel.
  *
- * By Liouville I_nu/nu^3 is the same along a ray: a black body of T is seen as one of g T, its bolometric intensity
- * g^4 times what it was, g = 1/E by the energy E at infinity of what the observer measures as 1. A star's flux goes
- * likewise, by the solid angle that it is magnified to. Spread light is taken for that of black bodies of
- * KD_SKY_KELVIN when it is shifted. */
+ * By Liouville I_nu/nu^3 is constant along a ray: a black body of T is seen as one of g T, with a bolometric
+ * intensity g^4 times as large, g = 1/E, where E is the energy at infinity of light that the observer measures as 1.
+ * A star's flux changes likewise, times the magnified solid angle. Diffuse light is shifted like black bodies of
+ * KD_SKY_KELVIN. */
 #ifndef KD_BLOCK_sky
 /* clang-format off */
 #define KD_BLOCK_sky(F, U, A) \
@@ -19,15 +19,15 @@
     F(spacing)             /* of the grid, radians */ \
     F(spread)              /* brightness of the panorama */ \
     U(columns) U(rows)     /* of its finest level, powers of two */ \
-    F(texel)               /* log2 of one, radians */ \
-    /* from directions, azimuths less the observer's, to galactic ones: rows */ \
+    F(texel)               /* log2 of a texel's size, radians */ \
+    /* rotation from directions, with azimuths minus the observer's, to galactic ones: rows */ \
     F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)
 /* clang-format on */
 #define KD_TRAIT_SKY_GRID 64u
 #define KD_TRAIT_SKY_SPREAD 128u
 #define KD_SKY_KELVIN 5600.0
-#define KD_STAR_LIGHT 6          /* words a pixel: of red, green, blue the lower 32 bits and the upper ones */
-#define KD_STAR_UNIT 268435456.0 /* 2^28: of 1 in these words */
+#define KD_STAR_LIGHT 6          /* words a pixel: for red, green and blue the lower 32 bits and the upper ones */
+#define KD_STAR_UNIT 268435456.0 /* 2^28: the value of 1 in these words */
 #define KD_TABLES_sky(T)
 #define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS) T(SPREAD)
 #define KD_BUFFERS_sky(B) B(1, words, panorama) B(2, pairs, point_light)
@@ -35,7 +35,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Light of a black body of T at g = 1 of luminance 1, as it is seen. */
+/* Light of a black body that has temperature T and luminance 1 at g = 1, as observed. */
 vec3 kd_sky_shifted(float kelvin, float g, uint traits)
 {
     kd_colour_place seen = kd_colour_at(g * kelvin);
@@ -45,7 +45,7 @@ vec3 kd_sky_shifted(float kelvin, float g, uint traits)
     return weight * kd_colour_of(seen);
 }
 
-/* From the hole's frame to the galactic one. */
+/* Rotates from the hole's frame to the galactic one. */
 vec3 kd_sky_galactic(vec3 n)
 {
     return vec3(emission.sky.xx * n.x + emission.sky.xy * n.y + emission.sky.xz * n.z,
@@ -68,7 +68,7 @@ vec3 kd_sky_texel(uint word)
            vec3(float(word & 511u), float((word >> 9) & 511u), float((word >> 18) & 511u));
 }
 
-/* At (u, v) of [0, 1], of one level. */
+/* Value at (u, v) in [0, 1], on one level. */
 vec3 kd_sky_level(vec2 at, uint level)
 {
     uint columns = emission.sky.columns >> level, rows = emission.sky.rows >> level,

@@ -1,22 +1,22 @@
-/* Hot spots shine here: their light left them so long before that which shows `phi`; `apart` is their luminance.
+/* Hot spots as an emitter. `phi` is shown by light that left them with their delay; `apart` is their luminance.
  *
- * The gas of each place shines, with the g of its own orbit: the figure goes round with its centre, what it is made
- * of shears. I_nu/nu^3 is constant along the ray: I_nu ~ nu^-index is seen times g^(3 + index). Such spots, but as
- * spheres in a hot flow: A. E. Broderick & A. Loeb 2006, MNRAS 367, 905. They are in the gas: its own element does
- * not hide them. */
+ * Light comes from the gas at each place, with the g of its own orbit: the figure rotates with its centre, and its
+ * matter shears through it. I_nu/nu^3 is constant along the ray, so I_nu ~ nu^-index is multiplied by g^(3 + index).
+ * A. E. Broderick & A. Loeb 2006, MNRAS 367, 905, have such spots as spheres in a hot flow. Spots are inside the
+ * gas, so the gas of their own element does not hide them. */
 #ifndef KD_BLOCK_spots
 #define KD_SPOT_MAX 16
 /* clang-format off */
 #define KD_BLOCK_spot(F, U) \
-    /* of its centre; its azimuth less the observer's at the time that the picture shows, radians */ \
+    /* of its centre; its azimuth minus the observer's at the time that the picture shows, radians */ \
     F(r) F(phi) \
-    F(omega)                 /* by which phi was less for each M that light was longer on its way */ \
-    F(sharp) F(reach)        /* log2(e)/(2 size^2); the square of the distance beyond which there is none of it */ \
-    F(brightness) F(power)   /* at the centre; that of g */ \
+    F(omega)                 /* decrease of phi for each M of light delay */ \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); square of the distance beyond which it is 0 */ \
+    F(brightness) F(power)   /* at the centre; power of g */ \
     F(temperature)           /* K */
 /* clang-format on */
 #define KD_BLOCK_spots(F, U, A) A(kd_spot_block, at, KD_SPOT_MAX)
-#define KD_TRAIT_SPOTS_SHIFT 8u /* the bits from here on: how many there are */
+#define KD_TRAIT_SPOTS_SHIFT 8u /* number of spots from this bit on */
 #define KD_TRAIT_SPOTS (31u << KD_TRAIT_SPOTS_SHIFT)
 #define KD_TABLES_spots(T)
 #define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(APART) T(SPOTS)

@@ -1,38 +1,37 @@
-/* Polarised synchrotron light of hot electrons in a magnetic field, and what the same electrons do to light that
- * passes: they take some of each polarisation, turn its direction (Faraday rotation) and make linear of circular
- * polarisation and back (conversion). All by fits, Q along the electric field that is across the magnetic one:
+/* Polarised synchrotron light of hot electrons in a magnetic field, and the effects of these electrons on passing
+ * light: absorption of each polarisation, rotation of its direction (Faraday rotation), and conversion between linear
+ * and circular polarisation. All by fits, with Q along the electric field perpendicular to the magnetic one:
  *
- *   thermal     j_I and j_Q are those of A. Pandya et al. 2016 (ApJ 822, 34, equation 31); j_V/j_I and rho_Q those
- *               of J. Dexter 2016 (MNRAS 462, 115, A1 to A3, B4 to B13); rho_V of R. V. Shcherbakov 2008 (ApJ 688,
- *               695, equation 33), or of L. Huang & R. V. Shcherbakov 2011 (MNRAS 416, 2574) as Dexter 2016 has it
- *               (B14, B15), with Bessel functions by M. Abramowitz & I. A. Stegun 1964, 9.8.1 to 9.8.8; absorption
- *               by Kirchhoff's law
+ *   thermal     j_I and j_Q of A. Pandya et al. 2016 (ApJ 822, 34, equation 31); j_V/j_I and rho_Q of J. Dexter 2016
+ *               (MNRAS 462, 115, A1 to A3, B4 to B13); rho_V of R. V. Shcherbakov 2008 (ApJ 688, 695, equation 33), or
+ *               of L. Huang & R. V. Shcherbakov 2011 (MNRAS 416, 2574) as given by Dexter 2016 (B14, B15), with Bessel
+ *               functions by M. Abramowitz & I. A. Stegun 1964, 9.8.1 to 9.8.8; absorption by Kirchhoff's law
  *   kappa       Pandya et al. 2016, equations 35 to 44; rho_Q and rho_V of A. Marszewski, B. S. Prather, A. V.
- *               Joshi, A. Pandya & C. F. Gammie 2021 (ApJ 921, 17), which are for kappa 3.5, 4, 4.5 and 5: between
- *               them, the mean of its neighbours by the way to each
+ *               Joshi, A. Pandya & C. F. Gammie 2021 (ApJ 921, 17), which are for kappa 3.5, 4, 4.5 and 5, with linear
+ *               interpolation between them
  *   power law   Pandya et al. 2016, equations 33 and 34; rho_Q and rho_V of T. W. Jones & S. L. O'Dell 1977 (ApJ
- *               214, 522), as Dexter 2016 has them (B1 to B3), rho_Q with the sign of thermal electrons of the same
- *               mean energy: both are 2 <gamma> times the same numbers where frequencies are high
+ *               214, 522), as given by Dexter 2016 (B1 to B3), rho_Q with the sign of thermal electrons of the same
+ *               mean energy: both are 2 <gamma> times the same numbers at high frequencies
  *
- * V > 0 turns anticlockwise on the sky (IAU 1973), as the light of electrons does whose field points to the
- * observer; rho_V > 0, too, turns the angle from north to east.
+ * V > 0 rotates anticlockwise on the sky (IAU 1973), as does light of electrons whose field points to the observer;
+ * rho_V > 0 rotates the angle from north to east.
  *
- * The direction of the field comes to the observer by the constant of Walker & Penrose, as emit/polarization.glsl
- * has it: across the ray it is b + cos(theta_B) u up to what k has. */
+ * The direction of the field is carried to the observer by the constant of Walker & Penrose, as in
+ * emit/polarization.glsl: across the ray it is b + cos(theta_B) u, up to a multiple of k. */
 #ifndef KD_BLOCK_stokes
 /* clang-format off */
 #define KD_BLOCK_stokes(F, U, A) \
-    F(turn) F(convert) /* log2 of what a power law of electrons has to do with rho_V and rho_Q */ \
-    F(gamma2)          /* log2 of the square of its least energy */ \
-    /* of a kappa distribution: physics/disk/synchrotron.h */ \
+    F(turn) F(convert) /* log2 of the power law's factors of rho_V and rho_Q */ \
+    F(gamma2)          /* log2 of the square of its least gamma */ \
+    /* for a kappa distribution: physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
-    U(kappa_node) F(kappa_past) /* which of Marszewski's kappas is below, and the part of the way to the next */ \
-    F(whole)           /* part of linear polarisation that disorder of the field leaves */
+    U(kappa_node) F(kappa_past) /* Marszewski's next lower kappa, and the fraction of the way to the next one */ \
+    F(whole)           /* fraction of linear polarisation that remains in a disordered field */
 /* clang-format on */
 #define KD_TABLES_stokes(T)
 #define KD_TRAIT_STOKES_FARADAY 2u
-#define KD_TRAIT_STOKES_DEXTER 4u /* rho_V of thermal electrons as Dexter 2016 has it */
+#define KD_TRAIT_STOKES_DEXTER 4u /* rho_V of thermal electrons as given by Dexter 2016 */
 #define KD_TRAITS_stokes(T) T(STOKES_FARADAY) T(STOKES_DEXTER)
 #define KD_BUFFERS_stokes(B)
 #define KD_PASS_stokes(P)
@@ -42,17 +41,17 @@
 #include "light/stokes.glsl"
 
 #define KD_STOKES_MOST \
-    0.99 /* of light, or of what is taken of it, that is polarised: fits of Q and V that come to more are made less \
-            alike */
+    0.99 /* largest polarised fraction of emission and of absorption: Q and V of fits are reduced in proportion to it \
+          */
 
-/* The place at hand, by a unit of the affine parameter; kappa of the unit vector to the right of the ray; what is
- * seen of its Q, U and V so far; and what becomes of light from behind. */
+/* State along the ray: the current place, per unit of the affine parameter; kappa of the unit vector to the right of
+ * the ray; Q, U and V seen so far; and the transfer of light from behind. */
 kd_stokes kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
 vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
 kd_jones kd_stokes_front = kd_jones(vec2(1.0, 0.0), vec3(0.0), vec3(0.0));
 
-/* K0/K2 and K1/K2 of 1/Theta, and 1/K2 where that is below 2, else 0. */
+/* K0/K2 and K1/K2 of 1/Theta, and 1/K2 if 1/Theta is below 2, else 0. */
 vec3 kd_stokes_bessel(float log2_heat)
 {
     float x = exp2(clamp(-log2_heat, -40.0, 40.0)), y = min(0.25 * x * x, 1.0), t = y * 0.28444444,
@@ -78,7 +77,7 @@ vec3 kd_stokes_bessel(float log2_heat)
                    : vec3(p0, p1, 0.0) / (p0 + z * p1);
 }
 
-/* Dexter 2016, B8 and B13: what rho_Q has at higher temperatures over the high-frequency limit. */
+/* Dexter 2016, B8 and B13: rho_Q at high temperatures over its high-frequency limit. */
 float kd_stokes_converts(float log2_x)
 {
     float x = exp2(clamp(log2_x, -40.0, 40.0)), far = max(x, 30.0);
@@ -93,8 +92,8 @@ float kd_stokes_converts(float log2_x)
  *   Shcherbakov 2008   K0/K2 (1 - 0.11 ln(1 + 0.035 X))
  *   Dexter 2016        (K0 - 0.43793091 ln(1 + 0.00185777 X^1.50316886))/K2
  *
- * The latter is a fit for hot electrons. For Theta below 1/2, where both are nearly K0/K2, the former is taken.
- * k: of kd_stokes_bessel. */
+ * The latter is a fit for hot electrons. For Theta below 1/2, where both are nearly K0/K2, the former is used. k:
+ * from kd_stokes_bessel. */
 float kd_stokes_rotates(vec3 k, float log2_x)
 {
     float x = exp2(clamp(log2_x, -60.0, 60.0));
@@ -103,7 +102,7 @@ float kd_stokes_rotates(vec3 k, float log2_x)
     return k.x * max(1.0 - 0.11 * log(1.0 + 0.035 * x), 0.0);
 }
 
-/* Q and V of light and of absorption over I, and rho_Q and rho_V, log2 and sign. */
+/* Q and V over I of emission and of absorption, and rho_Q and rho_V, as log2 and sign. */
 struct kd_polarises { vec2 light, depth, turns, signs; };
 
 vec2 kd_stokes_held(vec2 part)
@@ -144,7 +143,7 @@ kd_polarises kd_stokes_by_power(kd_electrons e, float frequency, float index)
         vec2((index + 1.0) / (index + 7.0 / 3.0), 0.684 * pow(index, 0.49) * 1.73205081 * cotangent * root));
     p.depth = kd_stokes_held(vec2(pow(0.034 * index - 0.0344, 0.086), way * pow(0.71 * index + 0.0352, 0.394) *
                                                                           pow(max(3.1 * open_, 1e-30), 0.512) * root));
-    /* (1 - y^n)/n, n = p/2 - 1, y = gamma_min^2 nu_c sin/nu: none below the frequency of the slowest */
+    /* (1 - y^n)/n, n = p/2 - 1, y = gamma_min^2 nu_c sin/nu: 0 below the frequency of the slowest electrons. */
     float n = 0.5 * index - 1.0, l = 0.69314718 * min(emission.stokes.gamma2 - x, 0.0), nl = n * l,
           less = abs(nl) < 0.01 ? -l * (1.0 + 0.5 * nl) : (1.0 - exp(min(nl, 80.0))) / n;
     p.turns = vec2(emission.stokes.convert + 2.0 * turn - 3.0 * frequency + 2.0 * slant + log2(max(less, 1e-37)),
@@ -153,8 +152,8 @@ kd_polarises kd_stokes_by_power(kd_electrons e, float frequency, float index)
     return p;
 }
 
-/* Marszewski et al. 2021 for kappa 3.5 + node/2, w = exp2(log2_w) and X: what rho_Q has of n e^2 nu_c^2
- * sin^2(theta)/(m_e c nu^3), and rho_V of 2 n e^2 nu_c cos(theta)/(m_e c nu^2) times K0/K2. */
+/* Marszewski et al. 2021 for kappa 3.5 + node/2, w = exp2(log2_w) and X: rho_Q over n e^2 nu_c^2 sin^2(theta)/(m_e c
+ * nu^3), and rho_V over 2 n e^2 nu_c cos(theta)/(m_e c nu^2) times K0/K2. */
 vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
 {
     const vec3 widths[4] = vec3[](vec3(17.0, 3.0, 7.0), vec3(46.0 / 3.0, 5.0 / 3.0, 17.0 / 3.0), vec3(14.0, 1.625, 4.5),
@@ -163,13 +162,13 @@ vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
                                   vec4(1.0 / 12.0, 0.25, 2.0, 0.525), vec4(0.125, 0.375, 2.25, 0.541));
     const vec4 ratios[4] =
         vec4[](vec4(2.0, 1.0, 3.125, 4.0), vec4(54.0, 50.0, 30.0 / 11.0, 134.0), vec4(43.0, 38.0, 7.0 / 3.0, 92.5),
-               vec4(13.0 / 14.0, 0.0, 2.0, 13.0 / 14.0)); /* the last over w */
+               vec4(13.0 / 14.0, 0.0, 2.0, 13.0 / 14.0)); /* the last column is over w */
     const float slows[4] = float[](0.447, 0.391, 0.348, 0.313);
     vec3 width = widths[node];
     vec4 shape = shapes[node], ratio = ratios[node];
     float w = exp2(clamp(log2_w, -40.0, 40.0)), root = sqrt(w), x = exp2(clamp(log2_x, -40.0, 40.0));
     float bend =
-        exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* beyond, there is nothing of it */
+        exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* beyond, the exponential is 0 */
     float q =
         (1.0 - exp(-shape.x * pow(x, 0.84)) - bend) * (width.x * w - width.y * root + width.z * root * exp(-5.0 * w));
     float v = max(1.0 - 0.17 * log(1.0 + slows[node] * inversesqrt(x)), 0.0) * (w + ratio.x + ratio.y / w) /
@@ -182,7 +181,7 @@ kd_polarises kd_stokes_by_kappa(kd_electrons e, float frequency)
     float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), way = sign(e.cosine), log2_w = 0.0;
     kd_kappa_laws of = kd_kappa_of(e, frequency);
     log2_w = of.z - log2(emission.plasma.kappa);
-    /* log2 of sin^-n - 1 for the four powers of V's fits */
+    /* log2 of sin^-n - 1 for the four powers of V's fits. */
     vec4 open_ = log2(max(exp2(min(-slant * vec4(2.4, 2.5, 2.28, 2.05), vec4(100.0))) - 1.0, vec4(1e-30)));
     float light = kd_log2_joined(of.light_low, of.light_high, emission.plasma.kappa_light_sharp),
           depth = kd_log2_joined(of.depth_low, of.depth_high, emission.plasma.kappa_depth_sharp);
@@ -211,8 +210,8 @@ kd_polarises kd_stokes_by_kappa(kd_electrons e, float frequency)
     return p;
 }
 
-/* Walker & Penrose's constant of k ^ f, up to a factor above 0; f: contravariant components t, r, theta, phi of
- * Boyer and Lindquist. */
+/* Walker & Penrose's constant of k ^ f, up to a positive factor; f: contravariant components t, r, theta, phi in
+ * Boyer-Lindquist coordinates. */
 vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
 {
     float a = cam.spin, aw2 = a * p.w * p.w, s2 = max(1.0 - p.u * p.u, 1e-12), s = sqrt(s2), size = sqrt(g.sigma),
@@ -225,7 +224,7 @@ vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* exp(2 i EVPA) on the sky of light whose electric field is across the magnetic one. */
+/* exp(2 i EVPA) on the sky of light whose electric field is perpendicular to the magnetic one. */
 vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
 {
     vec4 u =
@@ -237,7 +236,7 @@ vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
     return vec2(z.x * z.x - z.y * z.y, -2.0 * z.x * z.y) / dot(z, z);
 }
 
-/* light, depth: those of I; depth_log2: log2 of the depth, of which all above 2^40 is left out alike. */
+/* light, depth: for I; depth_log2: log2 of the depth, whose excess over 2^40 is dropped in proportion. */
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2)
 {
     kd_polarises of;
@@ -257,14 +256,14 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
                                depth * vec3(whole * of.depth.x * c, of.depth.y), vec3(whole * turns.x * c, turns.y));
 }
 
-/* A stretch: what is in front of it, its light so far as it arrives, and the three places of it. */
+/* A stretch: the transfer in front of it, its light so far as it arrives, and its three places. */
 struct kd_stokes_trial {
     kd_jones front;
     vec4 light;
     kd_stokes one, two, three;
 };
 
-/* K S of a length. */
+/* K S per length. */
 vec4 kd_stokes_less(kd_stokes m, vec4 s)
 {
     return m.depth * s + vec4(dot(m.takes, s.yzw), s.x * m.takes - cross(m.turns, s.yzw));
@@ -289,8 +288,8 @@ void kd_stokes_along(inout kd_stokes_trial trial, float way)
     trial.three = kd_stokes(i * m.light, m.depth, m.takes, m.turns);
 }
 
-/* Light of the three is dimmed and turned by half its own matter and all of those before it: what that leaves of the
- * first order, by Gauss's coefficients as kd_march_rest has them. */
+/* Light of the three places is attenuated and rotated by half of its own matter and all matter before it: the
+ * remainder at first order, by Gauss's coefficients as in kd_march_rest. */
 vec4 kd_stokes_rest(kd_stokes_trial t)
 {
     vec4 rest = 0.0809475 * (kd_stokes_less(t.two, t.one.light) - kd_stokes_less(t.one, t.two.light) +
@@ -300,8 +299,8 @@ vec4 kd_stokes_rest(kd_stokes_trial t)
     return x < 8.0 && turn < 2.0 ? exp(-0.5 * x) * rest : vec4(0.0);
 }
 
-/* What its three factors leave of the second order of the product of all places, sum [c_i, c_j] by those
- * coefficients (W. Magnus 1954), as a factor behind them. */
+/* Second-order remainder of the product of all places by its three factors, sum [c_i, c_j] by those coefficients (W.
+ * Magnus 1954), as a factor after them. */
 kd_jones kd_stokes_order(kd_stokes_trial t)
 {
     const float near = 0.0809475, far = 0.0352425;
@@ -311,12 +310,12 @@ kd_jones kd_stokes_order(kd_stokes_trial t)
     vec3 im =
         near * (cross(r1, r2) - cross(a1, a2) + cross(r2, r3) - cross(a2, a3)) - far * (cross(r1, r3) - cross(a1, a3));
     float size = dot(re, re) + dot(im, im), turn = length(r1 + r2 + r3);
-    /* The series is one in the turns of the stretch, and the factor does not keep a length: over many stretches of
-     * many radians each it would make light grow. */
+    /* The series is one in the rotation angle of the stretch, and the factor does not preserve lengths: over many
+     * stretches of many radians each it would amplify light. */
     return size < 0.25 && turn < 2.0 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
 }
 
-/* The stretch is taken: its light as it arrives. */
+/* Accepts the stretch and returns its light as it arrives. */
 vec4 kd_stokes_take(kd_stokes_trial t)
 {
     vec4 light = t.light + kd_jones_on(kd_stokes_front, kd_stokes_rest(t));

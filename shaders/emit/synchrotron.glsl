@@ -1,41 +1,41 @@
-/* Synchrotron light of electrons in a magnetic field: what a length gives and takes at one frequency and angle. All
- * of it is in logarithms to the base 2: a float holds neither the powers of ten that come together here nor
- * exponentials far from 1.
+/* Synchrotron emission and absorption of electrons in a magnetic field, per length at one frequency and angle. All
+ * values are logarithms to base 2, because neither the powers of ten that occur here nor exponentials far from 1 fit a
+ * float.
  *
- * Thermal electrons (A. Pandya, Z. Zhang, M. Chandra & C. F. Gammie 2016, ApJ 822, 34, equation 31; the fit is that
- * of P. K. Leung, C. F. Gammie & S. C. Noble 2011, ApJ 737, 21), with nu_c = eB/(2 pi m_e c), nu_s = (2/9) nu_c
- * Theta^2 sin(theta) and X = nu/nu_s:
+ * Thermal electrons (A. Pandya, Z. Zhang, M. Chandra & C. F. Gammie 2016, ApJ 822, 34, equation 31; the fit is that of
+ * P. K. Leung, C. F. Gammie & S. C. Noble 2011, ApJ 737, 21), with nu_c = eB/(2 pi m_e c), nu_s = (2/9) nu_c Theta^2
+ * sin(theta) and X = nu/nu_s:
  *
  *   j = n e^2 nu_c/c (sqrt(2) pi/27) sin(theta) (X^(1/2) + 2^(11/12) X^(1/6))^2 exp(-X^(1/3)),   alpha = j/B_nu
  *     (Kirchhoff)
  *
- * Power law, n(gamma) as gamma^-p from gamma_min to gamma_max (equations 33 and 34): j as nu^(-(p-1)/2), alpha as
- * nu^(-(p+4)/2); what does not change from place to place the host has put into two numbers. */
+ * Power law, n(gamma) ~ gamma^-p from gamma_min to gamma_max (equations 33 and 34): j ~ nu^(-(p-1)/2), alpha ~
+ * nu^(-(p+4)/2). The host has combined the constant factors into two numbers. */
 #ifndef KD_SYNCHROTRON_GLSL
 #define KD_SYNCHROTRON_GLSL
 
-/* This is log2 of their number in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss; cosine, sine2: of the
- * angle between the field and the light, as the matter sees both, and the square of its sine. */
+/* Electrons: log2 of their density in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss; cosine, sine2: of
+ * the angle between field and light in the frame of the matter, and the square of its sine. */
 struct kd_electrons { float density, heat, field, cosine, sine2; };
 /* Log2 of the emissivity in units of e^2/c cm^-3 GHz (e in Gaussian units), 7.69558e-22 W m^-3 Hz^-1 sr^-1, and of
- * the absorptivity in units of that over 2h GHz^3/c^2, 52.191 m^-1. steep: by how many of its own sizes light
- * changes where the field does by one. */
+ * the absorptivity in units of that over 2h GHz^3/c^2, 52.191 m^-1. steep: relative change of light per relative
+ * change of the field. */
 struct kd_radiates { float light, depth, steep; };
 
 #define KD_LOG2_E 1.44269504
 #define KD_LOG2_GYRO -8.48074447    /* e/(2 pi m_e c) is 2.79924899e-3 GHz a gauss */
 #define KD_LOG2_QUANTUM -36.8464093 /* h GHz/(m_e c^2) */
 #define KD_LOG2_THERMAL -2.60339137 /* sqrt(2) pi/27 */
-#define KD_LOG2_LEAST -1000.0       /* nothing */
+#define KD_LOG2_LEAST -1000.0       /* stands for log2 of 0 */
 
-/* This is log2(e^x - 1), of log2(x). */
+/* log2(e^x - 1), given log2(x). */
 float kd_log2_expm1(float log2_x)
 {
     float x = exp2(min(log2_x, 24.0));
     return x < 0.02 ? log2_x + KD_LOG2_E * x * (0.5 + x * (1.0 / 24.0)) : x > 16.0 ? KD_LOG2_E * x : log2(exp(x) - 1.0);
 }
 
-/* This is log2 of B_nu in units of 2h GHz^3/c^2, of log2 of the frequency in GHz and of Theta. */
+/* log2 of B_nu in units of 2h GHz^3/c^2, given log2 of the frequency in GHz and of Theta. */
 float kd_log2_planck(float frequency, float heat)
 {
     return 3.0 * frequency - kd_log2_expm1(frequency - heat + KD_LOG2_QUANTUM);

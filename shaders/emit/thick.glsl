@@ -1,36 +1,36 @@
-/* This is the smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the
- * axis, z = r cos(theta),
+/* The smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the axis, z = r
+ * cos(theta),
  *
  *   density ~ exp(-z^2/2H^2) (1 - (z/4.5 H)^8)^3,   H = height R (R/10)^flare,   between the spheres of the disk's
  *                                                   edges, where R is beyond the ISCO,
  *
- * and to 4.5 H, where it ends without an edge, which places between it and the plane would find or miss.
+ * and up to 4.5 H, where it ends smoothly: samples between it and the plane would either hit or miss a sharp edge.
  *
- * It shines as the thin disk does, of whose temperature and flux it is at R, and goes round with the Omega of the
- * circular orbit there, at any height (the metric's own u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi,
- * Bardeen, Press & Teukolsky 1972). From top to bottom it has the optical depth of the thin disk: what crosses that
- * at an angle theta to its normal in the frame of the gas is dimmed by as much, whatever of it stands in opacity and
- * fade, so that for a small height the picture is the thin disk's. Turbulence is that of gas.glsl, its noise with a
- * third coordinate. */
+ * It emits as the thin disk does at R, with its temperature and flux, and rotates with the Omega of the circular
+ * orbit there at any height (by the metric's u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen,
+ * Press & Teukolsky 1972). From top to bottom it has the optical depth of the thin disk: light that crosses at an
+ * angle theta to its normal in the frame of the gas is attenuated by as much, including opacity and fade, so that
+ * for a small height the picture is the thin disk's. Turbulence is that of gas.glsl, with a third coordinate in its
+ * noise. */
 #ifndef KD_BLOCK_thick
-#define KD_THICK_REACH 4.5               /* H */
-#define KD_THICK_AMID 0.399624938        /* of the density, over the column: of height 1: its integral is 1 */
-#define KD_THICK_NOISE 5.237147522273636 /* 1 over the standard deviation of gradient noise by gradients of a cube */
-#define KD_THICK_FAINT 0.15 /* octaves fainter than this part of the first are sampled as the others ask for */
+#define KD_THICK_REACH 4.5        /* times H */
+#define KD_THICK_AMID 0.399624938 /* density in the middle over the column, for height 1: its integral is 1 */
+/* reciprocal standard deviation of gradient noise with the gradients of a cube */
+#define KD_THICK_NOISE 5.237147522273636
+#define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first do not shorten stretches */
 #define KD_THICK_HASTE \
-    4.0 /* of slow light: M of time for one along the ray, at most, that a grain is made shorter by: beyond, next to \
-           the horizon, little is seen of it */
-/* Streaks fade where the gas, along its normal, has less than this part of the optical depth that it has where the
- * ray crosses the plane nearest to the hole. Light falls as the depth times the flux, that is as its square: the first
- * octave ends where there is 3e-9 of the light of that crossing. Else rays along a disk of 5e5 M take thousands of
+    4.0 /* slow light: M of time per M along the ray by which a grain is shortened at most; beyond that, next to the \
+           horizon, it is hardly visible */
+/* Streaks fade out where the gas, along its normal, has less than this fraction of the optical depth at the ray's
+ * innermost crossing of the plane. Light is proportional to depth times flux, which is the square: the first octave
+ * ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M would take thousands of
  * stretches in the dark. */
 #define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
-    3.0 /* cells in height for each in the plane: streaks are as much narrower than they are long \
-         */
+    3.0 /* cells in height for each in the plane: streaks are narrower than they are long by this factor */
 /* clang-format off */
 #define KD_BLOCK_thick(F, U, A) \
-    F(height) F(flare)     /* H/R at 10 M, and the power of R/10 that it grows as */ \
+    F(height) F(flare)     /* H/R at 10 M; power of R/10 at which it grows */ \
     F(inner) F(outer)      /* M */
 /* clang-format on */
 #define KD_TABLES_thick(T)
@@ -43,7 +43,7 @@
 #ifdef KD_MARCH
 const uint KD_THICK_TAKEN = (TRAITS_thick & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
 
-/* This is the circular orbit at a distance from the axis, as matter at any height has it: u^t and Omega. */
+/* The circular orbit at a distance from the axis, as matter at any height moves: u^t and Omega. */
 struct kd_thick_orbit { float ut, omega; };
 
 kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
@@ -54,14 +54,14 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 
-/* This is how much earlier light was there, a unit of Mino time along the ray back: t'. */
+/* t': how much earlier light was at a place, per unit of Mino time along the ray backwards. */
 float kd_thick_time(kd_midst p, float s2)
 {
     float a = cam.spin, w2 = p.w * p.w, all = p.energy + a * (a * p.energy - p.momentum) * w2;
     return (1.0 + a * a * w2) * all / (w2 * max(kd_delta(p.w, cam.root), 1e-30)) + a * (p.momentum - a * p.energy * s2);
 }
 
-/* There is a gradient for each point of a lattice, times 2^31. */
+/* Gradient at each point of a lattice, times 2^31. */
 vec3 kd_thick_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -69,7 +69,7 @@ vec3 kd_thick_gradient(uint point)
     return vec3(float(int(h)), float(int(h << 10)), float(int(h << 20)));
 }
 
-/* One plane of the lattice gives noise by its gradients, and noise by those turned by a quarter about the third
+/* One plane of the lattice: noise by its gradients, and noise by gradients rotated by a quarter turn about the third
  * axis. */
 vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
 {
@@ -83,8 +83,8 @@ vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
     return mix(low, high, t.y);
 }
 
-/* Gradient noise of variance 1 (Perlin 2002) in three dimensions, in a lattice that is shifted by at.xy of a cell
- * and at.zw cells; and, uncorrelated with it, that of the gradients turned, of variance 2/3. */
+/* Gradient noise of variance 1 (Perlin 2002) in three dimensions, in a lattice shifted by at.xy of a cell and at.zw
+ * cells; and, uncorrelated with it, the noise of the rotated gradients, of variance 2/3. */
 vec2 kd_thick_noise(vec3 p, vec4 at)
 {
     p.xy += at.xy;
@@ -95,11 +95,10 @@ vec2 kd_thick_noise(vec3 p, vec4 at)
     vec2 low = kd_thick_plane(x0, x1, y0, y1, z0, d, t.xy),
          high = kd_thick_plane(x0, x1, y0, y1, z0 + 0xcb1ab31fu, vec3(d.xy, d.z - 1.0), t.xy);
     return mix(low, high, t.z) *
-           (KD_THICK_NOISE / 2147483648.0); /* E[n^2] over gradients of the cube and places of the cell */
+           (KD_THICK_NOISE / 2147483648.0); /* E[n^2] over the cube's gradients and places of the cell */
 }
 
-/* The same as kd_gas_excess, with a height; and how many cells of the finest octave that counts for the grain there
- * are to one of the first. */
+/* As kd_gas_excess, with a height. finest: cells of the finest octave relevant for the grain, per cell of the first. */
 struct kd_thick_stir { float excess, finest; };
 
 kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
@@ -116,7 +115,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), KD_GAS_SLOW ? ring.y * p.ago : 0.0);
     kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y),
                                   (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
-    if (KD_GAS_SLOW) { /* by then the rings had another angle between them */
+    if (KD_GAS_SLOW) { /* the angle between the rings was different then */
         vec4 next_ring = kd_table_row(gas, two.row);
         two.ahead = next_ring.y * p.ago;
         psi = kd_cos_sin(p.phi - next_ring.x + two.ahead + emission.gas.shear * ((x - 1.0) * KD_GAS_RING));
@@ -124,8 +123,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     }
     float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
     float shear = emission.gas.shear, per = emission.gas.cells / axis;
-    /* In cells (dr, dphi + shear dr, layers dz) an ellipse has the trace of its matrix for the sum of squares, and
-     * that of its minors for the product. */
+    /* In cells (dr, dphi + shear dr, layers dz) the sum of an ellipse's squared semi-axes is the trace of its
+     * matrix, and the sum of its minors takes the place of the squared product. */
     vec3 plane = p.spread.plane, rise = KD_THICK_LAYERS * p.spread.rise;
     float rr = plane.x, rf = plane.y + shear * rr, ff = plane.z + shear * (2.0 * plane.y + shear * rr), rz = rise.x,
           fz = rise.y + shear * rise.x, zz = KD_THICK_LAYERS * rise.z;
@@ -136,7 +135,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     1.0; /* by what gas there is; they fade from three times as much */
+                     1.0; /* by the amount of gas; octaves fade out from three times this value */
         if (!(seen > 0.0))
             break;
         seen = min(0.5 * seen, 1.0);
@@ -154,8 +153,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     return kd_thick_stir(sum, finest);
 }
 
-/* How much gas of that flux counts for a ray's light, by the plane's at the ray's innermost crossing; up to where the
- * flux is about largest. */
+/* Weight of gas of a given flux for a ray's light, relative to the plane at the ray's innermost crossing, up to
+ * about where the flux is largest. */
 float kd_thick_counts(float nearest, float flux)
 {
     float w = min(nearest, 0.5 / emission.frame.r_isco), t = kd_disk_heat(w), near = t * t * t * t * w * w * w;
@@ -170,7 +169,7 @@ kd_medium kd_thick_along(kd_midst p)
     float height = axis * emission.thick.height *
                    (emission.thick.flare == 0.0 ? 1.0 : pow(0.1 * axis, emission.thick.flare)),
           x = z / height;
-    /* How fast the ray goes up and outwards, and round, of the length that it goes. */
+    /* Rates at which the ray goes up, outwards and round, per length. */
     float per = 1.0 / p.speed, dr = -p.dw * r * r * per, dz = dr * p.u + r * p.du * per,
           out_ = dr * s - r * p.u * p.du / s * per, round_ = -p.momentum / s * r * per;
     float off = max(abs(x) - KD_THICK_REACH, 0.0) * height;
@@ -194,8 +193,8 @@ kd_medium kd_thick_along(kd_midst p)
                              : kd_thick_stir(0.0, 0.0);
     float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
 
-    /* The thin disk's opacity for light at this angle, as an optical depth along the normal: what it lets through
-     * has no difference of what is nearly the same. */
+    /* The thin disk's opacity for light at this angle, as an optical depth along the normal; transmission is
+     * computed without a difference of nearly equal numbers. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0), on = f * f * (3.0 - 2.0 * f),
           off_ = (1.0 - f) * (1.0 - f) * (1.0 + 2.0 * f);
     float c = p.du / s / (r * seen), slant = sqrt(c * c + emission.thick.height * emission.thick.height),
@@ -217,7 +216,7 @@ kd_medium kd_thick_along(kd_midst p)
     float edge = x * x * (1.0 / (KD_THICK_REACH * KD_THICK_REACH)), ends = max(1.0 - edge * edge * edge * edge, 0.0);
     depth *= KD_THICK_AMID / height * exp(-0.5 * x * x) * ends * ends * ends * seen;
     if (KD_THICK_TAKEN > 0u) {
-        if (KD_GAS_SLOW) /* the pattern comes along while the ray goes back in time */
+        if (KD_GAS_SLOW) /* the pattern moves while the ray goes back in time */
             round_ += orbit.omega * axis * min(per * kd_thick_time(p, s2), KD_THICK_HASTE);
         float across = out_ * out_ + (round_ + emission.gas.shear * out_) * (round_ + emission.gas.shear * out_) +
                        KD_THICK_LAYERS * KD_THICK_LAYERS * dz * dz;

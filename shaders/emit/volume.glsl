@@ -1,18 +1,18 @@
-/* A shell of matter about the hole that is the same everywhere, by its own measure: it shines and takes light away
- * along each ray's way through it. It is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky
- * 1972), who see the energy
+/* A uniform shell of matter about the hole: emission and absorption along each ray's path through it are the same
+ * everywhere in its own frame. It is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972),
+ * who measure the energy
  *
  *   -k.U = (E - omega L) sqrt(A/(Sigma Delta)),   omega = 2 a r/A,   A = (r^2 + a^2)^2 - a^2 Delta sin^2(theta).
  *
- * Without the shift it is seen as if its frequencies were the observer's: what is left is the affine parameter, and
- * its closed form. */
+ * Without the redshift its frequencies are taken as the observer's: what remains is the affine parameter, which has
+ * a closed form. */
 #ifndef KD_BLOCK_volume
 /* clang-format off */
 #define KD_BLOCK_volume(F, U, A) \
     F(inner) F(outer)      /* M */ \
-    F(emissivity)          /* a unit of length, 1/M, in units of the disk's brightest surface */ \
-    F(opacity)             /* optical depth a unit of length, 1/M */ \
-    F(temperature)         /* K, whose colour it has */
+    F(emissivity)          /* per unit of length, 1/M, in units of the disk's largest surface brightness */ \
+    F(opacity)             /* optical depth per unit of length, 1/M */ \
+    F(temperature)         /* K: temperature whose colour it has */
 /* clang-format on */
 #define KD_TABLES_volume(T)
 #define KD_TRAITS_volume(T) T(REDSHIFT)
@@ -21,7 +21,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* This is -k.U of an observer of zero angular momentum. */
+/* -k.U for an observer of zero angular momentum. */
 float kd_volume_energy(kd_midst p)
 {
     float a = cam.spin, w2 = p.w * p.w, b = 1.0 + a * a * w2, delta = kd_delta(p.w, cam.root), aw2 = a * a * w2;
@@ -29,9 +29,9 @@ float kd_volume_energy(kd_midst p)
     return (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * max(delta, 1e-30)));
 }
 
-/* The march finds the edges of all volumes together. Those of the shell may lie within others: there a stretch is no
- * longer than the way to them, or than this part of r, by which the shell's length is uncertain at `balanced`, and
- * less the finer stretches are. */
+/* The march finds the edges of all volumes together. Edges of the shell may be inside others: there a stretch is no
+ * longer than the distance to them, or than this fraction of r, the uncertainty of the shell's length at `balanced`,
+ * which falls with finer stretches. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {

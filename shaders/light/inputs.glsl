@@ -1,5 +1,5 @@
-/* Kernels that make light of a lens map read this: the map, numbers and tables of the emitters, the camera, and the
- * emitters' own buffers. Bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is what they write. Needs the
+/* Inputs of the kernels that make light from a lens map: the map, numbers and tables of the emitters, the camera,
+ * and the emitters' buffers. Bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is their output. Needs the
  * specialisation constants of KD_SPEC_TRANSFER. */
 #ifndef KD_INPUTS_GLSL
 #define KD_INPUTS_GLSL
@@ -25,13 +25,13 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* This is the same for all invocations, and read before the first branch: behind one lavapipe reads it anew for each
- * lane and each use. */
+/* Uniform over all invocations, and read before the first branch: after one, lavapipe reads it again for each lane
+ * and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-/* The emitters' own buffers: as texels where the map is. lavapipe reads storage lane by lane, at ten times the
- * price. */
+/* The emitters' buffers, as texels if the map is: lavapipe reads storage buffers lane by lane, at ten times the
+ * cost. */
 #define KD_OWN_stored(number, member) \
     layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
 #define KD_OWN_quads(number, member) \
@@ -67,7 +67,7 @@ float quantity(uint which, uint at)
     return (QUANTITIES & which) != 0u ? KD_MAP_AT(at + kd_plane(which) * slice.stride) : 0.0;
 }
 
-/* This is Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
+/* Q from w'^2 = R(w) of kerr_ray.glsl, for a ray that is not on the camera's grid. */
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)
 {
     float w2 = w * w, ae = cam.spin * energy, j = momentum - ae;

@@ -1,6 +1,6 @@
-/* This kernel makes one layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's
- * number, NaN where there is none. LAYER says which, ORDER of which crossing. KD_MARCH: for scenes with volumes or
- * bodies, where light is that which transfer.comp has left, Stokes Q, U and V behind it. */
+/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map; an invocation writes a pixel's number, NaN
+ * if there is none. LAYER: which layer; ORDER: of which crossing. KD_MARCH: for scenes with volumes or bodies, whose
+ * light, followed by Stokes Q, U and V, was stored by transfer.comp. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -11,7 +11,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "light/numbers.glsl"
 layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 
-/* A device need not keep NaN in arithmetic: it is told from numbers, and written, by its bits. */
+/* A device need not preserve NaN in arithmetic: it is recognised and written by its bits. */
 #define KD_NOTHING_BITS 0x7fc00000u
 #define KD_INFINITE_BITS 0x7f800000u
 #define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)
@@ -26,7 +26,7 @@ const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_END_);
 const bool POLARIZED = false KD_LAYERS(IS_POLARIZED_, NOT_, NOT_END_);
 const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_END_);
 
-/* That of what shines there, along the ray: -ln of the part of the light from behind that it lets through. */
+/* Optical depth of matter at a sample, along the ray: -ln of its transmission. */
 float kd_layer_depth(kd_sample s)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -34,9 +34,9 @@ float kd_layer_depth(kd_sample s)
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
 
-/* A footprint. A ray without neighbours has none, nor has one whose neighbours 32 bits do not tell apart from it
+/* A footprint. There is none for a ray without neighbours, or one whose neighbours are indistinguishable in 32 bits
  * (comp/footprint.comp). */
-#define KD_FOOTPRINT_LEAST 1e-6 /* of r, and radians */
+#define KD_FOOTPRINT_LEAST 1e-6 /* relative to r, and in radians */
 float kd_layer_size(float footprint, float least)
 {
     return footprint < KD_FOOTPRINT_EDGE && footprint >= least ? footprint : KD_NOTHING;
@@ -46,7 +46,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 {
     uint plane = at + n * slice.stride;
     bool listed =
-        (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays round the critical curve, which the camera does not know */
+        (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays round the critical curve, which are not on the camera's grid */
     float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
           slope = quantity(KD_LENS_SLOPE, plane);
@@ -57,8 +57,8 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry
- * through sums. */
+/* Whether a ray of the pixel was given up, which gives no number. This is a flag because a device need not preserve
+ * NaN in sums. */
 bool untold = false;
 
 #ifdef KD_MARCH
@@ -68,7 +68,7 @@ bool untold = false;
 #include "light/meet.glsl"
 layout(set = 0, binding = KD_LIGHT_BINDING) readonly buffer Radiance { float radiance[]; };
 
-/* This is the luminance of a pixel, Stokes I, and Q, U and V. */
+/* Luminance of a pixel, Stokes I, and Q, U and V. */
 vec4 light_of_pixel(uint o)
 {
     const uint pixels = emission.frame.band_pixels, at = (KD_APART ? 4u : 3u) * pixels + o;
@@ -77,7 +77,7 @@ vec4 light_of_pixel(uint o)
     return vec4(dot(vec3(radiance[3u * o], radiance[3u * o + 1u], radiance[3u * o + 2u]), LUMINANCE), stokes);
 }
 #else
-/* Stokes Q and U of a ray: all that shines at a crossing is polarised alike. */
+/* Stokes Q and U of a ray: all light of a crossing has the same polarisation. */
 vec2 polarized = vec2(0.0);
 void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
 {
@@ -87,7 +87,7 @@ void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
         polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
 }
 
-/* This is the luminance of a ray, Stokes I, and Q, U and V: of all that it sees, or of one order, as it arrives. */
+/* Luminance of a ray, Stokes I, and Q, U and V, as it arrives: of everything that it sees, or of one order. */
 vec4 light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -116,8 +116,7 @@ vec4 light(uvec2 place, uint at, uint pixel)
 }
 #endif
 
-/* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is
- * polarised. */
+/* Angle of the electric field, from north to east, in (-pi/2, pi/2]; and degree of polarisation. */
 float kd_layer_evpa(vec4 light)
 {
     float by = kd_squarable(max(abs(light.y), abs(light.z)));
@@ -125,7 +124,7 @@ float kd_layer_evpa(vec4 light)
 }
 float kd_layer_polarized(vec4 light) { return light.x > 0.0 ? kd_part_of(vec3(light.yz, 0.0), light.x) : KD_NOTHING; }
 
-/* The layer's number of the mean light of a pixel. */
+/* The layer's number for the mean light of a pixel. */
 float value_of_light(vec4 light)
 {
 #define LIGHT_VALUE_(number, name, needs, value) \
@@ -135,7 +134,7 @@ float value_of_light(vec4 light)
     return KD_NOTHING;
 }
 
-/* The number of a crossing, which must lie on the disk. */
+/* The layer's number for a crossing, which must be on the disk. */
 float value_of(kd_sample s, float delay)
 {
 #define VALUE_(number, name, needs, value, met) \
@@ -146,7 +145,7 @@ float value_of(kd_sample s, float delay)
 }
 
 #ifdef KD_MARCH
-/* That of a body which hides what lies behind. */
+/* The layer's number for a body that hides what is behind it. */
 float value_of_met(kd_met met)
 {
 #define MET_(number, name, needs, value, met) \
@@ -228,7 +227,8 @@ void main()
 #endif
         value = value_of_light(sum);
     } else {
-        uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u; /* of the grid: the middle one, or the one before it */
+        /* of the grid: the middle one, or the one before the middle */
+        uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u;
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);
     }

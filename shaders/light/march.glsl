@@ -1,49 +1,52 @@
-/* This is the march: light along a ray through volumes, composed with the crossings of the lens map in their order
+/* The march: light along a ray through volumes, composed with the crossings of the lens map in their order
  * (docs/physics/volume.md).
  *
- * The ray is followed once more, by the steps of ray/escape.glsl, long and accurate as they are; between the ends of
- * a step it is the quintic that fits y, y' and y'' at both (Hermite's: its error is of the sixth order of the step,
- * as the integrator's). A step is parted where w or u turns and where the plane is crossed, so that both are
- * monotone in each part, and of a part what lies within the volumes' bounds is found by Newton's method. That is
- * gone through in stretches with three places each, Gauss and Legendre's, as long as the grain, the depth and the
- * way across allow; one that turns out too long is gone through anew.
+ * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Between the ends of a step it
+ * is the quintic that fits y, y' and y'' at both (Hermite's, with an error of sixth order in the step, as the
+ * integrator's). A step is split where w or u turns and where the plane is crossed, so that both are monotone in each
+ * part. In each part the range inside the volumes' bounds is found by Newton's method. It is integrated in stretches
+ * with three Gauss-Legendre nodes each, as long as the grain, the depth and the distance allow; a stretch that turns
+ * out too long is repeated.
  *
  * Needs inputs.glsl, KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map, and
  * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
-/* These are told anew with each dispatch: by one kernel a sample of pixels is followed more closely
+/* Push constants, which differ between dispatches: the same kernel follows a sample of pixels more finely
  * (src/render/frame/march_error.c). */
-#define STEPS slice.steps /* a half period */
+#define STEPS slice.steps /* per half period */
 #define FINE slice.fine   /* quarters of a stretch a grain */
 
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"
 
-#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* stretch, of a step, */
-#define KD_MARCH_LEAST 0.05              /* or, where that is shorter, of the longest that the way allows */
-#define KD_MARCH_WAY 0.5      /* longest stretch, of r: over it three places find the integral of r^2 to 4e-5 */
-#define KD_MARCH_DEPTH 1.0    /* and in optical depth */
-#define KD_MARCH_TURN 1.0     /* and in radians of Faraday rotation and conversion, */
-#define KD_MARCH_TURNED 0.125 /* but this part of a grain: what turns further is mixed, and little is left of it */
-#define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
-#define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
+#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* shortest stretch: this fraction of a step, */
+/* or, if that is shorter, this fraction of the longest stretch by distance */
+#define KD_MARCH_LEAST 0.05
+#define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
+#define KD_MARCH_DEPTH 1.0 /* longest stretch in optical depth, */
+#define KD_MARCH_TURN 1.0  /* and in radians of Faraday rotation and conversion, */
+/* but at least this fraction of the length otherwise allowed: light rotated further is mixed and mostly depolarised */
+#define KD_MARCH_TURNED 0.125
+#define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
+/* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
+#define KD_MARCH_BEHIND 1.5
 #define KD_MARCH_LOOPS \
-    65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to \
-              be found out */
+    65536u /* more than needed: lavapipe may end loops before their condition does, and work left undone must be \
+              detected */
 #define KD_MARCH_CLOSE \
-    1e-8 /* Delta w^4 where a ray that turns is as close to the horizon as 32 bits tell: its time there has no digits, \
-            and stays finite */
-/* The loops of one stretch take at most so many passes, those of a part that the roots of its ends take included. */
+    1e-8 /* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no \
+            valid digits, but stays finite */
+/* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
 #define KD_MARCH_ENDS 100u
-#define KD_MARCH_DEEP 1e3            /* optical depth that is as good as any above */
-#define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
+#define KD_MARCH_DEEP 1e3            /* optical depth beyond which more makes no difference */
+#define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
-/* A ray that a driver's limit on loops has ended is followed again in pieces, a dispatch each (KD_PIECES). left: passes
- * of loops that this piece may still take; waits: none were left before the ray's end. It then has left so many steps
- * behind, has come to `from` in the next, and its next stretch may be so long. */
+/* A ray that was stopped by a driver's limit on loops is traced again in pieces, one dispatch each (KD_PIECES).
+ * left: passes of loops that this piece may still take; waits: they ran out before the ray's end. The other members
+ * are where to continue: completed steps, the place within the next step, and the length of the next stretch. */
 #ifdef KD_PIECES
 struct kd_march_piece {
     uint left, steps;
@@ -59,10 +62,10 @@ struct kd_march_piece {
 #define KD_MARCH_WAITS false
 #endif
 
-/* A polynomial of the time within a step, from 0 to 1. */
+/* A polynomial in the time within a step, from 0 to 1. */
 struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
 
-/* It has these values, slopes and second derivatives at both ends. */
+/* The quintic with these values, slopes and second derivatives at both ends. */
 kd_quintic kd_quintic_of(float y0, float d0, float a0, float y1, float d1, float a1)
 {
     float rest = y1 - y0 - d0 - 0.5 * a0, slope = d1 - d0 - a0, bend = a1 - a0;
@@ -83,7 +86,7 @@ kd_quintic kd_quintic_derived(kd_quintic q)
     return kd_quintic(q.c1, 2.0 * q.c2, 3.0 * q.c3, 4.0 * q.c4, 5.0 * q.c5, 0.0);
 }
 
-/* Where it takes a value between two times, at one of which it is below it: Newton's method, held between them. */
+/* Time at which it takes a value that it crosses between two times: Newton's method, bracketed. */
 float kd_quintic_root(kd_quintic q, float value, float low, float high)
 {
     bool falls = kd_quintic_at(q, low) >= value;
@@ -100,7 +103,7 @@ float kd_quintic_root(kd_quintic q, float value, float low, float high)
     return t;
 }
 
-/* Narrows (from, to) to where q - value, times a sign, is not below 0, if it is monotone there. */
+/* Narrows (from, to), where q is monotone, to the range in which sign_ (q - value) is not negative. */
 void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, inout float to)
 {
     float a = sign_ * (kd_quintic_at(q, from) - value), b = sign_ * (kd_quintic_at(q, to) - value);
@@ -114,24 +117,24 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
 
 const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
-/* Whether it is to be known when light left a place. */
+/* Whether the times are needed at which light left. */
 #ifdef KD_TELL
 const bool KD_MARCH_DELAYS = true;
 #else
 const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
 #endif
 
-/* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning
- * of a step, without what those leave out; and which they are: way, and what was left out before. ago: how long
- * before the light that shows the scene's time that at the beginning of a step left. */
+/* Frame dragging up to the start of a step: chi, the azimuth of the ray in the coordinates of ray/radial_step.glsl;
+ * way, which coordinates these are; and fallen, the terms left out earlier. ago: how much earlier light left the
+ * start of the step than light that shows the scene's time. */
 struct kd_march_drag {
     float chi, way, fallen;
     bool returns;
     float ago;
 };
 
-/* A step of the ray. chi grows by a cubic in it; ago by a quintic, and by what kd_march_edge has where the ray goes
- * one way: inwards, along = 1, or outwards, -1. */
+/* A step of the ray. chi grows by a cubic; ago by a quintic, plus the difference of kd_march_edge if the ray does
+ * not turn: along = 1 inwards, -1 outwards. */
 struct kd_stride {
     kd_quintic w, u, x, y;
     float h, c0, c1, c2, c3, way;
@@ -139,12 +142,12 @@ struct kd_stride {
     float along;
 };
 
-/* Boyer and Lindquist's time grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)) along the ray back, D = 1
+/* Boyer-Lindquist time along the ray backwards grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1
  * - 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part is (1 + a^2 w^2) (w'/(w^2 D)
- * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards: of that the first is
- * d/dtau of -1/w + ln(w^2/D) + 2 kd_fall, which has all that grows without bound towards infinity and at the
- * horizon, and less r_o + 2 ln r_o vanishes for an observer at infinity. The rest is smooth. In the step in which
- * the ray turns t' is so itself. */
+ * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards. The first term of that is
+ * d/dtau of -1/w + ln(w^2/D) + 2 kd_fall, which contains everything that grows without bound towards infinity and at
+ * the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The rest is smooth. In the step in
+ * which the ray turns t' itself is smooth. */
 float kd_march_edge(float w)
 {
     return w > 0.0 ? 2.0 * kd_fall(w, cam.root) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0;
@@ -162,8 +165,7 @@ float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
     return s.h * (out_ + a * (m.momentum - a * ray.e * (1.0 - u * u)));
 }
 
-/* By the polynomial through five places of the step (Newton's forward differences), integrated: at its end that is
- * Boole's rule. */
+/* Integral of the polynomial through five nodes of the step (Newton's forward differences): Boole's rule at its end. */
 kd_quintic kd_march_later_along(kd_geodesic m, kd_ray ray, kd_stride s, float begin)
 {
     float f0 = kd_march_later(m, ray, s, 0.0), f1 = kd_march_later(m, ray, s, 0.25),
@@ -240,7 +242,7 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
     return drag;
 }
 
-/* An ellipse M_rr, M_rf, M_ff is less long by this part in the direction d. */
+/* Shortens an ellipse M_rr, M_rf, M_ff by this fraction in the direction d. */
 vec3 kd_march_shorter(vec3 m, vec2 d, float less)
 {
     vec2 md = vec2(m.x * d.x + m.y * d.y, m.y * d.x + m.z * d.y);
@@ -249,10 +251,10 @@ vec3 kd_march_shorter(vec3 m, vec2 d, float less)
            dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
 }
 
-/* What a ray stands for at its crossing n of the plane, across the ray: the ellipse there, whose axis along the ray
- * is shorter by the cosine to the normal, stands across the ray, so that it is again less long in the plane by that
- * cosine, and by the sine along the normal. outwards: 1 if the ray is traced that way, -1 if inwards. Nothing is
- * known of what a ray does not cross. */
+/* The ellipse across a ray that it stands for, at its crossing n of the plane. The axis of the footprint along the
+ * ray is multiplied by the cosine to the normal to lie across the ray; it then has components in the plane (times
+ * the cosine again) and along the normal (times the sine). outwards: 1 if the ray is traced outwards, -1 if inwards.
+ * Zero for a ray without that crossing. */
 kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
 {
     uint k = at + min(n, ORDERS - 1u) * slice.stride;
@@ -262,8 +264,8 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     float both = sqrt(i * (1.0 - i)), apart = i - 0.5,
           all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
     vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
-    /* The ray's direction as if space were flat: r'^2 = R(w)/w^4, the turn about the axis L, and sqrt(Q) along the
-     * normal, over r. */
+    /* Direction of the ray as if space were flat: r'^2 = R(w)/w^4, L about the axis, and sqrt(Q) along the normal,
+     * over r. */
     float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0),
           round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
     float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2),
@@ -275,7 +277,7 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     return kd_spread(known * kd_march_shorter(across, d, less), known * rise * vec3(md - less * dd * d, rise * dd));
 }
 
-/* The largest 1/r at which the ray at hand crosses the plane; 0: it is not known to cross it. */
+/* Largest 1/r at which this ray crosses the plane; 0: no crossing is known. */
 float kd_march_nearest = 0.0;
 
 float kd_march_nearest_of(uint at)
@@ -303,9 +305,9 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
                     KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0, kd_march_nearest);
 }
 
-/* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages
- * (Hairer, Norsett & Wanner 1993, II.7), of coefficients a_ij, it is dimmed by sum_j a_ij/b_j x_j: to first order in
- * depth this is what is left, and nothing where light is as depth, whose sum is right as it is. */
+/* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
+ * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j: this is the
+ * remainder to first order in depth. It is 0 where light is proportional to depth, for which the sum is exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
@@ -314,8 +316,8 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
     return x < 8.0 ? exp(-0.5 * x) * rest : vec3(0.0);
 }
 
-/* Sums of many small parts keep what their last digit loses (Kahan 1965): thousands of places, each rounded
- * likewise, are off by 5e-5 else. */
+/* Compensated sum of many small terms (Kahan 1965): otherwise thousands of equally rounded terms have an error of
+ * 5e-5. */
 void kd_march_add(inout float sum, inout float off, float more)
 {
     precise float y = more - off, t = sum + y;
@@ -332,27 +334,26 @@ void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
     sum = t;
 }
 
-/* Goes through a part of a step that lies in the volumes. What it adds is summed up by itself, and what comes
- * through it is the exponential of its depth. */
+/* Integrates a part of a step inside the volumes. Its contribution is summed separately, and its transmission is the
+ * exponential of its depth. */
 void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from,
                    float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    float wish =
-        stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
+    float wish = stretch / s.h; /* length of the next stretch; 0: unknown, and determined by a stretch of no length */
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
         KD_MARCH_SPEND(KD_MARCH_STRETCH)
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,
               least = KD_MARCH_SHORTEST;
         float next = from + length_;
-        length_ = next - from; /* as rounded */
+        length_ = next - from; /* after rounding */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
         kd_stokes_trial polarised = kd_stokes_begin();
         KD_TELL_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
-        vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
-        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one place tells how long the first may be */
+        vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three nodes */
+        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough to determine the first length */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
             kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
@@ -401,17 +402,16 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
-/* Says whether a ray can come to where volumes are, by w'^2 = R(w): from outside R must not vanish before. */
+/* Whether a ray can reach the volumes, by w'^2 = R(w): from outside R must not vanish before. */
 bool kd_march_meets(kd_geodesic m, kd_ray ray)
 {
     float w = emission.frame.along_least, w2 = w * w;
     return ray.w >= w || ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)) > 0.0;
 }
 
-/* This is where a ray is: the step at hand goes from p to q. side: of the plane that p is on, crossed: how often the
- * ray has crossed it before; stretch: how long the next one may be, in Mino time; steps: how many there were. goes:
- * there is a step at hand. lost: no end was found. left: Mino time from p to a surface that ends the ray
- * (light/meet.glsl). */
+/* State of a ray: the current step goes from p to q. side: side of the plane that p is on; crossed: crossings so
+ * far; stretch: length of the next stretch, in Mino time; steps: number of steps. goes: there is a current step.
+ * lost: no end was found. left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
 struct kd_march_way {
     kd_geodesic m;
     kd_path p, q;
@@ -422,8 +422,7 @@ struct kd_march_way {
     bool goes, lost;
 };
 
-/* These are the least and the largest value that a step's quintic can have: those of its coefficients by Bernstein's
- * polynomials (Farouki & Rajan 1987). */
+/* Bounds of a step's quintic: least and largest of its Bernstein coefficients (Farouki & Rajan 1987). */
 vec2 kd_quintic_hull(kd_quintic q)
 {
     float b1 = q.c0 + 0.2 * q.c1, b2 = q.c0 + 0.4 * q.c1 + 0.1 * q.c2, b3 = q.c0 + 0.6 * q.c1 + 0.3 * q.c2 + 0.1 * q.c3;
@@ -433,7 +432,7 @@ vec2 kd_quintic_hull(kd_quintic q)
 
 bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
 
-/* Says whether a step may come to where volumes are, or to a crossing where something shines. */
+/* Whether a step may touch the volumes, or a crossing with light. */
 bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
@@ -444,11 +443,11 @@ bool kd_march_matters(kd_march_way y)
     return (within && beside) || (KD_GLOWS && kd_march_crosses(y));
 }
 
-/* Leaves the step at hand behind, unless it was the last. */
+/* Completes the current step, unless it was the last. */
 void kd_march_leave(inout kd_march_way y)
 {
     bool crosses = kd_march_crosses(y), falls = y.q.y.w >= cam.horizon && (!INGOING || y.q.v.w > 0.0);
-    /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
+    /* An outgoing ray beyond the volumes that is accelerated outwards does not come back. */
     bool gone =
         y.q.v.w < 0.0 && y.q.y.w < emission.frame.along_least && (y.q.y.w <= 0.0 || kd_path_pull(y.m, y.q.y).w <= 0.0);
     y.side = crosses ? -y.side : y.side;
@@ -458,7 +457,7 @@ void kd_march_leave(inout kd_march_way y)
     y.p = y.q;
 }
 
-/* Takes the next step. Steps, and how many, are those of a ray that escapes (ray/escape.glsl). */
+/* Takes the next step. Step sizes and their limit are those of a ray that escapes (ray/escape.glsl). */
 void kd_march_next(inout kd_march_way y, kd_ray ray)
 {
     if (INGOING)
@@ -466,13 +465,13 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     y.q = kd_path_step(y.m, y.p, y.h);
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
-    y.lost = y.lost || y.steps++ >= 12u * STEPS; /* it circles for ever */
-    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* else it has fallen in */
+    y.lost = y.lost || y.steps++ >= 12u * STEPS; /* the ray circles without end */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* otherwise it has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 
-/* Takes steps to the next one that matters: lavapipe skips work only by leaving a loop, and so those that do not,
- * and take little, have one of their own. */
+/* Advances to the next step that matters. Steps that do not matter are cheap and have a loop of their own, because
+ * lavapipe skips work only by leaving a loop. */
 void kd_march_advance(inout kd_march_way y, kd_ray ray)
 {
     bool far = true;
@@ -484,7 +483,7 @@ void kd_march_advance(inout kd_march_way y, kd_ray ray)
     }
 }
 
-/* Goes through the step at hand. */
+/* Integrates the current step. */
 void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec2 place, uint at)
 {
     const float none = 2.0;
@@ -517,8 +516,8 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        if (KD_OVERS || (KD_MARCH_TURNS &&
-                         ORDERS > 0)) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
+        /* of the next crossing, or of the previous one while the ray moves away from the plane */
+        if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =
                 passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
@@ -560,7 +559,7 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
 }
 
 #ifdef KD_PIECES
-/* Takes the steps that were gone through before. */
+/* Repeats the steps of earlier pieces. */
 void kd_march_again(inout kd_march_way y, kd_ray ray)
 {
     y.stretch = kd_march_at.stretch;
@@ -573,8 +572,8 @@ void kd_march_again(inout kd_march_way y, kd_ray ray)
 }
 #endif
 
-/* Follows one ray up to a Mino time, before which it crosses the plane so often, but for what lies there or at its
- * end. */
+/* Follows one ray up to a Mino time, before which it crosses the plane `crossings` times; without what is there or
+ * at the ray's end. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);

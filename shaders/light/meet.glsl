@@ -1,21 +1,23 @@
-/* Finds the first body that a ray meets (emit/bodies.glsl), and composes its light with what lies before it:
- * crossings of the lens map, and volumes that are gone through by the march.
+/* Finds the first body that a ray meets (emit/bodies.glsl), and composes its light with everything before it: crossings
+ * of the lens map, and volumes by the march.
  *
- * The ray is followed by the steps of ray/escape.glsl. With n the direction from the hole, azimuths by Boyer and
- * Lindquist, and w = 1/r, a place is X = n/w; from a point c it lies along Z = n - w c, and X' is along e = n' w - n
- * w', which stays finite at infinity and next to constant where space is flat. So the ray is nearest to c where Z.e
- * changes its sign, once a step at most.
+ * The ray is traced by the steps of ray/escape.glsl. With n the direction from the hole in Boyer-Lindquist azimuths,
+ * and w = 1/r, a point is X = n/w. Relative to a point c it is along Z = n - w c, and X' is along e = n' w - n w',
+ * which stays finite at infinity and is almost constant where space is flat. So the ray is nearest to c where Z.e
+ * changes sign, at most once a step.
  *
- * lavapipe skips work only by leaving a loop: the inner ones take steps, and go down the tree of balls, until a body
- * is near each ray of a group or none is left to come; the outer one looks closer. Needs light/march.glsl. */
+ * lavapipe skips work only by leaving a loop. The inner loops take steps, and descend the tree of balls, until a
+ * body is near for each ray of a group or none is left; the outer loop then tests it closely. Needs
+ * light/march.glsl. */
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
 #define KD_MEET_SLACK \
-    0.02 /* of r, and 0.1 of the ball's radius: a ray that passes a ball by less is looked at closer */
+    0.02 /* of r, and 0.1 of the radius of the ball: a ray that passes a ball at a smaller distance is tested closely \
+          */
 #define KD_MEET_FAR 1e30
 
-/* An end of a step: (n, w), and what it grows by in a step. */
+/* An end of a step: (n, w), and its change over a step. */
 struct kd_met_end { vec4 p, d; };
 
 kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float chi)
@@ -27,14 +29,14 @@ kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float ch
     return kd_met_end(vec4(n, p.y.zw), h * vec4(v + rate * vec2(-n.y, n.x), p.v.zw));
 }
 
-/* A place within the step: the cubic that has both ends and how they grow. */
+/* A point within the step: the cubic with the values and slopes at both ends. */
 kd_met_end kd_met_between(kd_met_end a, kd_met_end b, float t)
 {
     vec4 dy = b.p - a.p, c2 = 3.0 * dy - 2.0 * a.d - b.d, c3 = a.d + b.d - 2.0 * dy;
     return kd_met_end(a.p + t * (a.d + t * (c2 + t * c3)), a.d + t * (2.0 * c2 + 3.0 * t * c3));
 }
 
-/* Says whether a step comes into a ball. */
+/* Whether a step enters a ball. */
 bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
 {
     vec3 z0 = a.p.xyz - a.p.w * ball.xyz, z1 = b.p.xyz - b.p.w * ball.xyz;
@@ -46,14 +48,14 @@ bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
     return (g0 < 0.0 && g1 >= 0.0 && dot(z, z) < reach * reach) || dot(z0, z0) < in0 * in0 || dot(z1, z1) < in1 * in1;
 }
 
-/* A place of a ray by the frame of a body: t' w and b w, and Mino time, in steps, over t'. */
+/* A point of a ray in the frame of a body: t' w and b w, and Mino time, in steps, over t'. */
 struct kd_met_sight { float ahead, off2, rate; };
 
 kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float turn)
 {
     vec4 p = vec4(e.p.xyz, e.p.w), d = e.d;
     vec3 y = vec3(dot(a, p), dot(b, p), dot(c, p)), f = p.w * vec3(dot(a, d), dot(b, d), dot(c, d)) - d.w * y;
-    /* Light flies along n + turn e_phi in coordinates that turn: of the length that makes n one. */
+    /* In rotating coordinates light moves along n + turn e_phi, with the length that makes n a unit vector. */
     float f2 = max(dot(f, f), 1e-36),
           long_ = (-turn * f.z + sqrt(max(turn * turn * f.z * f.z + (1.0 - turn * turn) * f2, 0.0))) / f2;
     vec3 n = -long_ * f;
@@ -64,7 +66,7 @@ kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float
     return kd_met_sight(v.w * (t - dot(v.xyz, y)), max(dot(y, y) - t * t, 0.0), long_ * p.w * p.w / (v.w * slow));
 }
 
-/* Where in the step the ray comes to the surface; beyond 1: it does not. */
+/* Time within the step at which the ray reaches the surface; above 1: it does not. */
 float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 {
     vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u),
@@ -74,7 +76,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
     float in0 = size * a.p.w, in1 = size * max(b.p.w, 0.0);
     bool within = s0.ahead * s0.ahead + s0.off2 < in0 * in0, ends_within = s1.ahead * s1.ahead + s1.off2 < in1 * in1;
     bool passes = s0.ahead > 0.0 && (s1.ahead <= 0.0 || b.p.w <= 0.0);
-    /* Where it is nearest, by the body's frame: t' = 0. */
+    /* The nearest point in the body's frame: t' = 0. */
     float t = passes ? clamp(s0.ahead / max(s0.ahead - s1.ahead, 1e-30), 0.0, 1.0) : 1.0, enters = 2.0, off = 1.0;
     for (int k = 0; k < 3; k++) {
         kd_met_end e = kd_met_between(a, b, t);
@@ -87,7 +89,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
             enters = next - size * sqrt(max(1.0 - off, 0.0)) * s.rate;
     }
     bool meets = (passes || ends_within) && off < 1.0 && enters <= 1.0;
-    /* Once more from there, where the ray is elsewhere and flies elsewhere. */
+    /* Again from there, as the ray's position and direction have changed. */
     t = clamp(enters, 0.0, 1.0);
     kd_met_end e = kd_met_between(a, b, t);
     kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);
@@ -99,19 +101,19 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 
 kd_met kd_met_nothing() { return kd_met(KD_MEET_FAR, KD_NOBODY, ORDERS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0); }
 
-/* Behind a node of the tree, or below one that is far, comes this one; 0: none. */
+/* The node after this one, or after its subtree if that is far; 0: none. */
 uint kd_met_next(uint node)
 {
     uint next = (node + 1u) >> uint(findLSB(node + 1u));
     return next == 1u ? 0u : next;
 }
 
-/* Whether it is not known what the ray at hand meets: a driver may end loops before their condition does, and of
- * thousands of bodies on top of each other there are more than lavapipe goes through. */
+/* Whether the search of this ray is incomplete: a driver may end loops before their condition does, and thousands of
+ * overlapping bodies exceed lavapipe's limit. */
 bool kd_meet_lost = false;
 
 #define KD_MEET_CLOSE \
-    0.995 /* of 1/r of the horizon: up to there places of a step are known; azimuths have no end at it */
+    0.995 /* of 1/r of the horizon: up to here points of a step are known; azimuths diverge at the horizon */
 
 kd_met kd_meet(uvec2 place)
 {
@@ -130,13 +132,13 @@ kd_met kd_meet(uvec2 place)
                 !(INGOING && !kd_from_outside(m, ray.w, ray.e, cam.spin, cam.horizon)),
          first = true;
     uint crossed = 0u, node = 0u, taken = 0u,
-         top = emission.bodies.leaves > 1u ? 2u : 1u; /* below the ball round all of them */
+         top = emission.bodies.leaves > 1u ? 2u : 1u; /* children of the ball round all bodies */
     b = kd_met_end_of(m, ray, p, 1.0,
                       INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(p.y.w, cam.spin, cam.root) : drag.chi);
     for (;;) {
         uint leaf = 0u;
         while (leaf == 0u && (goes || node != 0u)) {
-            while (goes && node == 0u) { /* steps, until one comes to where bodies are */
+            while (goes && node == 0u) { /* takes steps until one comes near bodies */
                 bool passed = q.y.z * side < 0.0;
                 side = passed ? -side : side;
                 crossed += passed ? 1u : 0u;
@@ -144,7 +146,8 @@ kd_met kd_meet(uvec2 place)
                 p = q;
                 float was = h;
                 h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
-                if (p.v.w > 0.0 && p.y.w < near_horizon) /* azimuths have no end there: not across it in one go, */
+                /* azimuths diverge there: the ray first steps to a point before it, */
+                if (p.v.w > 0.0 && p.y.w < near_horizon)
                     h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
                 else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon) /* and then by halves */
                     h = min(h, 0.5 * (cam.horizon - p.y.w) / p.v.w);
@@ -169,7 +172,7 @@ kd_met kd_meet(uvec2 place)
                 leaf = near && one ? node : 0u;
                 node = near && !one ? 2u * node : kd_met_next(node);
             }
-            goes = goes && !(leaf == 0u && met.body != KD_NOBODY); /* later steps lie behind */
+            goes = goes && !(leaf == 0u && met.body != KD_NOBODY); /* later steps are behind it */
         }
         if (leaf == 0u)
             break;
@@ -181,14 +184,14 @@ kd_met kd_meet(uvec2 place)
             met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12),
                          e.p.z, -kd_atan2(e.p.y, e.p.x), per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
         }
-        if (node == 0u && met.body != KD_NOBODY) /* later steps lie behind */
+        if (node == 0u && met.body != KD_NOBODY) /* later steps are behind it */
             break;
     }
     kd_meet_lost = node != 0u || (goes && met.body == KD_NOBODY);
     return met;
 }
 
-/* Follows one ray, but for what lies at its end. */
+/* Follows one ray, without what is at its end. */
 void kd_follow(inout kd_beam beam, uvec2 place, uint at)
 {
     kd_met met = kd_met_nothing();

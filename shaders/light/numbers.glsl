@@ -1,10 +1,9 @@
-/* These are numbers of a place on a ray, whatever of them a picture shows: layers are made of them
- * (shared/layers.h), and what is told of a ray. Needs light/inputs.glsl. */
+/* Numbers of a place on a ray, whether a picture shows them or not: for layers (shared/layers.h) and for explaining
+ * a ray. Needs light/inputs.glsl. */
 #ifndef KD_NUMBERS_GLSL
 #define KD_NUMBERS_GLSL
 
-/* This is the frequency as the observer measures it over that in the frame of the gas, whether a picture shows that
- * or not. */
+/* Frequency that the observer measures over that in the frame of the gas, even if the picture does not apply it. */
 float kd_layer_g(kd_sample s)
 {
     if (kd_plunge_falls(s))
@@ -12,18 +11,18 @@ float kd_layer_g(kd_sample s)
     return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
 }
 
-/* The gas shines as a black body of this temperature, in its own frame, K. */
+/* Temperature of the black body that the gas emits as, in its own frame, K. */
 float kd_layer_temperature(kd_sample s)
 {
     if (kd_plunge_falls(s))
         return emission.plunge.temperature * emission.disk.peak;
     float r = 1.0 / s.w, t = emission.disk.peak * kd_disk_heat(s.w) * inversesqrt(r * sqrt(r));
     return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s))
-                                            : t; /* its flux goes as the fourth power */
+                                            : t; /* flux is proportional to its fourth power */
 }
 
 #ifdef KD_MARCH
-/* The same of a surface that is met, whichever emitter's it is. */
+/* The same for a surface, by its emitter. */
 float kd_layer_met_g(kd_met met)
 {
 #define KD_MET_G_(number, name) \
@@ -43,13 +42,12 @@ float kd_layer_met_temperature(kd_met met)
 }
 #endif
 
-/* Brings an azimuth to (-pi, pi]. */
+/* Reduces an azimuth to (-pi, pi]. */
 float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
 
-/* An angle is had from its cosine. For that between the light and the normal of the disk, in the frame of the gas,
- * that is g |p_theta| / r: the photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial
- * plane, over its energy there, 1/g; gas that stays in the plane, however it moves in it, sees the normal along
- * theta (Carter 1968). */
+/* An angle from its cosine. The cosine of the angle between light and the disk's normal in the frame of the gas is g
+ * |p_theta| / r: the photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial plane,
+ * over its energy there, 1/g. For gas that moves within the plane the normal is along theta (Carter 1968). */
 float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
 
 #endif

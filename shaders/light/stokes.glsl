@@ -1,15 +1,15 @@
-/* Polarised light through a medium that is the same all along: dS/ds = j - K S for S = (I, Q, U, V), in closed form
- * (E. Landi Degl'Innocenti & M. Landi Degl'Innocenti 1985, Sol. Phys. 97, 239; Landi Degl'Innocenti & Landolfi 2004,
- * section 8.3), with
+/* Polarised light through a uniform medium: dS/ds = j - K S for S = (I, Q, U, V), in closed form (E. Landi
+ * Degl'Innocenti & M. Landi Degl'Innocenti 1985, Sol. Phys. 97, 239; Landi Degl'Innocenti & Landolfi 2004, section
+ * 8.3), with
  *
  *   K S = alpha S + (a.v, a I - rho x v),   v = (Q, U, V),   a = (alpha_Q, alpha_U, alpha_V),   rho = (rho_Q,
  *                                                            rho_U, rho_V).
  *
- * Written with the Pauli matrices, I + v.sigma, that is what a 2 x 2 matrix does to it: exp(-K s) S = A S A*, A =
- * exp(-alpha s/2) (cosh(lambda s/2) - sinh(lambda s/2)/lambda c.sigma), with c = a + i rho and lambda = sqrt(c.c) =
- * Lambda_1 + i Lambda_2. Products of such matrices keep I^2 >= Q^2 + U^2 + V^2 whatever is rounded, and have half as
- * many numbers as their 4 x 4 twins. Light of the medium itself is the integral of A j A*, whose four functions of
- * the length are means of exponentials. */
+ * With S written in Pauli matrices, I + v.sigma, the solution is a product with a 2 x 2 matrix: exp(-K s) S = A S
+ * A*, A = exp(-alpha s/2) (cosh(lambda s/2) - sinh(lambda s/2)/lambda c.sigma), with c = a + i rho and lambda =
+ * sqrt(c.c) = Lambda_1 + i Lambda_2. Products of such matrices preserve I^2 >= Q^2 + U^2 + V^2 in spite of rounding,
+ * and have half as many numbers as the corresponding 4 x 4 matrices. Light of the medium itself is the integral of A
+ * j A*, whose four functions of the length are means of exponentials. */
 #ifndef KD_STOKES_GLSL
 #define KD_STOKES_GLSL
 
@@ -18,21 +18,21 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter: the light that it gives, and its depth: of I, of Q, U and V, and how far it turns them. */
+/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and its rotation of them. */
 struct kd_stokes {
     vec4 light;
     float depth;
     vec3 takes, turns;
 };
-/* What comes of it on the observer's side: what it does to light from behind, and its own light. */
+/* The result on the observer's side: its effect on light from behind, and its own light. */
 struct kd_stokes_cell {
     kd_jones passes;
     vec4 light;
 };
 
 #define KD_STOKES_NEAR \
-    0.25 /* below this |lambda|, or below a tenth of a larger depth, differences of what is nearly the same are \
-            series: both are good to some 1e-6 there */
+    0.25 /* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced \
+            by series: both are accurate to about 1e-6 there */
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 
@@ -47,7 +47,7 @@ kd_jones kd_jones_times(kd_jones a, kd_jones b)
     return kd_jones(s, re, im);
 }
 
-/* The sum of one S + (b c + its conjugate) S + two c S c*, where b c = p + i q. */
+/* one S + (b c + its conjugate) S + two c S c*, where b c = p + i q. */
 vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3 im)
 {
     vec3 v = s.yzw, across = cross(re, im);
@@ -63,17 +63,17 @@ vec4 kd_jones_on(kd_jones a, vec4 s)
     return kd_stokes_forms(s, dot(a.s, a.s), a.s.x * a.re + a.s.y * a.im, a.s.x * a.im - a.s.y * a.re, 1.0, a.re, a.im);
 }
 
-/* The part of unpolarised light that comes through. */
+/* Transmission for unpolarised light. */
 float kd_jones_through(kd_jones a) { return dot(a.s, a.s) + dot(a.re, a.re) + dot(a.im, a.im); }
 
-/* Nothing is polarised by more than all of it, whatever was rounded. */
+/* Limits polarisation to 1 in spite of rounding. */
 vec4 kd_stokes_sound(vec4 s)
 {
     float i = max(s.x, 0.0), part = i > 0.0 ? kd_part_of(s.yzw, i) : 0.0;
     return vec4(i, i > 0.0 ? s.yzw * (part > 1.0 ? 1.0 / part : 1.0) : vec3(0.0));
 }
 
-/* The mean of exp(-y s) for s from 0 to 1, of a number and of a complex one with exp(-y) at hand. */
+/* The mean of exp(-y s) for s from 0 to 1, for a real y, and for a complex one with a given exp(-y). */
 float kd_stokes_mean(float y)
 {
     return abs(y) < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0)))))
@@ -93,8 +93,8 @@ vec2 kd_stokes_mean(vec2 y, vec2 passes)
     return y2 < 0.25 ? sum : vec2(dot(size, y), size.y * y.x - size.x * y.y) / y2;
 }
 
-/* The means of s^k exp(-t s), k from 1 to 6, by the recursion that is stable: upwards where t is large, else
- * downwards from a sum of what is above 0. */
+/* The means of s^k exp(-t s), k from 1 to 6, by the stable recursion: upwards if t is large, otherwise downwards
+ * from a sum of positive terms. */
 struct kd_stokes_moments { float m1, m2, m3, m4, m5, m6; };
 kd_stokes_moments kd_stokes_moments_of(float t)
 {
@@ -122,7 +122,7 @@ kd_stokes_moments kd_stokes_moments_of(float t)
     return m;
 }
 
-/* Lambda_1 >= 0 and Lambda_2, as parts of `size`: of the square root of (a + i rho)^2. */
+/* Lambda_1 >= 0 and Lambda_2, relative to `size`: from the square root of (a + i rho)^2. */
 vec2 kd_stokes_root(vec3 a, vec3 rho)
 {
     float re = dot(a, a) - dot(rho, rho), im = 2.0 * dot(a, rho), big = sqrt(0.5 * (sqrt(re * re + im * im) + abs(re)));
@@ -135,7 +135,7 @@ kd_stokes_cell kd_stokes_cell_of(kd_stokes m)
     vec3 largest = max(abs(m.takes), abs(m.turns));
     float t = m.depth, size = max(max(largest.x, max(largest.y, largest.z)), 1e-30);
     vec2 lambda = size * kd_stokes_root(m.takes / size, m.turns / size);
-    lambda.x = min(lambda.x, t); /* nothing takes more of its own than there is */
+    lambda.x = min(lambda.x, t); /* nothing absorbs more of a polarisation than is there */
     float square = dot(lambda, lambda), per = 1.0 / max(square, 1e-30), around = lambda.y * (0.5 / 6.28318531);
     bool near = square < max(KD_STOKES_NEAR * KD_STOKES_NEAR, 0.01 * t * t);
     kd_phasor half_ = kd_cos_sin(6.28318531 * clamp(around - floor(around), 0.0, 1.0));

@@ -1,9 +1,9 @@
-/* Kernels of light read the tables of all emitters at binding 2. Needs shared/emitters.h. */
+/* Tables of all emitters for the kernels of light, at binding 2. Needs shared/emitters.h. */
 #ifndef KD_TABLES_GLSL
 #define KD_TABLES_GLSL
 
 layout(set = 0, binding = 2) uniform textureBuffer tables;
-/* The row of `tables` that each table begins at: counted here, which compilers finish before anything runs. */
+/* First row in `tables` of each table, computed at compile time. */
 #define KD_T(table, rows) uint table;
 struct kd_table_places { KD_EMIT_TABLES };
 #undef KD_T
@@ -17,9 +17,9 @@ kd_table_places kd_tables()
     KD_EMIT_TABLES
     return at;
 }
-/* A kernel counts once: what it does at each read the driver has to fold away at each. */
+/* Computed once a kernel: otherwise the driver would have to fold the constants at each read. */
 kd_table_places kd_table_at = kd_tables();
-/* The row of a table, by the table's name. */
+/* A row of a table, by the table's name. */
 #define kd_table_row(table, row) texelFetch(tables, int(kd_table_at.table + (row)))
 
 #endif

@@ -1,24 +1,22 @@
-/* Writes down what each emitter gives one ray, on its way through the kernel that makes the picture:
- * transfer.comp compiled with KD_TELL writes records to binding 3 instead of light; otherwise nothing is left of
- * this. The first number is how many records there were, those that have no room included; behind it both sums have
- * places of their own, in this order, so that no number of others takes theirs. A record is KD_TELL_RECORD numbers,
- * the first of which says of what:
+/* Describes what each emitter contributes to one ray, in the kernel that makes the picture: transfer.comp compiled with
+ * KD_TELL writes records to binding 3 instead of light; otherwise this compiles to nothing. The first number is the
+ * count of records, including those that did not fit. The two sums follow at fixed places, in this order, so that other
+ * records cannot displace them. A record is KD_TELL_RECORD numbers, the first of which is its kind:
  *
- *   KD_TELL_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), angle of emission, what all
- *                     in front lets through
- *   KD_TELL_OF_PLACE  an emitter there: its number, light, opacity, what of its light comes through
- *   KD_TELL_ENDS      where it ends: cosine of the polar angle, azimuth, footprint
+ *   KD_TELL_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), emission angle, transmission
+ *                     of everything in front
+ *   KD_TELL_OF_PLACE  an emitter there: its number, light, opacity, transmitted fraction of its light
+ *   KD_TELL_ENDS      the end: cosine of the polar angle, azimuth, footprint
  *   KD_TELL_OF_END, KD_TELL_OF_POINTS   an emitter there: its number, light
- *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through
- *                     before and behind it; and KD_TELL_ALONG_AT behind it: the delay of light from both ends
- *   KD_TELL_OF_VOLUME a volume, of the whole ray: its number, light as it arrives, optical depth
- *   KD_TELL_MET       a surface that hides all behind it: number of its emitter, light, which of them, crossings
- *                     before it, cosine of the angle of emission, what comes through in front; and KD_TELL_MET_AT
- *                     behind it: w, u, azimuth, g
- *   KD_TELL_POLARIZED of the place before it: Stokes Q and U of its light over I
+ *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, contributed light, transmission before and
+ *                     after it; followed by KD_TELL_ALONG_AT: the delay of light from both ends
+ *   KD_TELL_OF_VOLUME a volume, for the whole ray: its number, light as it arrives, optical depth
+ *   KD_TELL_MET       an opaque surface: number of its emitter, light, its index, crossings before it, cosine of the
+ *                     emission angle, transmission in front; followed by KD_TELL_MET_AT: w, u, azimuth, g
+ *   KD_TELL_POLARIZED for the place before it: Stokes Q and U of its light over I
  *   KD_TELL_LOST      the ray was given up
- *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, the steps
- *                                       and places of the march, and Stokes Q, U and V
+ *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and including it: light, transmission, the steps
+ *                                       and samples of the march, and Stokes Q, U and V
  *                     of a volume, and whether there are any */
 #ifndef KD_TELL_GLSL
 #define KD_TELL_GLSL
@@ -66,7 +64,7 @@ void kd_tell_place(kd_sample s, float through)
     if (KD_HAS(polarization)) \
         kd_tell(KD_TELL_POLARIZED, vec4(kd_polarization_at(s, kd_polarization_right(place), up), 0.0, 0.0), vec4(0.0), \
                 vec2(0.0));
-/* Stretches without length are none. */
+/* Stretches of length 0 are not recorded. */
 #define KD_TELL_BEFORE(beam) kd_beam before = beam;
 #define KD_TELL_STRETCH(s, from, to, beam) \
     if (from < to) { \
@@ -94,8 +92,8 @@ void kd_tell_place(kd_sample s, float through)
 #define KD_TOLD_STOKES vec4(0.0)
 #endif
 
-/* Light and depth of each volume: of a place a unit of the affine parameter, of the stretch that is tried, and of
- * all that were taken. */
+/* Light and depth of each volume: at a sample per unit of the affine parameter; of the current stretch; and of all
+ * accepted ones. */
 float kd_told_steps = 0.0, kd_told_places = 0.0;
 #define KD_TELL_NONE_(number, name)
 #define KD_TELL_VOLUME_(number, name) \
@@ -114,7 +112,7 @@ KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
         float tells = comes, told_way = way; \
         KD_TELL_VOLUMES_(KD_TELL_ON_) \
     }
-/* What the stretch adds beyond the sum of its places is each volume's by its share of that. */
+/* Light of the stretch beyond the sum over its samples is divided among the volumes in proportion to that sum. */
 #define KD_TELL_TAKE_(number, name) kd_told_##name += kd_tried_##name * vec4(share, 1.0);
 #define KD_TELL_TAKE(before, tried, rest) \
     { \

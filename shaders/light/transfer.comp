@@ -1,7 +1,6 @@
-/* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of
- * KD_TRANSFER_ROWS of them. KD_MARCH: for scenes with volumes, along the rays themselves, one ray of a pixel:
- * slice.ray. KD_PIECES: of these rays, those that the same kernel without it could not follow to their end, a piece
- * at a time. */
+/* Kernel: makes light (linear sRGB radiance) from the lens map. An invocation lights a pixel, or a column of
+ * KD_TRANSFER_ROWS pixels. KD_MARCH: for scenes with volumes, along the rays themselves, one ray of each pixel:
+ * slice.ray. KD_PIECES: continues those rays that the same kernel could not complete, one piece at a time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -16,7 +15,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #ifndef KD_TELL
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #ifdef KD_MARCH
-/* The same buffer. Behind the light rays are listed that were not followed to their end (KD_LOST_...). */
+/* The same buffer: after the light, the list of rays that were not completed (KD_LOST_...). */
 layout(set = 0, binding = 3) buffer Lost { uint lost_rays[]; };
 layout(set = 0, binding = 3) buffer Pieces { float pieces[]; };
 #endif
@@ -24,8 +23,8 @@ layout(set = 0, binding = 3) buffer Pieces { float pieces[]; };
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* Where STOKES says so these are kept of a ray: Stokes Q, U and V of all its light, Q and U of that which is kept
- * apart, and whether it was given up. */
+/* State of a ray if STOKES is set: Stokes Q, U and V of all its light, Q and U of the separate luminance, and
+ * whether it was given up. */
 vec3 stokes = vec3(0.0);
 vec2 stokes_apart = vec2(0.0);
 bool untold = false;
@@ -37,8 +36,8 @@ void forget_stokes()
     untold = false;
 }
 
-/* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the
- * camera and `at` in the lens map. */
+/* Composes a crossing of order n, w = 1/r (negative: the ray was given up on its way there), of the ray at this
+ * place of the camera, with index `at` in the lens map. */
 void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -59,17 +58,17 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
     float before = dot(beam.light, LUMINANCE), before_apart = beam.apart;
     kd_beam_at(beam, s);
     KD_TELL_POLARIZED_AT(s, place, ray.p)
-    if (STOKES && KD_HAS(polarization)) { /* all that shines at a crossing is polarised alike */
+    if (STOKES && KD_HAS(polarization)) { /* all light of a crossing has the same polarisation */
         vec2 part = kd_polarization_at(s, kd_polarization_right(place), ray.p);
         stokes.xy += (dot(beam.light, LUMINANCE) - before) * part;
         stokes_apart += (beam.apart - before_apart) * part;
     }
 }
 
-/* A map may hold where rays end for the sake of layers alone: then the picture is what it is without them. */
+/* A map may hold the ends of rays only for layers: the picture must not depend on that. */
 const bool ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) * (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* This lies behind all crossings. */
+/* Light behind all crossings. */
 vec3 background(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -88,12 +87,12 @@ vec3 background(uvec2 place, uint at, uint pixel)
 
 #ifdef KD_MARCH
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
-bool lost = false; /* the ray at hand */
+bool lost = false; /* the current ray */
 #define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true, untold = true)
 #include "light/march.glsl"
 #include "light/meet.glsl"
 
-/* Follows one ray on, light of its end included, or up to the end of its piece. */
+/* Continues one ray to its end, including the light there, or to the end of its piece. */
 void follow_on(inout kd_beam beam, uvec2 place, uint at, uint pixel)
 {
     kd_follow(beam, place, at);
@@ -114,7 +113,7 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
     return beam;
 }
 #else
-/* Follows one ray, light of its end included. */
+/* Follows one ray, including the light at its end. */
 kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -135,7 +134,7 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 }
 #endif
 
-/* A pixel's light lies here. */
+/* Index of a pixel's light. */
 uint light_at(uint x, uint y)
 {
     return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x;
@@ -144,8 +143,8 @@ uint light_at(uint x, uint y)
 #ifdef KD_TELL
 #include "light/numbers.glsl"
 
-/* Follows one ray, whose place is in the push constants: on the grid its row of rays is row0, its column `rows`; on
- * listed pixels it is number `ray` of that whose number in the list is row0. */
+/* Follows one ray, given by the push constants: on the grid its row of rays is row0 and its column `rows`; on listed
+ * pixels it is ray number `ray` of pixel number row0 in the list. */
 void main()
 {
     kd_camera_read();
@@ -165,8 +164,8 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-/* Behind the band's pixels stand the luminance that is kept apart, and Stokes Q, U and V of all light, and Q and U
- * of that, a band of pixels each. */
+/* After the band's pixels follow, a band of pixels each, the separate luminance, then Stokes Q, U and V of all
+ * light, and Q and U of the separate one. */
 const uint STOKES_AT = KD_APART ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
@@ -185,12 +184,12 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
     }
 }
 
-/* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which no light is spread. Those where
- * nothing shines are left as they are: they were made dark before.
+/* Lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind them. Pixels without
+ * light are left as they are: they were set to black before.
  *
- * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the
- * next crossing that may shine, which takes little, and the outer one lights it. Where light is spread over the sky
- * each pixel has some, and looking for it only takes time. */
+ * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop searches the
+ * next crossing with light, which is cheap, and the outer loop lights it. With diffuse light on the sky each pixel
+ * has some, and the search would only cost time. */
 #ifdef KD_MARCH
 const bool COLUMNS = false,
            SAMPLES = CRITICAL == 0; /* its error is measured on a lattice of pixels (src/render/frame/march_error.c) */
@@ -200,13 +199,13 @@ const bool COLUMNS =
     SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
 
-/* Where a sky is of points alone, each pixel has those first; where there is a crossing, they are lit anew behind
- * it. */
+/* If the sky consists of points only, each pixel gets its points first; pixels with a crossing are lit again
+ * afterwards. */
 void point_column(uint x, uint y, uint end)
 {
     for (;;) {
         vec3 light = vec3(0.0);
-        for (; y < end; y++) { /* most have none */
+        for (; y < end; y++) { /* most pixels have none */
             light = background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y));
             if (light != vec3(0.0))
                 break;
@@ -252,7 +251,7 @@ void light_column(uint x, uint y, uint end)
     }
 }
 
-/* The ray of this number on a pixel, whose number in the list is `listed`: its place, and where its map is. */
+/* Place of this ray of a pixel, whose index in the list is `listed`, and the place of its map. */
 uvec2 place_of(uvec2 pixel, uint ray)
 {
     return CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);
@@ -262,7 +261,7 @@ uint map_of(uvec2 place, uint listed, uint ray)
     return CRITICAL > 0 ? listed * CRITICAL + ray : (place.y - slice.band0) * cam.width + place.x;
 }
 
-/* Follows it to its light at `to`. */
+/* Follows the ray; its light goes to `to`. */
 kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
 {
     uvec2 place = place_of(pixel, ray);
@@ -272,7 +271,7 @@ kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
 #ifdef KD_MARCH
 const uint RAYS = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
 
-/* Stores a ray's share of the light of its pixel, or adds it to that of the rays before it. */
+/* Stores a ray's fraction of its pixel's light, or adds it to that of earlier rays. */
 void store_ray(uint to, kd_beam beam, bool adds)
 {
     const float share = 1.0 / float(RAYS);
@@ -289,15 +288,15 @@ void store_ray(uint to, kd_beam beam, bool adds)
         if (STOKES && KD_APART && KD_HAS(polarization))
             spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
     }
-    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever other rays of the pixel have */
+    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever the pixel's other rays are */
         all.z = KD_STOKES_UNTOLD;
     store(to, sum, apart, all, spots);
 }
 
-/* Words of the list, counted from the end of the buffer. */
+/* Index of a word of the list, which counts from the end of the buffer. */
 uint lost_word(uint at) { return lost_rays.length() - at; }
 
-/* Lists a ray that was not followed to its end, which then has no light yet, or gives it up. */
+/* Lists a ray that was not completed, which then has no light yet, or gives it up if there is no room. */
 void lose(inout kd_beam beam, uint name)
 {
     uint n = atomicAdd(lost_rays[lost_word(KD_LOST_LISTED)], 1u);
@@ -312,7 +311,7 @@ void lose(inout kd_beam beam, uint name)
 #endif
 
 #ifdef KD_PIECES
-/* What a ray has when a piece ends, and the next begins with. */
+/* Saved state of a ray between two pieces. */
 uint state_at() { return lost_word(KD_LOST_STATES) - (gl_GlobalInvocationID.x + 1u) * KD_LOST_STATE; }
 
 kd_beam begin_piece()
@@ -361,7 +360,7 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Follows the next piece of each listed ray that waits: of a pixel those with the number slice.ray. */
+/* Follows the next piece of each listed ray that waits: of each pixel the ray with the number slice.ray. */
 void main()
 {
     kd_camera_read();
@@ -397,7 +396,7 @@ void main()
 }
 #else
 /* The march has one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535 passes
- * in total, which the rays of a pixel through turbulent gas come to one after the other. */
+ * in total, which the successive rays of a pixel through turbulent gas would reach. */
 void main()
 {
     kd_camera_read();

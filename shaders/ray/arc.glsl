@@ -1,4 +1,4 @@
-/* The motion v'^2 = f(v) = e^2 + A v^2 + 2K v^3 - D v^4 has a closed form from any point of a path, forwards and
+/* Closed form of the motion v'^2 = f(v) = e^2 + A v^2 + 2K v^3 - D v^4 from any point of a path, forwards and
  * backwards.
  *
  * With g(z) = 1/(wp(z) - A/12), where wp is Weierstrass's function with the invariants of f,
@@ -6,12 +6,13 @@
  * Biermann's formula (Whittaker & Watson 20.6) leads from v, v' at one time to v at z before or after it:
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
- * g has its pole after the time from 0 to v = K/D, behind the horizon: no stretch outside of it lasts so long. No
- * root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same time after
- * each crossing and before it. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| =
- * pi/2, and by the duplication formula from z to 2z. The unit of time is a power of two, by which nothing is
- * rounded, such that 1 <= |A| < 4 and a half period lasts from pi/2 to pi; rays with b below 1 or so have a smaller
- * A, and fall or are gone long before. */
+ *
+ * g has its pole at the time from 0 to v = K/D, inside the horizon: no stretch outside it lasts that long. No root
+ * of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same time before and
+ * after each crossing. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| = pi/2, and
+ * by the duplication formula from z to 2z. The unit of time is a power of two, so that scaling causes no rounding,
+ * chosen such that 1 <= |A| < 4 and a half period lasts from pi/2 to pi. Rays with b below about 1 have a smaller A,
+ * and are captured or gone long before. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL
 
@@ -61,7 +62,7 @@ kd_arcs kd_arcs_of(kd_geodesic m, float e)
 
 struct kd_arc { float g, dg; };
 
-/* This series holds for |z| up to pi/2. */
+/* The series, for |z| up to pi/2. */
 kd_arc kd_arc_short(kd_lattice l, float z)
 {
     kd_arc o;
@@ -73,17 +74,17 @@ kd_arc kd_arc_short(kd_lattice l, float z)
         (l.c2 + y * (2.0 * l.c3 +
                      y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
     float inv = 1.0 / (1.0 + sum), part = sum * inv;
-    /* These are small differences from what g and g' are where f is 1. */
+    /* Small differences from the values of g and g' at which the series is 1. */
     precise float g = y - y * part, turn = z - z * part, dg = turn - turn * (part + slope * inv);
     o.g = g;
     o.dg = 2.0 * dg;
     return o;
 }
 
-/* This is g''. */
+/* g''. */
 float kd_arc_bend(kd_lattice l, float g) { return 2.0 + g * (l.a + g * (1.5 * l.d + g * (2.0 * l.g))); }
 
-/* This is g at twice the time: wp's duplication formula, written for g. */
+/* g at twice the time: wp's duplication formula, written for g. */
 kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
 {
     kd_arc o;
@@ -97,7 +98,7 @@ kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
     return o;
 }
 
-/* A point of the path holds what the formula needs of it. */
+/* Values at a point of the path that the formula needs. */
 struct kd_centre {
     float v, dv;
     float f, s, c, d; /* F/2, s, c, v'^2 D/4 */
@@ -116,7 +117,7 @@ kd_centre kd_centre_of(kd_arcs a, kd_state y)
     return o;
 }
 
-/* These are v after that time, and v as long before. */
+/* v after that time, and v as long before. */
 vec2 kd_around(kd_centre o, kd_arc z)
 {
     float p = 1.0 - z.g * o.s, inv = 1.0 / (p * p + o.d * z.g * z.g);
@@ -124,7 +125,7 @@ vec2 kd_around(kd_centre o, kd_arc z)
     return o.v + vec2(even + odd, even - odd) * inv;
 }
 
-/* These are v and v' after that time. */
+/* v and v' after that time. */
 kd_state kd_ahead(kd_arcs a, kd_centre o, kd_arc z)
 {
     kd_state y;

@@ -1,12 +1,12 @@
-/* Integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch
- * of its path by Gauss and Legendre's rule with seven places (Abramowitz & Stegun 25.4.29): three near each end and
- * the middle. */
+/* Integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch of its
+ * path, by Gauss-Legendre quadrature with seven nodes (Abramowitz & Stegun 25.4.29): three on each side of the
+ * middle, and the middle. */
 #ifndef KD_ARC_DRAG_GLSL
 #define KD_ARC_DRAG_GLSL
 
 #include "ray/arc.glsl"
 
-/* These are g and g' for the times from an end to the places. */
+/* g and g' for the times from an end to the nodes. */
 struct kd_nodes { kd_arc outer, between, inner, middle; };
 
 kd_nodes kd_nodes_of(kd_lattice l, float z)
@@ -23,7 +23,7 @@ struct kd_drag_terms {
     float a, k, e, root, unit;
     float e2, al; /* 2E, a L         */
     float all;    /* W = E + all w^2 */
-    bool falls;   /* it goes straight in */
+    bool falls;   /* the ray falls straight in */
 };
 
 kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, float unit, bool falls)
@@ -41,8 +41,8 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
     return o;
 }
 
-/* The integrand leaves out the factor a. Of a ray that falls in it is that of ingoing coordinates, without -E. Both
- * kinds are computed side by side, for a driver that runs both branches of an if. */
+/* The integrand without the factor a. For a ray that falls in it is that of ingoing coordinates, without -E. Both
+ * kinds are computed together, because a driver may run both branches of an if. */
 float kd_drag_at(kd_drag_terms t, float v)
 {
     float w = v * t.unit, w2 = w * w, d = kd_delta(w, t.root), kw = t.k * w2;
@@ -52,7 +52,7 @@ float kd_drag_at(kd_drag_terms t, float v)
     return num / max(den, 1e-12);
 }
 
-/* Integrates between two points of a path, z apart in scaled time, by the nodes of z. */
+/* Integrates between two points of a path, separated by the scaled time z, with the nodes for z. */
 float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n, float z)
 {
     float sum =
@@ -63,7 +63,7 @@ float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n,
     return t.a * z * t.unit * (t.falls ? sum - t.e : sum);
 }
 
-/* This is what the ingoing coordinates leave out, at w. */
+/* The term left out in ingoing coordinates, at w. */
 float kd_drag_fallen(kd_drag_terms t, float w) { return t.falls ? t.a * kd_fall(w, t.root) : 0.0; }
 
 #endif

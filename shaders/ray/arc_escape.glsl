@@ -1,12 +1,12 @@
-/* This is the end of a ray that escapes: when w vanishes, and in which direction it then flies. */
+/* The end of a ray that escapes: when w vanishes, and the direction in which the ray then moves. */
 #ifndef KD_ARC_ESCAPE_GLSL
 #define KD_ARC_ESCAPE_GLSL
 
 #include "ray/arc.glsl"
 #include "ray/polar_azimuth.glsl"
 
-/* This is g of the time from here to w = 0, or back to there, which Biermann's formula gives with v = 0 at the other
- * end. A point that still moves inwards is taken to be far from it. */
+/* g of the time from here to w = 0, or back to there: Biermann's formula with v = 0 at the other end. A point that
+ * still moves inwards is treated as far from it. */
 float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
 
 /* The inverse of g, to second order. */
@@ -15,12 +15,12 @@ float kd_arc_time(kd_lattice l, float g)
     return sqrt(g) * (1.0 + g * (l.a * (-1.0 / 24.0) + g * (l.a * l.a * (3.0 / 640.0) - l.d * (1.0 / 40.0))));
 }
 
-/* This is the scaled time from `last` to infinity, for a ray that gets there before `next`, z later; `middle` is the
- * arc of z/2. The nearest of the three points tells the time to 1e-3, and what is left there of w tells the rest, as
- * w'' = 0 at w = 0. */
+/* Scaled time from `last` to infinity, for a ray that gets there before `next`, z later; `middle` is the arc of z/2.
+ * The nearest of the three points gives the time to 1e-3, and the value of w left there the rest, because w'' = 0 at
+ * w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
-    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* the places further on mean nothing */
+    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* the points further on are meaningless */
     kd_state y, half_ = kd_ahead(a, last, middle);
     y.w = last.v;
     y.dw = last.dv;
@@ -45,15 +45,14 @@ float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next
 
 struct kd_direction { float u, psi; };
 
-/* This is where a ray stands after that time since a crossing of the plane, which it left upwards; psi is counted
- * from there. */
+/* Direction of a ray that time after it crossed the plane upwards; psi counts from the crossing. */
 kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, float time)
 {
     kd_direction o;
     float unit2 = a.unit * a.unit, d = m.energy2 * unit2 * (max(m.q, 0.0) * unit2);
-    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d); /* that of u'^2 = Q + A u^2 - e u^4 */
+    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d); /* for u'^2 = Q + A u^2 - e u^4 */
     kd_arc z = kd_arc_twice(l, kd_arc_short(l, 0.5 * time * a.scale));
-    /* u and u' over sqrt(Q), which may vanish. */
+    /* u and u' over sqrt(Q), because Q may be 0. */
     float inv = 1.0 / (1.0 + 0.25 * d * z.g * z.g), rise = 0.5 * z.dg * inv;
     float u = rise * a.unit, du = (0.5 * kd_arc_bend(l, z.g) - 0.5 * rise * d * z.g * z.dg) * inv;
     float root_q = sqrt(max(m.q, 0.0));
@@ -75,9 +74,9 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
     return f;
 }
 
-/* This is the direction of a ray that escapes soon after its start, from which psi is counted, by four steps of the
- * vector equation of escape.glsl: in a quarter radian each their error is below a float's. One that never meets the
- * plane, as b < a, is such a ray if it starts outside the photon orbits. */
+/* Direction of a ray that escapes soon after its start, with psi counted from the start: four steps of the vector
+ * equation of escape.glsl, each of which has an error below a float's for a quarter radian. A ray that never meets
+ * the plane, with b < a, is such a ray if it starts outside the photon orbits. */
 kd_direction kd_arc_direction_aside(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

@@ -18,7 +18,7 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* A kernel reads both before its first branch: behind one lavapipe reads them anew for each lane and each use. */
+/* Call before the first branch: after one, lavapipe reads both again for each lane and each use. */
 kd_slice slice;
 void kd_camera_read()
 {
@@ -27,7 +27,7 @@ void kd_camera_read()
 }
 #endif
 
-/* What a direction has of c0, and (x, y) of cx and cy. */
+/* The component of a direction along c0; (x, y) become those along cx and cy. */
 float kd_camera_ahead(inout float x, inout float y)
 {
     if (SIGHT == KD_SIGHT_SPHERE) {
@@ -39,14 +39,14 @@ float kd_camera_ahead(inout float x, inout float y)
     if (SIGHT == KD_SIGHT_DOME) {
         float d = sqrt(x * x + y * y);
         vec2 off = kd_quarter_turns(d * cam.turn_x);
-        x *= off.y / max(d, 0.25); /* no ray is nearer to the middle than half a step, but one in it */
+        x *= off.y / max(d, 0.25); /* except for a ray in the middle itself, none is nearer to it than half a step */
         y *= off.y / max(d, 0.25);
         return off.x;
     }
     return 1.0;
 }
 
-/* What rounding does to its rays. */
+/* Bounds of the rounding errors of the camera's rays. */
 kd_rounding kd_camera_rounding()
 {
     return kd_rounding(cam.size_e, cam.noise_w, cam.noise_wl, cam.noise_p, cam.noise_l, cam.noise_k, cam.noise_0,
@@ -65,13 +65,13 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.p = ky;
         ray.w = 0.0;
         ray.dw = 1.0;
-    } else { /* (k_r, k_theta, k_phi); the photon flies along -k */
+    } else { /* (k_r, k_theta, k_phi); the photon moves along -k */
         float kz = ahead * cam.c0z + x * cam.cxz + y * cam.cyz;
         float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
         ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
-                              n; /* not by m: what is one product is rounded twice */
+                              n; /* multiplied here and not through m: a single product is rounded once less */
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }

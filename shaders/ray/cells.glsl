@@ -1,9 +1,9 @@
-/* This is what the kernels of a sampled lens map share: where cells and their nodes lie, and what a node holds.
+/* Places of cells and nodes of a sampled lens map, and the contents of a node; shared by its kernels.
  *
- * A cell of level k has KD_CELL_BLOCK / 2^(k - 1) rays along each side, and nodes at each quarter of it, which are
- * rays of the picture: 5 x 5 with those of its far sides, which it has in common with the next cells. Between them w
- * and azimuth of each crossing, and so on, are polynomials of degree 4 in both directions. Nodes of all levels but the
- * rays that a cell of the last level is checked by lie at even places.
+ * A cell of level k has KD_CELL_BLOCK / 2^(k - 1) rays along each side, and nodes at each quarter of it, which are rays
+ * of the picture: 5 x 5 including those of its far sides, which the next cells share. Between them w and azimuth of
+ * each crossing, and the other quantities, are polynomials of degree 4 in both directions. Nodes of all levels are at
+ * even places, except the rays that check a cell of the last level.
  *
  * Needs the specialisation constants QUANTITIES and ORDERS, KD_SAMPLE_CAMERA_BINDING, and NODE_AT(i) for words of
  * the nodes' map. */
@@ -20,48 +20,49 @@ struct kd_sampling { KD_SAMPLE_FIELDS_(F, U) };
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_sampling push_; };
 layout(set = 0, binding = KD_SAMPLE_CAMERA_BINDING, std140) uniform Camera { kd_camera_block camera_; };
-kd_sampling push; /* both read before the first branch, as in ray/camera.glsl */
+kd_sampling push; /* both are read before the first branch, as in ray/camera.glsl */
 kd_camera_block cam;
 
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,
            SKY = (QUANTITIES & KD_LENS_SKY_U) != 0u, FATE = (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* The index: a word for each even place, the number of its node and 1, or 0; then for each cell of the last level the
- * two rays that it is checked by. */
-const uint SIDE = 32u; /* even places of a block */
+/* The index: a word for each even place, with the number of its node plus 1, or 0; then for each cell of the last
+ * level the two rays that check it. */
+const uint SIDE = 32u; /* even places along the side of a block */
 uint index_width() { return SIDE * push.blocks_x + 1u; }
 uint index_of(uvec2 even) { return even.y * index_width() + even.x; }
 uint index_checks() { return index_width() * (SIDE * push.blocks_y + 1u); }
 uint index_of_last(uvec2 last) { return last.y * 8u * push.blocks_x + last.x; }
 
-/* Word of the index of a cell's node (i, j), at quarters of its side, which is so many rays. */
+/* Word of the index for a cell's node (i, j), at quarters of its side of `side` rays. */
 uint index_of_node(uvec2 corner, uint side, uint i, uint j)
 {
     return index_of((corner + uvec2(i, j) * (side / 4u)) / 2u);
 }
 
-/* A ray of the picture at such a place of the blocks. */
+/* The picture's ray at a place of the blocks. */
 ivec2 place_of(uvec2 at) { return ivec2(at) + ivec2(int(push.origin_x), int(push.origin_y)); }
 
 uint blocks() { return push.blocks_x * push.blocks_y; }
 uint side_of(uint level) { return KD_CELL_BLOCK >> (level - 1u); }
 
-/* Where units begin in the lists: kind 0, of crossings, or 1, of the sky. */
+/* Start of the units in the lists: kind 0 for crossings, 1 for the sky. */
 uint units_of(uint kind) { return KD_SAMPLE_QUEUES + blocks() * (KD_SAMPLE_QUEUED + kind * KD_SAMPLE_UNITS); }
 
-/* A unit: the cell's corner in eights of rays, which eight of its columns, and its level, in a word. */
+/* A unit in one word: the cell's corner in eighths of rays, which eight of its columns, and its level. */
 uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | corner.y << 15 | (level - 1u) << 29; }
-/* That of the eight columns. */
+/* Corner of the eight columns. */
 uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); }
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
-/* What ray/node.glsl keeps behind the planes: how a node counts; and of rays, what vanishes where fates change. */
+/* Values that ray/node.glsl stores after the planes: the state of a node; and a value that vanishes where the fate
+ * of rays changes. */
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }
 float curve_of(uint node) { return NODE_AT((kd_planes_of_all() + 1u) * push.room + node); }
 uint crossings_of(float state) { return uint(state) & 15u; }
 bool captured(float state) { return state >= KD_NODE_CAPTURED; }
 
-/* As ray/node.glsl leaves it: w, azimuth and slope of a crossing; and where in the sky a ray ends. */
+/* As stored by ray/node.glsl: w, azimuth and slope of a crossing; and where in the sky a ray ends. */
 vec3 crossing_of(uint node, uint n)
 {
     return vec3(NODE_AT(n * push.room + node), PHI ? NODE_AT((kd_plane(KD_LENS_PHI) + n) * push.room + node) : 0.0,

@@ -1,22 +1,22 @@
-/* This is the ellipse of the places that a ray stands for, as the lens map keeps it (shared/lens.h). */
+/* The ellipse of a ray's footprint, as stored in the lens map (shared/lens.h). */
 #ifndef KD_ELLIPSE_GLSL
 #define KD_ELLIPSE_GLSL
 
 #include "shared/math.glsl"
 
-/* The larger singular value of J, whose J^T J, or J J^T, has a and b on its diagonal and c beside it. */
+/* The larger singular value of J, where J^T J, or J J^T, has a and b on its diagonal and c beside it. */
 float kd_longest(float a, float b, float c)
 {
     float half_ = 0.5 * (a - b), size = sqrt(0.5 * (a + b) + sqrt(half_ * half_ + c * c));
     return kd_is_finite(size) ? min(size, KD_FOOTPRINT_EDGE) : KD_FOOTPRINT_EDGE;
 }
 
-/* The footprint and its shape, as the map keeps them. */
+/* Size and shape of a footprint, as stored in the map. */
 struct kd_oval { float size, shape; };
 
 const kd_oval KD_NO_OVAL = kd_oval(KD_FOOTPRINT_EDGE, 1.0 + (1023.0 + 2048.0 * 1023.0) / 8388608.0);
 
-/* These are ellipses of J J^T, whose components along r and phi these are; r grows as w falls. */
+/* The ellipse of J J^T from its components along r and phi; r grows as w falls. */
 kd_oval kd_oval_of(float rr, float ff, float rf)
 {
     float size = kd_longest(rr, ff, rf), i = rr / (rr + ff), j = 0.5 - 0.5 * rf * inversesqrt(rr * ff);

@@ -1,5 +1,5 @@
-/* Follows a ray to its end: from a known point of its path to infinity or to the horizon, with the direction as
- * a unit vector n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
+/* Follows a ray from a known point of its path to infinity or to the horizon, with the direction as a unit vector n =
+ * (sin theta cos psi, sin theta sin psi, cos theta), which is regular at the poles:
  *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
  * Needs camera.glsl and the specialisation constants STEPS and INGOING. */
 #ifndef KD_ESCAPE_GLSL
@@ -25,7 +25,7 @@ kd_path kd_path_start(kd_ray ray, float u, float s)
     return o;
 }
 
-/* On the plane, leaving it upwards (side = 1) or downwards (-1): |u'| = sqrt(Q). */
+/* Starts on the plane, leaving it upwards (side = 1) or downwards (-1): |u'| = sqrt(Q). */
 kd_path kd_path_crossing(kd_geodesic m, kd_state y, float psi, float chi, float side)
 {
     kd_path o;
@@ -53,7 +53,8 @@ kd_path kd_path_step(kd_geodesic m, kd_path p, float h)
     return o;
 }
 
-/* The drag over one step: Simpson's rule, with the middle from the quintic that fits w, w' and w'' at both ends. */
+/* Frame dragging over one step: Simpson's rule, with the midpoint from the quintic that fits w, w' and w'' at both
+ * ends. */
 float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
 {
     kd_state a, b, c;
@@ -64,9 +65,9 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     a.dw = p.v.w;
     c.dw = q.v.w;
     b.dw = -sqrt(max(kd_fall_squared(m, b.w, ray.e, cam.spin, cam.root), 0.0));
-    if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* in the middle it still moves inwards */
+    if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* at the midpoint the ray still moves inwards */
         b.dw = -b.dw;
-    if (INGOING) /* no pole: what leaves is in ingoing coordinates from the start */
+    if (INGOING) /* no pole: an outgoing ray is in ingoing coordinates from the start */
         return h * (1.0 / 6.0) *
                (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) +
                 4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +
@@ -79,8 +80,8 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
                 kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-/* This is w' of what leaves, by the first integral: within the horizon it does not vanish, and what rounding does to
- * it there, where it may be large, would be felt outside. */
+/* w' of an outgoing ray by the first integral. Inside the horizon w' does not vanish and may be large, so its
+ * rounding there would matter outside. */
 float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_fall_squared(m, w, e, cam.spin, cam.root)); }
 
 kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
@@ -89,11 +90,11 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
     o.fate = KD_FATE_UNDECIDED;
     o.u = 0.0;
     o.phi = 0.0;
-    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial; nor than 1/sqrt(6K
-     * w), which counts deep in the hole. */
+    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial, nor than 1/sqrt(6K
+     * w), which matters deep inside the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
-    /* Twelve half periods: beyond them only rays within 1e-13 of the critical curve still circle. */
+    /* Twelve half periods: after that only rays within 1e-13 of the critical curve still circle. */
     for (uint i = 0; i < 12 * STEPS; i++) {
         if (INGOING)
             h = KD_PI / (float(STEPS) * sqrt(rate2 + 6.0 * m.k * p.y.w));
@@ -106,7 +107,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             break;
         }
         if (q.y.w < 0.0) {
-            /* Finds where the cubic through both ends vanishes, by Newton; then one step to there. */
+            /* Finds the zero of the cubic through both ends by Newton's method; then takes one step to it. */
             float s = p.y.w / (p.y.w - q.y.w), d0 = h * p.v.w, d1 = h * q.v.w, dy = q.y.w - p.y.w;
             float c2 = 3.0 * dy - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * dy;
             for (int k = 0; k < 4; k++) {
@@ -116,7 +117,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             q = kd_path_step(m, p, s * h);
             vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
             o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
-            if (INGOING) /* what is left of w: ingoing azimuth is not yet that of infinity */
+            if (INGOING) /* w is not quite 0, where the ingoing azimuth is not yet that of infinity */
                 o.phi -= kd_drag_fall(q.y.w, cam.spin, cam.root);
             o.u = n.z * inversesqrt(dot(n, n));
             o.fate = KD_FATE_ESCAPED;

@@ -1,23 +1,23 @@
-/* This is what azimuth and time of a ray that falls grow by without bound at the horizon. */
+/* The terms of azimuth and time that grow without bound at the horizon for a ray that falls in. */
 #ifndef KD_FALL_GLSL
 #define KD_FALL_GLSL
 
 #include "shared/math.glsl"
 
-/* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole,
- * and the two factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may,
- * they would have lost them. */
+/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the
+ * two factors keep their precision where the horizons almost coincide. Precise: a driver may otherwise multiply it
+ * out, which would lose that precision. */
 float kd_delta(float w, float root)
 {
     precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);
     return delta;
 }
 
-/* This is Delta/r^2, with a floor so that it can be divided by. */
+/* Delta/r^2, with a positive lower bound so that it can be divided by. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
-/* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where
- * x is small, as for a hole that is nearly extremal. */
+/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small,
+ * as for a nearly extremal hole. */
 float kd_fall(float w, float root)
 {
     precise float gap = 1.0 - w - root * w;

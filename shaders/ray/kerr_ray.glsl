@@ -16,17 +16,17 @@ struct kd_ray {
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
 
-/* What rounding may do to R = W^2 - D K w^2, by bounds for all rays of an observer. E, L and p_theta are sums of
- * terms: they are off by some roundoffs of the terms' sizes, which are at most size_e, |L| + d_l and |p| + d_p. With
- * j = |a| size_e, and h for the horizon's w, W is off by w + wl |l| and K by l^2 + p^2 + p |p| + l |l| + k:
+/* Bounds of the rounding error of R = W^2 - D K w^2, for all rays of an observer. E, L and p_theta are sums of terms,
+ * with errors of some roundoffs of the terms' sizes, which are at most size_e, |L| + d_l and |p| + d_p. With j = |a|
+ * size_e, and h for w at the horizon, W has an error of w + wl |l| and K one of l^2 + p^2 + p |p| + l |l| + k:
  *   w = size_e + |a| h^2 (j + s d_l),  wl = |a| s h^2,  p = d_p,  l = d_l + 2 s j,  k = j ((1 + u^2) j + s d_l),
  * and `least` is of second order (kd_camera_exact of src/render/view/camera.c). */
 struct kd_rounding {
     float size_e, w, wl, p, l, k, least;
-    float unit; /* a number of roundoffs */
+    float unit; /* unit of these errors: several roundoffs */
 };
 
-/* Of a ray by its labels, which are exact. */
+/* For a ray given by its labels, which are exact. */
 kd_rounding kd_rounding_of_labels(kd_ray ray, float a, float u, float s, float horizon, float epsilon)
 {
     float j = abs(a) * ray.e, wl = abs(a) * s * horizon * horizon, w = ray.e + abs(a) * j * horizon * horizon,
@@ -35,7 +35,7 @@ kd_rounding kd_rounding_of_labels(kd_ray ray, float a, float u, float s, float h
                        16.0 * epsilon);
 }
 
-/* A ray is its constants of motion and the coefficients of R(w) and U(u). */
+/* Constants of motion of a ray, and the coefficients of R(w) and U(u). */
 struct kd_geodesic {
     float momentum, q, energy2; /* L, Q, a^2 E^2 */
     float a2, k, d;             /* A, K, D       */
@@ -50,14 +50,14 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     m.momentum = ray.l * s;
     m.q = ray.p * ray.p + u * u * (ray.l * ray.l - m.energy2);
     m.a2 = m.energy2 * (1.0 + u * u) - ray.l * ray.l - ray.p * ray.p;
-    precise float j = m.momentum - ae, k = m.q + j * j; /* not multiplied out */
+    precise float j = m.momentum - ae, k = m.q + j * j; /* a product of small factors, which must not be expanded */
     m.k = k;
     m.d = a * a * m.q;
     return m;
 }
 
-/* A factor that A, K and Q are taken times where they are squared, and its inverse for what comes of it: 1, but where
- * a float does not hold their squares, as those of a fast observer far away are. Powers of two: no digit changes. */
+/* Factor for A, K and Q before they are squared, and its inverse for the result. It is 1 unless their squares exceed
+ * a float's range, as for a fast observer far away. Powers of two, so no digit changes. */
 float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
 float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
 

@@ -1,12 +1,12 @@
-/* These are Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors alike: from (y, v) over a step h to
- * (y_out, v_out), T being the type and PULL(m, y) the function f. KD_NYSTROEM_ORDER, which a kernel may define
- * before as a specialisation constant:
+/* Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors: from (y, v) over a step h to (y_out, v_out),
+ * where T is the type and PULL(m, y) the function f. KD_NYSTROEM_ORDER, which a kernel may define before as a
+ * specialisation constant:
  *   6: J. Albrecht's in five stages (1955, ZAMM 35, 100);
- *   4: E. J. Nystroem's in three, the fewest there are (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett & Wanner
+ *   4: E. J. Nystroem's in three, the fewest possible (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett & Wanner
  *     1993, II.14).
- * The sums are precise: a driver may otherwise add a step's small terms to y one by one (Vulkan allows
- * reassociation), each of which rounds as y does. The orders are seen in tests/gpu/test_rays.c: twice the steps
- * leave a sixty-fourth of the error, or a sixteenth. */
+ * The sums are precise. Otherwise a driver may add a step's small terms to y one by one (Vulkan allows
+ * reassociation), each with a rounding error of y. tests/gpu/test_rays.c verifies the orders: twice the steps leave a
+ * sixty-fourth of the error, or a sixteenth. */
 #ifndef KD_NYSTROEM_GLSL
 #define KD_NYSTROEM_GLSL
 

@@ -5,7 +5,7 @@
 
 layout(set = 0, binding = 1) buffer Given { uint undecided, given[]; };
 
-/* at: of the ray in a plane of the lens map. */
+/* at: index of the ray in a plane of the lens map. */
 void kd_leave_open(bool open, uint at)
 {
     if (open) {
@@ -15,11 +15,11 @@ void kd_leave_open(bool open, uint at)
     }
 }
 
-/* How far a crossing must be from infinity and from the horizon, in units of w, for rounding not to have made it, or
- * missed it. */
+/* The least distance of a crossing from infinity and from the horizon, in units of w, at which rounding can neither
+ * create nor remove it. */
 struct kd_margins { float far, horizon, edge; };
 
-/* far, horizon: the scales of w there; noise: what rounding does to R at the barrier. The margin grows as the ray comes
+/* far, horizon: the scales of w there; noise: rounding error of R at the barrier. The margin grows as the ray comes
  * closer to the critical curve, where R vanishes there. */
 kd_margins kd_margins_of(kd_barrier b, float noise, float far, float horizon)
 {
@@ -27,7 +27,7 @@ kd_margins kd_margins_of(kd_barrier b, float noise, float far, float horizon)
     return kd_margins(part * far, part * horizon, horizon);
 }
 
-/* Says so of a ray that finds the plane at w; true of what is no number. */
+/* Whether a crossing at w is within these margins; true for NaN. */
 bool kd_crossing_is_open(float w, kd_margins off) { return !(abs(w) >= off.far && abs(w - off.edge) >= off.horizon); }
 
 #endif

@@ -1,15 +1,14 @@
-/* Finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
- * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: kernels that trace have one for places.
+/* Determines which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
+ * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: binding of the places, for kernels that trace.
  *
- * CRITICAL = KD_RAYS_BY_PLACE: rays are those of a stage of a list of places (ray/places.glsl): nodes, whose map is
- * that list's own and has their states behind its planes, or rays of the grid that are followed alone. CRITICAL = 0:
- * rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
- * CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x
- * and y of each pixel, is in the lens map behind its planes. */
+ * CRITICAL = KD_RAYS_BY_PLACE: the rays of a stage of a list of places (ray/places.glsl). These are nodes, which
+ * have a map of their own with their states after its planes, or single rays of the grid. CRITICAL = 0: rays of the
+ * picture's grid; a row of workgroups is a row of rays. Otherwise: CRITICAL rays on each of the listed pixels, on a
+ * lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x and y of each pixel,
+ * follows the planes in the lens map. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
-/* A word of the lens map. */
 #ifndef KD_MAP_AT
 #define KD_MAP_AT(at) lens[at]
 #endif
@@ -27,8 +26,7 @@ uvec2 kd_listed_pixel(uint pixel)
     return uvec2(KD_MAP_AT(at), KD_MAP_AT(at + 1));
 }
 
-/* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel; on a square
- * grid, SHIFT. */
+/* Ray of this number on a pixel, in steps of the camera: CRITICAL steps a pixel, or SHIFT on a square grid. */
 uvec2 kd_critical_place(uvec2 pixel, uint ray)
 {
     if (GENERATOR == 0)
@@ -36,7 +34,7 @@ uvec2 kd_critical_place(uvec2 pixel, uint ray)
     return pixel * CRITICAL + uvec2(ray, (ray * GENERATOR + SHIFT) % max(CRITICAL, 1));
 }
 
-/* The ray of this invocation of a tracing kernel; false: none. at: its place in a plane of the lens map. */
+/* The ray of this invocation of a tracing kernel; false: none. at: its index in a plane of the lens map. */
 bool kd_this_ray(out uvec2 ray, out uint at)
 {
     uint x = gl_GlobalInvocationID.x;
@@ -46,7 +44,7 @@ bool kd_this_ray(out uvec2 ray, out uint at)
         uint number = x + (alone ? 0u : kd_stage_first(slice.stage)), word = slice.places + number;
         if (x >= kd_stage_count(slice.stage))
             return false;
-        ray = kd_place_at(words[word]) + uvec2(slice.origin_x, slice.origin_y); /* may wrap round, to before 0 */
+        ray = kd_place_at(words[word]) + uvec2(slice.origin_x, slice.origin_y); /* may wrap round to a negative place */
         at = alone ? (ray.y - slice.band0) * cam.width + ray.x : number;
         return true;
     }

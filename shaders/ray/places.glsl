@@ -1,16 +1,15 @@
-/* This is where rays by their places stand: the nodes of a lens map between which it is interpolated, and the rays that
- * are followed alone (comp/lens_cells.comp makes both lists). */
+/* Lists of rays by place: the nodes of an interpolated lens map, and the rays that are traced singly
+ * (comp/lens_cells.comp makes both lists). */
 #ifndef KD_PLACES_GLSL
 #define KD_PLACES_GLSL
 
-/* A place counted from the first block's first ray, in a word: KD_PLACE_BITS for x. */
+/* A place in one word, counted from the first block's first ray: KD_PLACE_BITS for x. */
 uint kd_place_word(uvec2 at) { return at.x | at.y << KD_PLACE_BITS; }
 uvec2 kd_place_at(uint word) { return uvec2(word & ((1u << KD_PLACE_BITS) - 1u), word >> KD_PLACE_BITS); }
 
-/* How many rays a stage has. */
 uint kd_stage_count(uint stage) { return words[4u * stage + 3u]; }
 
-/* The number of its first node. */
+/* Number of a stage's first node. */
 uint kd_stage_first(uint stage)
 {
     uint first = 0u;

@@ -4,15 +4,14 @@
 
 #include "shared/lens.h"
 
-/* The first plane of a quantity: as kd_lens_plane of src/render/view/layout.h. A constant once the kernel is
- * specialised. */
+/* The first plane of a quantity, as kd_lens_plane of src/render/view/layout.h. Constant after specialisation. */
 uint kd_plane(uint quantity)
 {
     uint before = QUANTITIES & (quantity - 1u);
     return uint(bitCount(before & KD_LENS_CROSSINGS)) * ORDERS + uint(bitCount(before & ~KD_LENS_CROSSINGS));
 }
 
-/* All of them. */
+/* Number of all planes. */
 uint kd_planes_of_all()
 {
     return uint(bitCount(QUANTITIES & KD_LENS_CROSSINGS)) * ORDERS + uint(bitCount(QUANTITIES & ~KD_LENS_CROSSINGS));

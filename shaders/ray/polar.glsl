@@ -1,13 +1,14 @@
-/* The polar motion has a closed form, which says when a ray crosses the equatorial plane.
+/* Closed form of the polar motion: when a ray crosses the equatorial plane.
  *
  * u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
  *   x'^2 = p^2 cos^2 x + q^2 sin^2 x,    q^2 = (s - A)/2,  p^2 = q^2 + e U+ = s,  s = sqrt(A^2 + 4 e Q),
- * Gauss's own form of the elliptic integral: a half period takes pi / AGM(p, q), and Landen's transformation
- * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) does the incomplete one. Rays with an impact
- * parameter well above a have q/p near 1 and would do with two iterations. Four serve pictures: they leave 1e-7 at
- * q/p = 0.05 and 1e-5 at 0.01. Less than that has only a ray that aims at the hole along the plane of the disk, with
- * |alpha| below a and |beta| below a hundredth of it. The kernel of listed rays tells each one's error: it defines
- * KD_POLAR_LISTED and takes eight. */
+ * which is Gauss's form of the elliptic integral: a half period takes pi / AGM(p, q), and Landen's transformation
+ * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) gives the incomplete integral.
+ *
+ * Rays with an impact parameter well above a have q/p near 1, for which two iterations would do. Four are used for
+ * pictures, with an error of 1e-7 at q/p = 0.05 and of 1e-5 at 0.01. q/p is smaller only for rays that aim at the
+ * hole along the plane of the disk, with |alpha| below a and |beta| below a hundredth of it. The kernel of listed
+ * rays reports each ray's error: it defines KD_POLAR_LISTED and uses eight. */
 #ifndef KD_POLAR_GLSL
 #define KD_POLAR_GLSL
 
@@ -18,7 +19,7 @@ struct kd_polar {
     float half_;  /* from each crossing to the next                    */
     float b;      /* q^2 above                                         */
     float s;      /* s above                                           */
-    bool crosses; /* false: the motion stays on one side of the plane, or in it */
+    bool crosses; /* false: the motion stays on one side of the plane, or in the plane */
 };
 
 /* u: cosine of the observer's polar angle; s: its sine. The traced path starts with u' = s p. */
@@ -28,15 +29,15 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float by = kd_squared_by(m), a2 = by * m.a2,
           root = sqrt(max(a2 * a2 + 4.0 * (by * m.energy2) * (by * m.q), 0.0)) * kd_squared_back(by);
     o.s = root;
-    o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may be too small for a float */
-    /* This is (s - A)/2, without cancellation for either sign of A. */
+    o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may underflow */
+    /* (s - A)/2 without cancellation for either sign of A. */
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * (m.q / (root + m.a2));
     o.b = max(b, 1e-30);
 
-    /* By symmetry let the observer be above the plane, and one in it start upwards. */
+    /* By symmetry the observer may be taken above the plane; one in the plane starts upwards. */
     float du = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -(s * ray.p) : s * ray.p;
     float cx = abs(u), sx = -du / sqrt(o.b + m.energy2 * u * u); /* sqrt(U+) (cos x, sin x) */
-    float larger = max(cx, abs(sx)); /* only the direction counts; its squares must not vanish */
+    float larger = max(cx, abs(sx)); /* only the direction counts; its squares must not underflow */
     sx = larger > 0.0 ? sx / larger : -1.0;
     cx = larger > 0.0 ? cx / larger : 0.0;
     float angle = kd_angle_upper(sx, cx); /* pi/2 - x */
@@ -44,7 +45,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float k0 = sqrt(o.b / max(root, 1e-30));
     float p = sqrt(root), q = k0 * p;
 #ifdef KD_POLAR_LISTED
-    /* Each step makes 1 - k a square over eight, so that eight of them end below a roundoff from k = 1e-15 on. */
+    /* Each step replaces 1 - k by about its square over eight, so that eight steps end below a roundoff for k from
+     * 1e-15 on. */
     float weight = 0.5, correction = 0.0, k = k0;
     for (int i = 0; i < 8; i++) {
         float n = 1.0 / (cx * cx + sx * sx);
@@ -55,12 +57,12 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
         cx = (cx * cx - k * sx * sx) * n;
         sx = y;
         p *= 0.5 + 0.5 * k;
-        k = 2.0 * sqrt(k) / (1.0 + k); /* that of the two means, whose product a float might not hold */
+        k = 2.0 * sqrt(k) / (1.0 + k); /* the ratio of the next two means; their product might exceed a float's range */
     }
     float mean = p;
 #else
     float n = 1.0 / (cx * cx + sx * sx);
-    /* Landen's transformation acts on the direction (cx, sx) alone. */
+    /* Landen's transformation, applied to the direction (cx, sx). */
     float y = (k0 - 1.0) * sx * cx * n, x = (cx * cx + k0 * sx * sx) * n;
     float d = abs(y) > 0.4 * x ? kd_angle_upper(x, abs(y)) * sign(y) : kd_atan_small(y / x);
     float correction = 0.5 * d;

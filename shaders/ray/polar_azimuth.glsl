@@ -1,13 +1,14 @@
-/* Gives the azimuth that the polar motion contributes, psi = integral of L/(1 - u^2) dtau, in closed form.
+/* Azimuth from the polar motion, psi = integral of L/(1 - u^2) dtau, in closed form.
  *
- * The integrand peaks as 1/sin^2(theta) near the axis. With u^2 = U+ cos^2 x, y = b + e u^2 and c = b + e one has
- * c (1 - U+) = L^2, so that
+ * The integrand peaks as 1/sin^2(theta) near the axis. With u^2 = U+ cos^2 x, y = b + e u^2 and c = b + e one has c (1
+ * - U+) = L^2, so that
  *   L dx / ((1 - u^2) sqrt(y)) = sign(L) d atan(tan x / sqrt(1 - U+)) + L e dx / (sqrt(y) sqrt(c) (sqrt(y) +
- *     sqrt(c))):
- * the first term holds the whole peak and is exact; between crossings it gives pi. The second is smooth, small and
+ *     sqrt(c))).
+ *
+ * The first term contains the whole peak and is exact; between crossings it is pi. The second is small and smooth,
  * even and periodic in x: a cosine series through five points. Its terms fall as ((p - q)/(p + q))^k. Rays with an
- * impact parameter below some twice the spin, a few of a picture, would need many more: for them it is integrated in
- * time. */
+ * impact parameter below about twice the spin, a few of a picture, would need many more terms; for them it is
+ * integrated in time. */
 #ifndef KD_POLAR_AZIMUTH_GLSL
 #define KD_POLAR_AZIMUTH_GLSL
 
@@ -18,10 +19,10 @@ struct kd_azimuth {
     float half_;              /* from each crossing to the next */
     float f0, f1, f2, f3, f4; /* the cosine series */
     float b, root_c, side;    /* b, sqrt(c), the sign of L */
-    bool uneven;              /* the series does not do */
+    bool uneven;              /* the series is not accurate enough */
 };
 
-/* This is 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
+/* 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
 float kd_azimuth_rate(float y, float root_c)
 {
     float root = sqrt(y);
@@ -30,8 +31,8 @@ float kd_azimuth_rate(float y, float root_c)
 
 float kd_azimuth_pull(kd_geodesic m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
 
-/* This is the smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by
- * Boole's rule. */
+/* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's
+ * rule. */
 float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
 {
     const uint steps = 32;
@@ -47,11 +48,11 @@ float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
     return m.momentum * m.energy2 / c * sum * h * (2.0 / 45.0);
 }
 
-/* This is psi from a point of the path to the crossing of the plane less than a half period away, by the series.
- * (cx, sx) is (cos x, sin x) there, times any number; the angle of (tx, ty) is pi/2 - atan(tan x / sqrt(1 - U+)). */
+/* psi from a point of the path to the crossing of the plane less than a half period away, by the series. (cx, sx) is
+ * proportional to (cos x, sin x) there; the angle of (tx, ty) is pi/2 - atan(tan x / sqrt(1 - U+)). */
 float kd_azimuth_part(kd_azimuth o, float cx, float sx, float tx, float ty)
 {
-    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and no more */
+    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and not less */
     float sin2 = 2.0 * sx * cx * n, cos2 = (cx * cx - sx * sx) * n, cos4 = 2.0 * cos2 * cos2 - 1.0;
     float wave =
         sin2 * (0.5 * o.f1 + cos2 * (0.5 * o.f2 + cos4 * 0.5 * o.f4) + o.f3 * (0.5 - (2.0 / 3.0) * sin2 * sin2));
@@ -66,7 +67,7 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     float cx = abs(u), sx = -(s * dp) / root;
     float c = polar.b + m.energy2, sc = sqrt(c);
     float eu = m.energy2 * (cx * cx + sx * sx); /* e U+ */
-    /* The places are x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends count half. */
+    /* Nodes x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends have weight 1/2. */
     float j0 = 0.5 * kd_azimuth_rate(polar.b + eu, sc), j4 = 0.5 * kd_azimuth_rate(polar.b, sc);
     float j1 = kd_azimuth_rate(polar.b + 0.853553391 * eu, sc);
     float j2 = kd_azimuth_rate(polar.b + 0.5 * eu, sc);
@@ -81,8 +82,7 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     o.root_c = sc;
     o.side = ray.l < 0.0 ? -1.0 : 1.0;
     o.uneven = polar.b < 0.85 * (polar.b + eu); /* (p - q)/(p + q) above 0.04: the fifth term above 1e-7 */
-    /* This is tan x / sqrt(1 - U+) at the observer, free of the sine of the polar angle that both sides share: exact
-     * on the axis. */
+    /* tan x / sqrt(1 - U+) at the observer, without the sine of the polar angle, which cancels: exact on the axis. */
     float tx = -dp / root, ty = cx * abs(ray.l) / sc;
     o.first = kd_azimuth_part(o, cx, sx, tx, ty);
     o.half_ = KD_PI * (o.side + o.f0);

@@ -1,5 +1,4 @@
-/* Follows the radial motion w'' = A w + 3K w^2 - 2D w^3 a step at a time, and the azimuth by which the hole
- * drags a ray. */
+/* Radial motion w'' = A w + 3K w^2 - 2D w^3 by steps, and the azimuth by which the hole drags a ray. */
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL
 
@@ -18,14 +17,14 @@ kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
     return o;
 }
 
-/* This is W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning
- * behind the horizon. */
+/* W + |w'| of a ray that does not turn, W = E (1 + a^2 w^2) - a L w^2; the lower bounds are for values inside the
+ * horizon, which are meaningless. */
 float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 {
     return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
 }
 
-/* This is w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
+/* w'^2 = W^2 - D K w^2, which keeps its precision next to the horizon. */
 float kd_fall_squared(kd_geodesic m, float w, float e, float a, float root)
 {
     precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2,
@@ -35,11 +34,11 @@ float kd_fall_squared(kd_geodesic m, float w, float e, float a, float root)
 
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
  *
- * On the way into the horizon chi' diverges as 1/D, and its quadrature with it. What a falling ray leaves regular is
- * the azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by
- * kd_drag_fall. As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference; and the
- * same with the other sign of w' for one that comes from next to the horizon. way: 1 for a ray that goes straight
- * in, -1 straight out, else 0. */
+ * Towards the horizon chi' diverges as 1/D, and so would its quadrature. For a falling ray the azimuth of ingoing
+ * Kerr-Schild coordinates is regular: it leaves out a w'/D, whose integral is elementary and is added by
+ * kd_drag_fall. As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The
+ * same holds with the other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes
+ * straight in, -1 straight out, else 0. */
 float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;
@@ -48,9 +47,9 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
 }
 
-/* The same for a ray that may come from within the horizon, or go back to it: that of ingoing coordinates (way = -1)
- * while it leaves, of outgoing ones (1) while it returns; D is divided by on the other half of the way. Both are
- * smooth where the ray turns, for w'^2 = W^2 - D K w^2. */
+/* The same for a ray that may come from inside the horizon or return to it: in ingoing coordinates (way = -1) while
+ * it goes outwards, in outgoing ones (1) while it returns; each divides by D only on the other half of the way. Both
+ * are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
@@ -58,9 +57,9 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
     return a * ((along ? m.k * w2 : sum) / (along ? sum : kd_horizons(y.w, root)) - e);
 }
 
-/* Says whether the light of an observer at w comes from outside. Only an observer at or within the horizon sees any
- * that does not: it crosses the horizon with W < 0, out of the other side of the hole's past, and is dark. W means
- * nothing at a horizon that a ray does not cross. */
+/* Whether the light of an observer at w comes from outside. Only an observer on or inside the horizon sees light
+ * that does not: it crosses the horizon with W < 0, from the other side of the hole's past, and is dark. W has no
+ * meaning at a horizon that a ray does not cross. */
 bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 {
     return w < horizon || e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
@@ -68,13 +67,14 @@ bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 
 float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
 
-/* A ray ends there by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon
- * region, and at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R =
- * W^2 - D K w^2 holds its digits next to the horizon too. */
+/* The turning point of the radial motion, which with the constants of motion alone decides where a ray ends. R' = 2w
+ * (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and at the horizon R = W^2: a ray on one
+ * side of that place gets to the other exactly if R > 0 there. R = W^2 - D K w^2 keeps its precision next to the
+ * horizon too. */
 struct kd_barrier {
-    float w, r;  /* the place, the horizon if it lies behind; R there, */
-    float noise; /* and what rounding may have done to it */
-    bool open;   /* it lies clearly behind the horizon: nothing to pass */
+    float w, r;  /* the place, or the horizon if the place is inside it; R there */
+    float noise; /* bound of its rounding error */
+    bool open;   /* the place is clearly inside the horizon: there is no barrier */
 };
 
 kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float horizon, float root, kd_rounding off)
@@ -94,9 +94,9 @@ kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float horizon, floa
     return o;
 }
 
-/* The same from a place beside it, for an observer next to the orbits of light: R is w'^2 there, and between the two
- * places it changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), x being the way, since R' vanishes at the
- * barrier. Of w' next to 0 its square has more digits than R. */
+/* The same from a place near it, for an observer next to the photon orbits. There R = w'^2, and between the two
+ * places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance, since R' vanishes at
+ * the barrier. If w' is close to 0, its square is more precise than R. */
 kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
@@ -109,29 +109,28 @@ kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float hori
     return b;
 }
 
-/* What rounding the start does to R on the way of a ray that is followed from there by steps: w is rounded, and w',
- * whose square is R. */
+/* Error of R along a ray traced by steps, due to rounding at its start: of w, and of w', whose square is R. */
 float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 {
     return off.unit * (abs(y.dw) * (off.size_e + sqrt(max(m.k, 0.0)) * y.w) + abs(y.w * kd_pull(m, y.w)));
 }
 
-/* Says whether a ray goes into the horizon from where it is now, without turning. */
+/* Whether a ray falls into the horizon from its present state, without turning. */
 bool kd_falls_in(kd_barrier b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
 
-/* Says which way kd_drag takes from here on. */
+/* The `way` for kd_drag from here on. */
 float kd_way(kd_barrier b, kd_state y)
 {
     return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
 }
 
-/* Says whether the ray ends at infinity. */
+/* Whether the ray escapes. */
 bool kd_flies_out(kd_barrier b, kd_state y)
 {
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
-/* Says whether either can be told. */
+/* Whether the outcome is certain in spite of rounding. */
 bool kd_is_decided(kd_barrier b, kd_state y)
 {
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;

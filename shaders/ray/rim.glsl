@@ -1,18 +1,18 @@
-/* The rim of the shadow, rays next to the critical curve (src/render/view/rim.h), between which images of stars of
- * all orders are found: some grids (rim_grid.h). Binding 7. Needs sky_map.glsl and camera.glsl, and the
- * specialisation constant RIM: 0: there is none; 1: the rays at hand are the picture's, and leave images next to the
- * curve to the rim; 2: they are those of one of its grids. */
+/* The rim of the shadow: rays next to the critical curve (src/render/view/rim.h) on several grids (rim_grid.h),
+ * between which images of stars of all orders are found. Binding 7. Needs sky_map.glsl and camera.glsl, and the
+ * specialisation constant RIM. 0: there is no rim; 1: the rays are the picture's, and images next to the curve are
+ * left to the rim; 2: the rays are those of a grid of the rim. */
 #ifndef KD_RIM_GLSL
 #define KD_RIM_GLSL
 
 layout(set = 0, binding = 7) readonly buffer Rim
 {
     float rim[];
-}; /* how far the curve is from the middle, by the angle; from push.rim on the table of the grid at hand */
+}; /* distance of the curve from the middle, by angle; from push.rim on the table of the current grid */
 
 const bool AT_RIM = RIM == 2u;
 
-/* Where a camera looks at a place of the picture; at infinity alpha and beta. */
+/* Direction of look at a place of the picture; at infinity alpha and beta. */
 vec3 kd_camera_look(vec2 place)
 {
     float x = place.x - cam.middle_x, y = cam.middle_y - place.y, ahead = kd_camera_ahead(x, y);
@@ -20,8 +20,8 @@ vec3 kd_camera_look(vec2 place)
            y * vec3(cam.cyx, cam.cyy, cam.cyz);
 }
 
-/* And the place that it sees a direction at, and how many steps of the picture, squared, there are to a unit of the
- * area about `ahead` of the direction's plane. None behind a pinhole. */
+/* The inverse: the place of a direction in the picture, and the squared steps of the picture per unit of area about
+ * `ahead` on the direction's plane. 0 behind a pinhole. */
 struct kd_seen {
     vec2 place;
     float steps;
@@ -58,7 +58,7 @@ vec3 kd_rim_ahead() { return vec3(push.ahead_x, push.ahead_y, push.ahead_z); }
 vec3 kd_rim_right() { return vec3(push.right_x, push.right_y, push.right_z); }
 vec3 kd_rim_up() { return vec3(push.up_x, push.up_y, push.up_z); }
 
-/* A direction's place on the rim's plane. */
+/* Place of a direction on the rim's plane. */
 vec2 kd_rim_place(vec3 d)
 {
     float depth = dot(d, kd_rim_ahead());
@@ -67,7 +67,7 @@ vec2 kd_rim_place(vec3 d)
     return depth > 1e-6 ? vec2(dot(d, kd_rim_right()), dot(d, kd_rim_up())) / depth : vec2(1e6);
 }
 
-/* The share that the rim has of an image there. */
+/* Fraction of an image's light that the rim contributes there. */
 float kd_rim_share(vec2 place)
 {
     float angle = kd_atan2(place.y, place.x) * (float(KD_RIM_EDGES) / (2.0 * KD_PI)), low = floor(angle);
@@ -76,7 +76,7 @@ float kd_rim_share(vec2 place)
     return clamp((push.none - off) / (push.none - push.full), 0.0, 1.0);
 }
 
-/* The quartic through five places in a row, -2 ... 2, without its first and last term: x, x^2, x^3. */
+/* The quartic through five values at -2 ... 2, without its constant and fourth-order terms: x, x^2, x^3. */
 struct kd_quartic { vec2 x, xx, xxx; };
 
 kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
@@ -86,15 +86,14 @@ kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
                       (far - 2.0 * near) * (1.0 / 12.0));
 }
 
-/* A place p in the cell (x, y) of a grid: on the plane, as the direction, and the area of the plane that the cell
- * has there. */
+/* A place p in the cell (x, y) of a grid: on the plane, as a direction, and the area of the cell on the plane. */
 struct kd_rim_cell {
     vec2 place;
     vec3 d;
     float area;
 };
 
-/* Of a column: the curve's point, and how that goes by. */
+/* For a column: the curve's point, and its derivative. */
 struct kd_rim_column { vec2 at, by; };
 
 kd_rim_column kd_rim_curve(uint k)
@@ -103,7 +102,7 @@ kd_rim_column kd_rim_curve(uint k)
     return kd_rim_column(vec2(rim[i], rim[i + 1u]), vec2(rim[i + 2u], rim[i + 3u]));
 }
 
-/* Between columns the curve goes by as a parabola has it. */
+/* Between columns the derivative of the curve is interpolated as a parabola. */
 kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
 {
     kd_rim_column own = kd_rim_curve(x);
@@ -119,7 +118,8 @@ kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
     return o;
 }
 
-/* The share that the grid at hand has of an image at its column and row; of one within some of it, at most. */
+/* Fraction of an image at a column and row that the current grid contributes; an upper bound for images within a
+ * distance `within`. */
 float kd_rim_part(vec2 at, float within)
 {
     vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])),
@@ -129,7 +129,7 @@ float kd_rim_part(vec2 at, float within)
     return share.x * share.y;
 }
 
-/* The steps of the picture, squared, that a ray stands for: in the map at hand the one at (x, y). */
+/* Squared steps of the picture that the ray at (x, y) of the current map stands for. */
 float kd_steps_of(uint x, uint y)
 {
     if (!AT_RIM)

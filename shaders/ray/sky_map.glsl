@@ -1,6 +1,6 @@
-/* Kernels that look for stars in a lens map share these bindings: the map, and numbers and tables of the emitters.
- * Bindings 0, 1, 2. Needs the specialisation constants QUANTITIES, ORDERS and RIM: where that is 2, the rays at hand
- * are the rim's (rim.glsl), whose map is where they come from, x, y and z. */
+/* Bindings shared by kernels that search stars in a lens map: the map, and numbers and tables of the emitters.
+ * Bindings 0, 1, 2. Needs the specialisation constants QUANTITIES, ORDERS and RIM: if RIM is 2, the rays are the
+ * rim's (rim.glsl), whose map holds directions x, y and z. */
 #ifndef KD_SKY_MAP_GLSL
 #define KD_SKY_MAP_GLSL
 
@@ -29,7 +29,7 @@ float map_at(uint at) { return lens[at]; }
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
 #include "light/tables.glsl"
 
-/* Read before the first branch: behind one lavapipe reads them anew for each lane and each use. */
+/* Read before the first branch: after one, lavapipe reads them again for each lane and each use. */
 kd_star_push push;
 struct kd_sky_emission {
     kd_frame_block frame;
@@ -47,8 +47,8 @@ void kd_sky_map_read()
 #include "emit/sky.glsl"
 
 float kd_sky_number(uint quantity, uint at) { return map_at(at + kd_plane(quantity) * push.stride); }
-/* How much of the sky a ray stands for, radians: as the map has it or, without that, by the derivatives along the
- * picture's axes, whose products these are. */
+/* Size on the sky that a ray stands for, radians: from the map or, if it is missing there, from products of the
+ * derivatives along the picture's axes. */
 float kd_sky_size(uint at, float aa, float bb, float ab)
 {
     float half_ = 0.5 * (aa - bb);
@@ -57,7 +57,7 @@ float kd_sky_size(uint at, float aa, float bb, float ab)
 }
 bool kd_sky_escapes(uint at) { return RIM == 2u || kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
 
-/* Where a ray comes from, in the hole's frame. */
+/* Direction from which a ray comes, in the hole's frame. */
 vec3 kd_sky_from(uint at)
 {
     if (RIM == 2u)

@@ -1,6 +1,6 @@
-/* The light of a star's image is spread over the pixels next to it as a quadratic B-spline, of standard deviation
- * half a pixel, over 3 x 3: the weights add up to 1, and their centre is the place. It is added up in 64-bit fixed
- * point, so that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. Needs around.glsl. */
+/* Spreads the light of a star's image over 3 x 3 pixels as a quadratic B-spline with a standard deviation of half a
+ * pixel: the weights add up to 1, and their centre is the image's place. Light is summed in 64-bit fixed point, so
+ * that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. Needs around.glsl. */
 #ifndef KD_STAR_LIGHT_GLSL
 #define KD_STAR_LIGHT_GLSL
 
@@ -16,15 +16,15 @@ void kd_star_add(uint o, float light)
         atomicAdd(point_light[o + 1u], high);
 }
 
-/* Those of the pixel before, at and after a place that is d from the middle one. */
+/* Weights of the pixels before, at and after a place at distance d from the middle one. */
 vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
 
-/* The solid angle of a pixel of a picture of all directions, by its row, over that at the equator. */
+/* Solid angle of a pixel of a picture of all directions by its row, relative to the equator. */
 float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) / rows)); }
 
-/* place: in pixels of the picture. light: the mean radiance of a pixel whose middle is there. Next to the poles of a
- * picture of all directions neighbouring rows have other solid angles: their light adds up to what that pixel would
- * have. */
+/* place: in pixels of the picture. light: the mean radiance of a pixel centred there. Near the poles of a picture of
+ * all directions adjacent rows have different solid angles: the sum of light times solid angle is that of the
+ * centred pixel. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);

@@ -1,15 +1,14 @@
-/* What the kernels share that seek stars: the list of them, in cells; and what they write, pairs of a ray and a
- * star, and rays that are still to be sought for. Bindings 3 to 6. Needs sky_map.glsl. */
+/* The list of stars in cells, shared by the kernels that search stars, and their output: pairs of a ray and a star,
+ * and rays still to be searched. Bindings 3 to 6. Needs sky_map.glsl. */
 #ifndef KD_STAR_LIST_GLSL
 #define KD_STAR_LIST_GLSL
 
 #include "shared/faces.h"
-layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; }; /* how many; then, from 2 on, a ray and a star each */
+layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; }; /* number of pairs; from 2 on a ray and a star each */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
 vec4 star_row(uint k) { return texelFetch(stars, int(k)); }
-layout(set = 0,
-       binding = 5) uniform utextureBuffer cells; /* the table of the fine ones, then that of the coarse ones */
+layout(set = 0, binding = 5) uniform utextureBuffer cells; /* the table of fine cells, then that of coarse ones */
 uint cell_at(uint of) { return texelFetch(cells, int(of)).r; }
 #else
 layout(set = 0, binding = 4) readonly buffer Stars { vec4 stars[]; };
@@ -20,9 +19,9 @@ uint cell_at(uint of) { return cells[of]; }
 layout(set = 0, binding = 6) buffer Listed
 {
     uint listed[];
-}; /* how many tiles, and rays; then so many tiles, for push.tiles of which there is room; and rays */
+}; /* numbers of tiles and of rays; the tiles, with room for push.tiles; then the rays */
 
-/* The cells of a face in a rectangle. */
+/* Cells of a face in a rectangle. */
 struct kd_cells {
     int first, side;
     ivec2 low, high;
@@ -36,7 +35,7 @@ kd_cells kd_cells_of(uint face, vec2 low, vec2 high)
     return kd_cells(first, side, kd_face_cell(low.x, low.y, float(side)), kd_face_cell(high.x, high.y, float(side)));
 }
 
-/* Goes through the stars of such cells: k is the next one, of a cell that ends before `end`. */
+/* Iterates over the stars of such cells: k is the next star, in a cell that ends before `end`. */
 struct kd_star_walk {
     ivec2 cell;
     uint k, end;
@@ -45,7 +44,7 @@ struct kd_star_walk {
 
 kd_star_walk kd_star_walk_from(kd_cells c, bool any) { return kd_star_walk(ivec2(c.low.x - 1, c.low.y), 0u, 0u, !any); }
 
-/* Where a cell has no more stars, to the next one, whether it has any or not. */
+/* Moves to the next cell, which may be empty, if the current one has no more stars. */
 void kd_star_next_cell(kd_cells c, inout kd_star_walk walk)
 {
     if (walk.k >= walk.end) {

@@ -1,7 +1,7 @@
-/* Writes down what a kernel does, step by step, for `kerrd rays --trace`: compiled with KD_TRACE it writes a
- * record of each step of its one ray to binding 2; otherwise nothing is left of this. Numbers: how many records
- * there were, the constants of the motion, then the records: stage, step, four numbers, their derivatives, chi.
- * Records that have no room are counted only. */
+/* Records the steps of a kernel for `kerrd rays --trace`. Compiled with KD_TRACE, it writes a record of each step of
+ * its single ray to binding 2; otherwise it compiles to nothing. Numbers: the count of records, the constants of
+ * motion, then the records: stage, step, four numbers, their derivatives, chi. Records that do not fit are only
+ * counted. */
 #ifndef KD_TRACE_GLSL
 #define KD_TRACE_GLSL
 

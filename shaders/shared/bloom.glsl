@@ -1,21 +1,21 @@
-/* Finds the light that a lens spreads to a point of the picture; bloom_*.comp and post.comp share it.
+/* Light spread by a lens to a point of the picture; shared by bloom_*.comp and post.comp.
  *
  * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the
- * edge the grid is its own mirror image: what would leave the picture stays at its edge. A picture that goes all
- * round has its other edge beyond the left and the right one. */
+ * edge the grid is its own mirror image: light that would leave the picture stays at its edge. In a picture of all
+ * directions the left and right edges adjoin. */
 #ifndef KD_BLOOM_GLSL
 #define KD_BLOOM_GLSL
 
-/* In units of white, what the exposure takes as 1: light of which all that is over it may be spread; half the way
- * from nothing to all; and the most that is spread of one place. Light near white is included, as the film-like
- * curve shows the brightest of many pictures there. */
+/* In units of white, to which the exposure maps 1. FROM: light above this may be spread; KNEE: half the width of the
+ * transition; MOST: the most that is spread from one place. Light near white is included, because the film-like
+ * curve shows the brightest parts of many pictures there. */
 #define KD_BLOOM_FROM 0.6
 #define KD_BLOOM_KNEE 0.4
 #define KD_BLOOM_MOST 64.0
 
-/* What a lens takes of exposed light c from its place, where it spreads the share `strength` of bright light:
- * nothing below FROM - KNEE, of what is beyond FROM + KNEE all that is over FROM, by a parabola between. Where y is
- * 10^30 or more, or no number, light stays. */
+/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light: nothing below
+ * FROM - KNEE, everything above FROM from FROM + KNEE on, and a parabola between. If y is 10^30 or more, or NaN,
+ * nothing is spread. */
 vec3 bloom_of(vec3 c, float strength)
 {
     float y = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
@@ -24,17 +24,18 @@ vec3 bloom_of(vec3 c, float strength)
     return over > 0 && y < 1e30 ? c * (strength * over / y) : vec3(0);
 }
 
-/* Weights of a quadratic B-spline on three cells, t from the middle of the second in cells. */
+/* Weights of a quadratic B-spline on three cells; t: distance from the centre of the second, in cells. */
 vec3 bloom_spline(float t) { return vec3(0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)); }
 
-/* The weight of a cell by the distance t to its middle: the same three. */
+/* The weight of a cell by the distance t to its centre: the same three. */
 float bloom_weight(float t)
 {
     float a = max(1.5 - abs(t), 0.0), b = max(0.5 - abs(t), 0.0);
     return 0.5 * a * a - 1.5 * b * b;
 }
 
-/* Column and row of invocation n, so many a row. The quotient as a float is wrong by one at most: rows reach 2^15. */
+/* Column and row of invocation n, with `across` invocations a row. The quotient as a float is wrong by at most one:
+ * rows reach 2^15. */
 uvec2 bloom_place(uint n, uint across)
 {
     int width = int(across), y = int(float(n) * (1 / float(width))), x = int(n) - y * width;
@@ -45,7 +46,7 @@ uvec2 bloom_place(uint n, uint across)
 /* Index of a cell in the mirror image of n cells, for i from -1 to n. */
 int bloom_mirror(int i, int n) { return clamp(i, 0, n - 1); }
 
-/* The same of a column, for i from -2n on; around: of a picture that goes all round. */
+/* The same for a column, for i from -2n on; around: the picture shows all directions. */
 int bloom_column(int i, int n, bool around) { return around ? (i + 2 * n) % n : bloom_mirror(i, n); }
 
 #endif

@@ -1,37 +1,34 @@
-/* Emitters are what sends light along a ray, takes it away or changes it. Each has a line here, in the order in
- * which they are composed at one place; the number is that of the specialisation constant TRAITS_name behind
- * KD_SPEC_TRAITS.
+/* The list of emitters, which send light along a ray, absorb it or change it. Each has a line here, in the order of
+ * composition at one place; the number is that of the specialisation constant TRAITS_name, counted from KD_SPEC_TRAITS.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
- *   PART          nothing of its own: another emitter calls its functions, so that what both compute is computed
- *                 once
- *   OVER          kd_name_over(order): a factor of all light of a crossing of that order, and of what light volumes
- *                 have of it (kd_midst)
- *   ALONG         kd_name_along(point): what there is at a place of the ray, which shines and takes light away all
- *                 along it (a kd_medium of light/compose.glsl). Scenes that have one are lit by the march
- *                 (light/march.glsl), which takes as many places as the emitter's grain, its depth and the ray's
- *                 bending ask for; its C file says between which radii and latitudes it is
+ *   PART          no light of its own: other emitters call its functions, so that shared values are computed once
+ *   OVER          kd_name_over(order): a factor for all light of a crossing of that order, and for a part of the light
+ *                 of volumes (kd_midst)
+ *   ALONG         kd_name_along(point): emission and absorption of a volume at a point of the ray (a kd_medium of
+ *                 light/compose.glsl). Scenes with such an emitter are lit by the march (light/march.glsl), whose step
+ *                 length follows the emitter's grain, its optical depth and the ray's bending; its C file gives its
+ *                 range of radii and latitudes
  *   MET           kd_name_light(met), kd_name_shift(met), kd_name_kelvin(met): light, 1/g and temperature of opaque
- *                 surfaces that the ray meets off the plane (light/meet.glsl), of which the first hides all behind
- *                 it. Scenes that have one are lit by the kernel of the march as well
- *   AT_END        kd_name_end(end): what a ray sees that has come through; kd_name_points(pixel): of those with
- *                 points of light, what a pixel has of them
+ *                 surfaces off the plane (light/meet.glsl), the first of which hides everything behind it. Scenes
+ *                 with such an emitter are lit by the march's kernel as well
+ *   AT_END        kd_name_end(end): light at the end of a ray that was transmitted; kd_name_points(pixel): for points
+ *                 of light, their contribution to a pixel
  *
- * An emitter called name has its GLSL in emit/name.glsl, which says
+ * The GLSL of an emitter called name is emit/name.glsl, which defines
  *
- *   KD_BLOCK_name(F, U, A)  which numbers it needs: F float, U uint, A(type, member, count) an array of structs
- *   KD_TABLES_name(T)       which tables: T(table, rows), rows of four floats
- *   KD_TRAITS_name(T)       which variants it has: T(trait), bits KD_TRAIT_trait of its word, some of which it may
- *                           share with others
- *   KD_BUFFERS_name(B)      which buffers it fills on the device before light is: B(number, type, member), numbered
- *                           from 0 among all emitters', of words, pairs of words or floats, which are read by
+ *   KD_BLOCK_name(F, U, A)  its numbers: F float, U uint, A(type, member, count) an array of structs
+ *   KD_TABLES_name(T)       its tables: T(table, rows), rows of four floats
+ *   KD_TRAITS_name(T)       its variants: T(trait), bits KD_TRAIT_trait of its word; emitters may share traits
+ *   KD_BUFFERS_name(B)      device buffers that it fills before the light passes: B(number, type, member), numbered
+ *                           from 0 over all emitters; of words, pairs of words or floats, which are read by
  *                           KD_OWN_WORD(member, at) and the like, or stored floats, member[at] (light/inputs.glsl)
- *   KD_PASS_name(P)         the pass of its own that fills them, if it has one: P(name, ID, word, guess). It is
- *                           timed and named in plans by the emitter's name, its kernel is comp/name.comp; what an
- *                           invocation costs is learned from frames as the figure KD_NS_ID, which GET /v1/device
- *                           calls by the word, and lavapipe's guess is the nanoseconds until then
+ *   KD_PASS_name(P)         the pass that fills them, if it has one: P(name, ID, word, guess). It is timed and named
+ *                           in plans by the emitter's name, and its kernel is comp/name.comp. The cost of an
+ *                           invocation is measured on frames as the figure KD_NS_ID, which GET /v1/device calls
+ *                           `word`; until then it is `guess`, lavapipe's nanoseconds
  *
- * and holds the functions, for whoever defines KD_EMIT_CODE. src/render/emit/name.c fills numbers and tables in
+ * and, if KD_EMIT_CODE is defined, its functions. src/render/emit/name.c computes numbers and tables
  * (src/render/emit/emitter.h). Both files are found by the name: the build reads this list (shaders/meson.build). */
 #ifndef KD_EMITTERS_H
 #define KD_EMITTERS_H
@@ -53,38 +50,39 @@
     ALONG(13, plasma) \
     PART(14, stokes)
 
-/* All that has numbers. */
+/* Everything that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)
-/* All tables, by the KD_T(table, rows) that is defined where this stands; they lie one behind the other in this
- * order. */
+/* All tables in sequence, by the KD_T(table, rows) defined at the place of use. */
 #define KD_TABLES_OF_(number, name) KD_TABLES_##name(KD_T)
 #define KD_EMIT_TABLES \
     KD_TABLES_colour(KD_T) \
         KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
-/* All buffers, by the KD_B(number, type, member) that is defined there: bindings of the kernels of light from
+/* All buffers, by the KD_B(number, type, member) defined at the place of use: bindings of the kernels of light from
  * KD_OWN_BINDING on. */
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
 #define KD_EMIT_BUFFERS \
     KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
-/* layers.comp reads the light that the march has left here, in the place of the points of light, which are in it: a
- * device may have no more than 8 storage buffers for a kernel. */
+/* Binding at which layers.comp reads the light stored by the march. It takes the place of the points of light, which
+ * that light includes: a device may allow no more than 8 storage buffers for a kernel. */
 #define KD_LIGHT_BINDING (KD_OWN_BINDING + 2)
-/* All passes of their own, by the KD_P(name, ID, word, guess) that is defined there (render/plan/pass.h). */
+/* All passes that belong to emitters, by the KD_P(name, ID, word, guess) defined at the place of use
+ * (render/plan/pass.h). */
 #define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
-/* Bits that each word has: the scene has the emitter; its luminance is kept apart as well, so that its flux and
- * centroid are measured by themselves. There is room for that of one. */
+/* Bits of every word. PRESENT: the scene has the emitter. APART: its luminance is kept separately as well, so that
+ * its flux and centroid can be measured; possible for one emitter. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_APART 32u
 #define KD_TRAIT_SLOW \
-    16u /* what moves is shown as it was when its light left it; volumes are told how long ago that was */
+    16u /* moving emitters are shown as they were when their light left them; volumes are given the light delay for \
+           that */
 #define KD_TRAIT_AZIMUTH \
-    0x20000000u /* of volumes: it needs to know the azimuth of a place, and what of it a ray stands for */
+    0x20000000u /* for volumes: it needs the azimuth of a point, and the footprint of a ray there */
 #define KD_TRAIT_POINTS \
-    0x80000000u /* it has points of light, which a pass of their own spreads over pixels (comp/star_images.comp) */
-#define KD_TRAIT_SPREAD 0x40000000u /* it has light wherever a ray ends */
+    0x80000000u /* it has points of light, which a separate pass spreads over pixels (comp/star_images.comp) */
+#define KD_TRAIT_SPREAD 0x40000000u /* it emits light wherever a ray ends */
 
 #endif
 #include "emit/frame.glsl"

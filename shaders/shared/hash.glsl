@@ -1,5 +1,5 @@
-/* This is a hash of 32 bits (Chris Wellons, "Prospecting for hash functions", 2018: lowbias32). Counters become
- * random numbers. */
+/* A 32-bit hash (Chris Wellons, "Prospecting for hash functions", 2018: lowbias32), which turns counters into random
+ * numbers. */
 #ifndef KD_HASH_GLSL
 #define KD_HASH_GLSL
 

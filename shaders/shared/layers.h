@@ -1,15 +1,15 @@
-/* A frame has these layers besides "rgb": maps of numbers, one a pixel. A line each; the number is the place of its
- * name among the words of image.layers (src/scene/fields.h), where "rgb" is 0. What it is called, its unit and its
- * colours: src/render/plan/layer_kinds.c, by the name.
+/* The layers of a frame besides "rgb": maps of numbers, one a pixel, one line each. The number is the place of the
+ * layer's name among the words of image.layers (src/scene/fields.h), where "rgb" is 0. src/render/plan/layer_kinds.c
+ * has its unit and colours, by the name.
  *
- *   LIGHT(number, name, needs, value)      of the light of all rays of a pixel, their mean (light/layers.comp):
- *                                          GLSL of its Stokes I, Q, U and V, the vec4 `light`
- *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where that crosses the disk:
- *                                              GLSL of the sample s and
- *                                          its delay; or, of kd_met met, where it meets a body before that
+ *   LIGHT(number, name, needs, value)      of the mean light of all rays of a pixel (light/layers.comp): GLSL of its
+ *                                          Stokes I, Q, U and V, the vec4 `light`
+ *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where it crosses the disk:
+ *                                          GLSL of the sample s and its delay; or of kd_met met if the ray meets a
+ *                                          body before
  *   RAY(number, name, needs, value)        of the end of that ray: GLSL of its fate and of kd_end end
  *
- * needs: quantities of the lens map beside W. A value that is no number is none; infinity is one. */
+ * needs: quantities of the lens map besides W. NaN means no value; infinity is a value. */
 #ifndef KD_LAYERS_H
 #define KD_LAYERS_H
 

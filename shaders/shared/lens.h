@@ -1,24 +1,23 @@
-/* A lens map holds these quantities, in the order in which their planes lie: first those of each crossing, a plane
- * for each image order, then those of each ray, one plane. A map holds the quantities of a set of bits. C and GLSL
- * expand both lists.
+/* The quantities of a lens map, in the order of their planes: first those of each crossing, with a plane for each image
+ * order, then those of each ray, with one plane. A map holds the quantities of a set of bits. C and GLSL expand both
+ * lists.
  *
- *   W        1/r of the crossing; 0: there is none, below 0: the ray was given up on the way to it
+ *   W        1/r of the crossing; 0: there is none; negative: the ray was given up on the way to it
  *   PHI      its azimuth, source minus observer, radians
- *   DELAY    of light, t_observed - t_emitted, M (less r_o + 2 ln r_o at infinity)
+ *   DELAY    of light, t_observed - t_emitted, M (minus r_o + 2 ln r_o at infinity)
  *   SLOPE    w', in Mino time, of the ray traced back
- *   FOOTPRINT size on the disk of what one ray stands for, M: how far apart, along the direction in which they are
- *     furthest, the
- *            places in (r, r phi) lie that rays a step of the camera apart cross at (comp/footprint.comp)
+ *   FOOTPRINT  size of a ray's footprint on the disk, M: the distance of the crossings, in (r, r phi), of rays one step
+ *            of the camera apart, along the direction in which it is largest (comp/footprint.comp)
  *   SHAPE    of the ellipse whose long axis FOOTPRINT is, as 1 + (i + 2048 j)/2^23: of M = J J^T, J from steps of
  *            the camera to (r, r phi), i/2047 = M_rr/(M_rr + M_ff) and j/2047 = (1 + M_rf/sqrt(M_rr M_ff))/2
- *   ALPHA    impact parameter of the ray, M, where rays are not on the camera's grid
- *   SKY_U    cosine of the polar angle in which the ray escapes
+ *   ALPHA    impact parameter of the ray, M, if rays are not on the camera's grid
+ *   SKY_U    cosine of the polar angle of the direction in which the ray escapes
  *   SKY_PHI  and its azimuth, source minus observer, radians
  *   FATE     KD_FATE_... of interface.h
- *   SKY_FOOTPRINT  the same of directions, radians
+ *   SKY_FOOTPRINT  size of a ray's footprint on the sky, radians
  *
- * Shapes need footprints, and footprints W and PHI, or SKY_U, SKY_PHI and FATE, and are KD_FOOTPRINT_EDGE where a
- * ray has no neighbours. */
+ * Shapes need footprints. Footprints need W and PHI, or SKY_U, SKY_PHI and FATE; they are KD_FOOTPRINT_EDGE if a ray
+ * has no neighbours. */
 #ifndef KD_LENS_H
 #define KD_LENS_H
 

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* Linear sRGB, which may lie outside [0, 1]. */
+/* Linear sRGB, which may be outside [0, 1]. */
 struct linear { double r, g, b; };
 
-/* CIE 15:2004, the inverse of f(t) = t^(1/3) above (6/29)^3 and of its tangent's line below. */
+/* CIE 15:2004, the inverse of f(t), which is t^(1/3) above (6/29)^3 and its tangent below. */
 static double inverse_f(double t)
 {
     const double d = 6.0 / 29;
@@ -25,13 +25,13 @@ static struct linear of_lab(double lightness, double chroma, double hue)
     };
 }
 
-/* The white of the matrix is (1, 1, 1) to 1e-6. */
+/* The tolerance is for the white of the matrix, which is (1, 1, 1) only to 1e-6. */
 static bool shows(struct linear c)
 {
     return fmin(fmin(c.r, c.g), c.b) >= -2e-6 && fmax(fmax(c.r, c.g), c.b) <= 1 + 2e-6;
 }
 
-/* Largest chroma that sRGB has at this lightness and hue: bisected to 1e-5. */
+/* Largest chroma in sRGB for this lightness and hue, bisected to 1e-5. */
 static double most_chroma(double lightness, double hue)
 {
     double low = 0, high = 140;
@@ -65,7 +65,7 @@ static double chroma_of(double lightness, double hue, double limit)
 static struct kd_map_colour sequential(double x)
 {
     double lightness = 8 + 86 * x, hue = 310 - 208 * x, most = chroma_of(lightness, hue, 140);
-    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue); /* of both the less, without an edge */
+    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue); /* a smooth minimum of both */
 }
 
 static struct kd_map_colour heat(double x)
@@ -80,12 +80,12 @@ static struct kd_map_colour diverging(double x)
     return colour(lightness, chroma_of(lightness, hue, chroma_of(36, hue, 140) * far), hue);
 }
 
-/* At L* 70 each hue has a chroma of 38.4. */
+/* At L* 70 all hues have a chroma of at least 38.4. */
 static struct kd_map_colour cyclic(double x) { return colour(70, 38, x < 1 ? 360 * x : 0); }
 
 static struct kd_map_colour categorical(double x)
 {
-    static const double lightnesses[] = { 82, 62, 72 }; /* neighbours differ in grey, too */
+    static const double lightnesses[] = { 82, 62, 72 }; /* adjacent classes differ in grey, too */
     double n = fmax(floor(x), 0), lightness = lightnesses[(int)fmod(n, 3)], hue = 80 + 137.50776 * n;
     return colour(lightness, chroma_of(lightness, hue, 140), hue);
 }

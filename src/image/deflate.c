@@ -13,7 +13,7 @@
 struct kd_deflate {
     enum kd_deflate_engine engine;
     struct libdeflate_compressor *compressor;
-    uint8_t *packed; /* libdeflate writes a stream into one piece */
+    uint8_t *packed; /* output buffer: libdeflate writes a stream in one call */
     size_t room;
 #ifdef KD_HAVE_ISAL
     struct isal_zstream stream;
@@ -70,12 +70,12 @@ void kd_deflate_destroy(struct kd_deflate *deflate)
     free(deflate);
 }
 
-/* Bytes of an empty stored block (RFC 1951, 3.2.4) after its three bits and what fills up their byte. */
+/* Bytes of an empty stored block (RFC 1951, 3.2.4) after its three bits and the padding of their byte. */
 static const uint8_t empty_block[4] = { 0, 0, 0xff, 0xff };
 
-/* What was a whole stream becomes a piece: its last block is no longer the last, and the empty one follows. Bits behind
- * a stream's end are zeros, as the three bits of that block are. Returns the size; there is room for 5 bytes more. 0:
- * it is no deflate stream. */
+/* Turns a complete stream into a piece: its last block is no longer marked as last, and an empty one follows. Bits
+ * after a stream's end are zeros, as are the three bits of that block. Returns the size; there must be room for 5
+ * more bytes. 0: it is not a deflate stream. */
 static size_t make_piece(uint8_t *stream, size_t size)
 {
     struct kd_deflate_walk walk;
@@ -106,7 +106,7 @@ static enum kd_status by_libdeflate(struct kd_deflate *deflate, const void *data
 }
 
 #ifdef KD_HAVE_ISAL
-/* The output grows piece by piece, since igzip has no bound on the size of what it writes. */
+/* The output grows step by step, because igzip gives no bound for its size. */
 static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size_t size, bool last,
                               struct kd_buffer *out)
 {
@@ -123,7 +123,7 @@ static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size
     do {
         stream->next_out = deflate->piece;
         stream->avail_out = sizeof deflate->piece;
-        isal_deflate(stream); /* fails for arguments alone, which are right */
+        isal_deflate(stream); /* fails only for invalid arguments */
         status = kd_buffer_append(out, deflate->piece, sizeof deflate->piece - stream->avail_out);
     } while (!status && (last ? stream->internal_state.state != ZSTATE_END : !stream->avail_out));
     return status;
@@ -146,7 +146,7 @@ enum kd_status kd_deflate_piece(struct kd_deflate *deflate, const void *data, si
     return status;
 }
 
-/* A window of 32 KiB, and a word about how it was made, by which the two bytes are a multiple of 31 (RFC 1950, 2.2). */
+/* A window of 32 KiB, and a word on the level, chosen such that the two bytes are a multiple of 31 (RFC 1950, 2.2). */
 void kd_zlib_head(int level, uint8_t to[2])
 {
     to[0] = 0x78;
@@ -155,8 +155,8 @@ void kd_zlib_head(int level, uint8_t to[2])
 
 uint32_t kd_zlib_sum(const void *data, size_t size) { return libdeflate_adler32(1, data, size); }
 
-/* Adler-32 (RFC 1950, 8.2): a is 1 and the sum of all bytes, b the sum of a after each byte, modulo a prime. Behind
- * other data a is larger by what it was there less the 1 that it began with, and so is each a that b sums. */
+/* Adler-32 (RFC 1950, 8.2): a is 1 plus the sum of all bytes, b the sum of a after each byte, modulo a prime. After
+ * other data, a is larger by its value there minus the initial 1, and so is each a that b sums. */
 uint32_t kd_zlib_sum_join(uint32_t sum, uint32_t other, size_t size)
 {
     enum { PRIME = 65521 };

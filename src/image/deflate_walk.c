@@ -6,13 +6,14 @@ enum { BITS_MAX = 15, FAST = 11, LITERALS = 288, DISTANCES = 32, LENGTHS = 19, E
 
 struct bits {
     const uint8_t *begin, *at, *end;
-    uint64_t held; /* the next bits, the first lowest */
-    unsigned n;    /* of them */
+    uint64_t held; /* the next bits, the first one lowest */
+    unsigned n;    /* number of bits in `held` */
     size_t taken;
 };
 
-/* A Huffman code (RFC 1951, 3.2.2). Codes up to FAST bits stand in a table by the bits that follow: what a symbol takes
- * with its extra bits, and its kind. Longer ones are found among the sorted symbols, as Mark Adler's puff.c does it. */
+/* A Huffman code (RFC 1951, 3.2.2). Codes of up to FAST bits are in a table indexed by the next bits: the length of
+ * a symbol with its extra bits, and its kind. Longer ones are searched among the sorted symbols, as in Mark Adler's
+ * puff.c. */
 enum kind { LONG, PLAIN, LENGTH, END };
 struct entry { uint8_t bits, kind; };
 struct code {
@@ -26,7 +27,7 @@ static const uint8_t length_extra[29] = { 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2,
 static const uint8_t distance_extra[30] = { 0, 0, 0, 0, 1, 1, 2, 2,  3,  3,  4,  4,  5,  5,  6,
                                             6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13 };
 
-/* At least 56 bits are held after it, zeros behind the last. */
+/* Loads bits until at least 56 are held, with zeros after the last. */
 static inline void refill(struct bits *b)
 {
     if (b->end - b->at >= 8) {
@@ -53,7 +54,7 @@ static inline bool drop(struct bits *b, unsigned n)
     return true;
 }
 
-/* n: 0 to 16. BAD: there are none. */
+/* n: 0 to 16. BAD: not enough bits. */
 static int take(struct bits *b, unsigned n)
 {
     refill(b);
@@ -93,7 +94,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
         next[l + 1] = (next[l] + code->count[l]) << 1;
         place[l + 1] = place[l] + code->count[l];
     }
-    if (all > 1u << BITS_MAX) /* more codes than there can be */
+    if (all > 1u << BITS_MAX) /* more codes than possible */
         return false;
     for (unsigned i = 0; i < n; i++) {
         const unsigned l = lengths[i];
@@ -108,7 +109,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
     return true;
 }
 
-/* The symbol whose code the next bits are, its length in *bits; BAD: none. */
+/* The symbol of the code in the next bits, with its length in *bits; BAD: none. */
 static int find(const struct code *code, uint64_t held, unsigned *bits)
 {
     int value = 0, first = 0, place = 0;
@@ -141,7 +142,7 @@ static inline struct entry next_entry(const struct code *code, uint64_t held, bo
     return e;
 }
 
-/* A length takes up to 20 bits, a distance 28: one refill holds both. */
+/* A length takes up to 20 bits and a distance 28, so that one refill is enough for both. */
 static bool symbols(struct bits *b, const struct code *literals, const struct code *distances)
 {
     for (;;) {
@@ -173,7 +174,7 @@ static bool stored(struct bits *b)
     return true;
 }
 
-/* The lengths of both codes, run by run (3.2.7). */
+/* Reads the lengths of both codes, run by run (3.2.7). */
 static bool read_lengths(struct bits *b, const struct code *runs, uint8_t *lengths, unsigned n)
 {
     for (unsigned i = 0; i < n;) {

@@ -1,5 +1,5 @@
-/* Where the last block of a deflate stream begins, and where it ends (RFC 1951). libdeflate makes whole streams alone:
- * this tells what to change so that another stream may follow. Pure, any thread. */
+/* Finds where the last block of a deflate stream begins and ends (RFC 1951). libdeflate makes complete streams only:
+ * this shows what to change so that another stream may follow. Pure, any thread. */
 #ifndef KD_IMAGE_DEFLATE_WALK_H
 #define KD_IMAGE_DEFLATE_WALK_H
 
@@ -7,14 +7,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Bits are counted from the stream's first; a byte's lowest comes first (RFC 1951, 3.1.1). */
+/* Bits count from the start of the stream; the lowest bit of a byte comes first (RFC 1951, 3.1.1). */
 struct kd_deflate_walk {
-    size_t last; /* the bit BFINAL of the last block */
-    size_t end;  /* the first bit after it */
+    size_t last; /* position of the bit BFINAL of the last block */
+    size_t end;  /* position of the first bit after it */
 };
 
-/* false: the bytes are no deflate stream. It goes through the symbols without what they stand for, several times as
- * fast as level 1 makes them. */
+/* False if the bytes are not a deflate stream. It skips symbols without decoding their data, several times as fast
+ * as level 1 compresses. */
 bool kd_deflate_walk(const uint8_t *stream, size_t size, struct kd_deflate_walk *out);
 
 #endif

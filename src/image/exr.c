@@ -7,10 +7,10 @@
 
 enum { MOST_CHANNELS = 64 };
 
-/* What the core writes to, or reads from, and what it said when something went wrong. */
+/* Output or input of OpenEXR's core, and its last error message. */
 struct file {
     struct kd_buffer *out;
-    size_t from; /* of the buffer: what was in it before */
+    size_t from; /* size of the buffer before the file */
     const uint8_t *data;
     size_t size;
     bool no_memory;
@@ -22,7 +22,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
 {
     struct file *f = user;
     size_t end = f->from + offset + size;
-    while (f->out->size < end) { /* also what is skipped */
+    while (f->out->size < end) { /* skipped bytes are written as well */
         static const uint8_t zeros[4096];
         size_t more = end - f->out->size;
         if (kd_buffer_append(f->out, zeros, more < sizeof zeros ? more : sizeof zeros)) {
@@ -91,7 +91,7 @@ done:
     return code;
 }
 
-/* The core has its own order of channels. */
+/* Connects channels by name, because the core has its own order. */
 static exr_result_t connect(exr_encode_pipeline_t *encoder, const struct kd_exr *image, uint32_t y)
 {
     for (int c = 0; c < encoder->channel_count; c++) {

@@ -1,4 +1,4 @@
-/* Writes OpenEXR files of named channels of 32-bit numbers, by OpenEXR's C core: one part, scan lines, ZIP. Any
+/* Writes OpenEXR files of named channels of 32-bit numbers, with OpenEXR's C core: one part, scan lines, ZIP. Any
  * thread. */
 #ifndef KD_IMAGE_EXR_H
 #define KD_IMAGE_EXR_H
@@ -10,11 +10,11 @@
 #include <stdint.h>
 
 struct kd_exr_channel {
-    char name[40];     /* "R", "kerrd.g": each once */
+    char name[40];     /* "R", "kerrd.g": must be unique */
     const float *data; /* rows from the top */
-    size_t step;       /* numbers from a pixel to the next */
+    size_t step;       /* distance between pixels, in numbers */
 };
-struct kd_exr_text { const char *name, *value; }; /* a string attribute: name of at most 31 bytes */
+struct kd_exr_text { const char *name, *value; }; /* a string attribute; name: at most 31 bytes */
 
 struct kd_exr {
     uint32_t width, height;
@@ -27,7 +27,8 @@ struct kd_exr {
 /* Appends a file. KD_ENOMEM; KD_EINVAL for what the format cannot hold. */
 enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, struct kd_error *error);
 
-/* Appends the string attribute of a file to *out. KD_EINVAL: no such attribute, or not a whole EXR file. */
+/* Appends the value of a file's string attribute to *out. KD_EINVAL if there is none, or the file is not a complete
+ * EXR file. */
 enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out,
                                 struct kd_error *error);
 

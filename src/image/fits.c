@@ -9,7 +9,7 @@ enum {
     VALUE = 10,
     PIECE = 67,
     ROOM = 20
-}; /* where a value begins; most characters of a text between its quotes beside a "&"; a number's width */
+}; /* start of a value; most characters of a text between quotes together with a "&"; width of a number */
 
 static enum kd_status put_card(struct kd_buffer *cards, const char *text)
 {
@@ -18,7 +18,7 @@ static enum kd_status put_card(struct kd_buffer *cards, const char *text)
     return kd_buffer_append(cards, card, KD_FITS_CARD);
 }
 
-/* A value that is written already. */
+/* value: already formatted. */
 static enum kd_status put_value(struct kd_buffer *cards, const char *key, const char *value, const char *comment)
 {
     char card[2 * KD_FITS_CARD];
@@ -53,7 +53,7 @@ enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text)
     return put_card(cards, card);
 }
 
-/* The length of the next piece of a text between quotes, which doubles those inside it; a pair is not parted. */
+/* Length of the next piece of a text between quotes, in which quotes are doubled; a doubled pair is not split. */
 static size_t piece_of(const char *text, size_t most, char *out)
 {
     size_t used = 0, n = 0;
@@ -106,7 +106,7 @@ uint32_t kd_fits_sum(uint32_t sum, const void *bytes, size_t size)
     return (uint32_t)all;
 }
 
-/* Sixteen letters and digits whose sum, where they stand, is the complement of another: appendix J.2 of the
+/* Sixteen letters and digits whose sum, at their place, is the complement of another sum: appendix J.2 of the
  * standard. */
 static void encode_sum(uint32_t sum, char out[17])
 {
@@ -116,7 +116,7 @@ static void encode_sum(uint32_t sum, char out[17])
         int byte = (int)(value >> (24 - 8 * i) & 0xff), ch[4];
         for (int j = 0; j < 4; j++)
             ch[j] = byte / 4 + '0' + (j ? 0 : byte % 4);
-        for (bool again = true; again;) { /* no punctuation: pairs are moved apart */
+        for (bool again = true; again;) { /* avoids punctuation by shifting pairs of characters */
             again = false;
             for (int j = 0; j < 4; j += 2)
                 for (int k = 0; k < 2; k++)
@@ -170,7 +170,7 @@ static enum kd_status put_data(struct kd_buffer *out, const struct kd_fits_array
     return status ? status : pad(out, from, 0);
 }
 
-/* The cards that say what the data are. */
+/* Cards that describe the data. */
 static enum kd_status put_shape(struct kd_buffer *out, const struct kd_fits_shape *shape)
 {
     char key[16];
@@ -247,7 +247,7 @@ size_t kd_fits_head_size(const void *data, size_t size)
     return 0;
 }
 
-/* What stands behind the "= " of a card; "": there is no such card. */
+/* Text after the "= " of a card; "" if there is no such card. */
 static void value_of(const void *head, size_t size, const char *key, char out[KD_FITS_CARD - VALUE + 1])
 {
     char wanted[12];
@@ -274,7 +274,7 @@ double kd_fits_find_real(const void *head, size_t size, const char *key)
     return end > value ? number : NAN;
 }
 
-/* Appends what stands between the quotes of a card; whether a piece follows. */
+/* Appends the text between the quotes of a card; *more: whether another piece follows. */
 static enum kd_status unquote(const char *card, struct kd_buffer *out, bool *more)
 {
     const char *at = card + VALUE, *end = card + KD_FITS_CARD;

@@ -1,5 +1,5 @@
-/* The letters of legends are dots on a grid of 5 x 7: digits, letters and the signs of numbers and units, ASCII.
- * What has no shape is a box. Constant data, any thread. */
+/* Letters of legends, as dots on a grid of 5 x 7: digits, letters and signs of numbers and units, ASCII. Other
+ * characters are drawn as a box. Constant data, any thread. */
 #ifndef KD_IMAGE_FONT_H
 #define KD_IMAGE_FONT_H
 

@@ -1,4 +1,4 @@
-/* Replaces the contents of a buffer by a gzip stream of them (RFC 1952). Any thread. */
+/* Compresses the contents of a buffer to a gzip stream (RFC 1952), in place. Any thread. */
 #ifndef KD_IMAGE_GZIP_H
 #define KD_IMAGE_GZIP_H
 
@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* false: the buffer is as it was, because that is not shorter or memory ran out. */
+/* False: the buffer is unchanged, because the stream would not be shorter or memory ran out. */
 bool kd_gzip(struct kd_buffer *buffer);
 
 #endif

@@ -3,14 +3,14 @@
 #include "image/strips.h"
 
 #include <setjmp.h>
-#include <stdio.h> /* jpeglib.h does not include what it needs */
+#include <stdio.h> /* jpeglib.h needs it and does not include it */
 #include <stdlib.h>
 
 #include <jpeglib.h>
 
 enum {
     PIECE = 16 << 10,
-    STRIP = 256 << 10,      /* pixels of a strip, at least */
+    STRIP = 256 << 10,      /* least number of pixels in a strip */
     INTERVAL_MOST = 0xffff, /* MCUs between two restart markers (ITU-T T.81, B.2.4.4) */
     SOF0 = 0xc0,
     RST0 = 0xd0,
@@ -18,9 +18,9 @@ enum {
     SOS = 0xda,
 };
 
-/* One compression: libjpeg's state with what it calls back. */
+/* State of one compression: libjpeg's, and that of its callbacks. */
 struct work {
-    struct jpeg_compress_struct info; /* first: libjpeg's pointer is ours */
+    struct jpeg_compress_struct info; /* first member, so that libjpeg's pointer can be cast to ours */
     struct jpeg_error_mgr errors;
     struct jpeg_destination_mgr destination;
     struct kd_buffer *out;
@@ -49,7 +49,8 @@ static void append(struct work *work, size_t size)
         longjmp(work->back, 1);
 }
 
-static boolean put_piece(j_compress_ptr info) /* libjpeg wants all of it gone, whatever it says is free */
+/* libjpeg requires that the buffer be emptied completely, whatever it reports as free */
+static boolean put_piece(j_compress_ptr info)
 {
     append((struct work *)info, PIECE);
     begin_piece(info);
@@ -89,16 +90,16 @@ static void compress(struct work *work, const uint8_t *pixels, unsigned quality,
     jpeg_finish_compress(info);
 }
 
-/* One picture in strips. */
+/* A picture divided into strips. */
 struct picture {
-    uint32_t width, height, rows; /* rows of pixels in a strip; the last may have fewer */
+    uint32_t width, height, rows; /* rows: pixel rows of a strip; the last may have fewer */
     const uint8_t *pixels;
     unsigned quality, strip_rows; /* MCU rows in a strip; 0: there is one strip */
     size_t n;
     struct kd_buffer *out;
 };
 
-/* A JPEG of a strip alone. */
+/* Makes a JPEG of a single strip. */
 static enum kd_status encode_strip(void *user, size_t strip, struct kd_buffer *out)
 {
     const struct picture *p = user;
@@ -120,15 +121,15 @@ static enum kd_status encode_strip(void *user, size_t strip, struct kd_buffer *o
         work->info.image_height = (JDIMENSION)(rest < p->rows ? rest : p->rows);
         compress(work, p->pixels + 3 * first * p->width, p->quality, p->strip_rows);
     } else {
-        status = KD_ENOMEM; /* nothing else can fail */
+        status = KD_ENOMEM; /* no other error is possible */
     }
     jpeg_destroy_compress(&work->info);
     free(work);
     return status;
 }
 
-/* Where the scan's data begin. On the way the height in the frame's header becomes that of all strips. libjpeg writes
- * segments of a marker, a length of two bytes and so many less two, up to the scan (T.81, B.1.1.4). */
+/* Offset of the scan's data. On the way it sets the height in the frame header to that of all strips. libjpeg writes
+ * segments of a marker, a length of two bytes that counts itself, and data, up to the scan (T.81, B.1.1.4). */
 static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
 {
     for (size_t at = 2;; at += 2 + (size_t)(jpeg->data[at + 2] << 8 | jpeg->data[at + 3])) {
@@ -142,8 +143,9 @@ static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
     }
 }
 
-/* The first strip's file is the head of all; of the others the scans follow, a restart marker before each. All have the
- * same tables, and a decoder begins anew at such a marker, as an encoder of the whole does (T.81, F.1.1.5.1). */
+/* The first strip's file provides the header; of the others only the scans follow, each after a restart marker. All
+ * have the same tables, and a decoder resets its state at such a marker, as an encoder of the whole picture does
+ * (T.81, F.1.1.5.1). */
 static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffer *bytes)
 {
     const struct picture *p = user;
@@ -159,7 +161,7 @@ static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffe
     return status;
 }
 
-/* Tables that are made for the picture are made of all of it: it is one strip. */
+/* Optimised tables are made for the whole picture, which is then one strip. */
 static void cut(struct picture *p)
 {
     const uint32_t side = p->quality < KD_JPEG_FULL_COLOUR ? 16 : 8, across = (p->width + side - 1) / side;

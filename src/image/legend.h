@@ -11,20 +11,19 @@ struct kd_legend {
     const char *title; /* name and unit; ASCII (image/font.h) */
     enum kd_colour_map map;
     struct kd_map_scale scale;
-    uint32_t classes;         /* of CATEGORICAL: how many boxes there are instead of a bar */
-    const char *const *names; /* of these; NULL: their numbers */
+    uint32_t classes;         /* for CATEGORICAL: number of boxes in place of a bar */
+    const char *const *names; /* names of the classes; NULL: their numbers */
 };
 
-/* A legend is 144 x 37 dots. A dot is as many whole pixels as make a seventh of the picture's height of it at most,
- * but one at least. False: the picture is too small for one (narrower than KD_LEGEND_LEAST_WIDTH or lower than
- * KD_LEGEND_LEAST_HEIGHT), and nothing was drawn. */
+/* A legend is 144 x 37 dots. A dot is a whole number of pixels, such that the legend takes at most a seventh of the
+ * picture's height, but at least 1. False if the picture is too small (narrower than KD_LEGEND_LEAST_WIDTH or lower
+ * than KD_LEGEND_LEAST_HEIGHT); nothing was drawn. */
 enum { KD_LEGEND_LEAST_WIDTH = 160, KD_LEGEND_LEAST_HEIGHT = 90 };
 uint32_t kd_legend_dot(const struct kd_canvas *canvas); /* pixels */
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend);
 
-/* Where numbers stand on the bar: as many of a row of round numbers as fit `room`, the length of the bar in the
- * widths of a letter, without touching one another. Of a scale that is none, logarithmic from 0 on, there is one at
- * most. */
+/* Numbers on the bar: as many round numbers as fit without touching. room: length of the bar in widths of a letter.
+ * An invalid scale (logarithmic from 0 on) has at most one. */
 struct kd_tick {
     double value;
     char label[12];

@@ -66,12 +66,12 @@ done:
     return status;
 }
 
-/* The header is a Python dict of three known keys; what follows reads just that much Python. */
+/* The header is a Python dict of three known keys; this parser accepts only that subset of Python. */
 struct reader {
     const char *at; /* NUL at the end of the header */
     struct kd_npy *array;
     struct kd_error *error;
-    bool text; /* is taken, too */
+    bool text; /* text is accepted, too */
 };
 
 static enum kd_status fail(struct reader *r, const char *what)
@@ -274,7 +274,7 @@ static enum kd_status take_header(struct reader *r)
     return seen[0] && seen[1] && seen[2] ? KD_OK : fail(r, "its header lacks descr, fortran_order or shape");
 }
 
-/* Returns the length of the header, and where it starts; 0 when this is no NPY file of a known version. */
+/* Returns the offset of the header, and its length; 0 if this is not an NPY file of a known version. */
 static size_t find_header(const uint8_t *p, size_t size, size_t *length)
 {
     if (size < 10 || memcmp(p, MAGIC, sizeof MAGIC - 1) || p[7] || p[6] < 1 || p[6] > 2 || (p[6] == 2 && size < 12))
@@ -306,7 +306,7 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     uint64_t items = 1, bytes;
     out->header_size = start + length;
     out->item_size = kd_npy_item_size(out);
-    bool overflow = false; /* also where a zero follows, as NumPy has it */
+    bool overflow = false; /* checked even if a zero follows, as in NumPy */
     for (size_t i = 0; i < out->n_dimensions; i++)
         overflow |= __builtin_mul_overflow(items, out->shape[i], &items);
     if (overflow || __builtin_mul_overflow(items, (uint64_t)out->item_size, &bytes))
@@ -323,7 +323,7 @@ enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, st
     return read_all(data, size, false, out, error);
 }
 
-/* A character of UTF-32 in UTF-8; 0 bytes: it is none. */
+/* Encodes a UTF-32 character in UTF-8; 0 bytes if it is invalid. */
 static size_t to_utf8(uint32_t c, char out[4])
 {
     static const uint32_t least[] = { 0, 0x80, 0x800, 0x10000, 0x110000 };
@@ -346,7 +346,8 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     const enum kd_npy_type type = array.fields[0].type;
     if (status)
         return status;
-    const uint8_t *p = (const uint8_t *)data + array.header_size; /* not before: of no bytes there may be no address */
+    /* only here: an empty array may have no valid address */
+    const uint8_t *p = (const uint8_t *)data + array.header_size;
     if (array.n_fields != 1 || array.fields[0].name[0] ||
         !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))
         return fail(&r, "it is no text: neither one str nor a list of bytes");
@@ -361,7 +362,7 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
             return fail(&r, "its text holds what is no character");
         if (type != KD_NPY_TEXT)
             c[0] = (char)at[0];
-        if (c[0]) /* NULs fill it up */
+        if (c[0]) /* NULs are padding */
             status = kd_buffer_append(out, c, bytes);
     }
     return status ? kd_error_set(error, status, "out of memory for a text") : KD_OK;

@@ -11,18 +11,18 @@
 
 #define MAX_SIDE 32768u
 #define MAX_TEXT (1u << 20)
-#define MAX_CHUNKS 100 /* of text: a compressed one of 1 KiB can still unfold to MAX_TEXT */
+#define MAX_CHUNKS 100 /* text chunks: a compressed one of 1 KiB may still unpack to MAX_TEXT */
 
-/* libpng leaves a failing call by longjmp. All that such a call changes lives here, in the frame of the
- * function that cleans up, so neither a clobbered register nor a skipped free can follow from a jump. */
+/* libpng leaves a failing call by longjmp. Everything that such a call changes is in this struct, in the frame of
+ * the function that cleans up, so that a jump can neither clobber a register variable nor skip a free. */
 struct job {
     png_structp png;
     png_infop info;
     bool no_memory;
     char message[160];
-    struct kd_buffer *sink;   /* encoding */
-    const uint8_t *source;    /* decoding */
-    size_t left, size, texts; /* texts: chunks of text in the file */
+    struct kd_buffer *sink;   /* for encoding */
+    const uint8_t *source;    /* for decoding */
+    size_t left, size, texts; /* texts: number of text chunks in the file */
     struct kd_png *picture;
 };
 
@@ -36,7 +36,7 @@ static void on_error(png_structp png, png_const_charp message)
 static void on_warning(png_structp png, png_const_charp message)
 {
     (void)png;
-    (void)message; /* an odd ancillary chunk does not concern the picture */
+    (void)message; /* a malformed ancillary chunk does not affect the picture */
 }
 
 static png_voidp job_malloc(png_structp png, png_alloc_size_t size)
@@ -73,7 +73,7 @@ static bool key_ok(const char *key)
     if (length < 1 || length > 79 || key[0] == ' ' || key[length - 1] == ' ' || strstr(key, "  "))
         return false;
     for (size_t i = 0; i < length; i++)
-        if (key[i] < ' ' || key[i] > '~') /* the format allows Latin-1; ASCII reads the same everywhere */
+        if (key[i] < ' ' || key[i] > '~') /* the format allows Latin-1, but only ASCII reads the same everywhere */
             return false;
     return true;
 }
@@ -97,7 +97,7 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
     }
-    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* what is written can be read back */
+    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* whatever is written must be readable */
         return kd_error_set(error, KD_EINVAL, "%zu bytes of PNG text in %zu chunks: at most %u in %d", total,
                             params->n_text, MAX_TEXT, MAX_CHUNKS - 1);
     return KD_OK;
@@ -114,7 +114,7 @@ static void put_text(struct job *job, const struct kd_png_text *text)
     png_set_text(job->png, job->info, &chunk, 1);
 }
 
-/* What stands before the pixels. */
+/* Writes everything before the pixels. */
 static bool encode_head(struct job *job, const struct kd_png_params *params)
 {
     if (setjmp(png_jmpbuf(job->png)))
@@ -178,10 +178,10 @@ static void source_read(png_structp png, png_bytep data, size_t size)
     job->left -= size;
 }
 
-/* Text, as one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng passes over a chunk that is
- * too long, unfolds to too much, is damaged or comes after too many others, and goes on with a mere warning; which
- * of them it does so with is another matter in 1.6.39 than in 1.6.48. One of them may have been the scene, so a text
- * that is missing is an error. */
+/* Text in one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng skips a chunk that is too
+ * long, unpacks to too much, is damaged or comes after too many others, with only a warning; for which of these it
+ * does so differs between 1.6.39 and 1.6.48. The skipped chunk may have been the scene, so a missing text is an
+ * error. */
 static enum kd_status take_text(struct job *job)
 {
     png_textp text = NULL;
@@ -216,8 +216,8 @@ static enum kd_status take_text(struct job *job)
     return KD_OK;
 }
 
-/* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused before it
- * costs memory. */
+/* Deflate expands at most by 1032: a header that promises more pixels than the file can hold is refused before
+ * memory is allocated. */
 static void check_promise(struct job *job, uint32_t height)
 {
     uint64_t packed = (uint64_t)png_get_rowbytes(job->png, job->info) * height;
@@ -225,7 +225,7 @@ static void check_promise(struct job *job, uint32_t height)
         png_error(job->png, "the file is too short for its width and height");
 }
 
-/* Ask libpng for RGB of 8 or 16 bits whatever the file holds. Alpha is dropped, not blended. */
+/* Requests RGB of 8 or 16 bits from libpng, whatever the file holds. Alpha is dropped, not blended. */
 static int set_transforms(struct job *job)
 {
     png_set_expand(job->png);
@@ -252,7 +252,7 @@ static void read_pixels(struct job *job)
         job->no_memory = true;
         png_error(job->png, "out of memory");
     }
-    /* Interlaced passes read what is there before they write. */
+    /* Interlaced passes read the previous contents before they write. */
     memset(picture->pixels, 0, stride * picture->height);
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < picture->height; y++)
@@ -263,9 +263,9 @@ static void read_info(struct job *job)
 {
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
-    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128);                   /* with its key */
-    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);                    /* libpng takes two fewer */
-    png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text is damage too */
+    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128);                   /* including its key */
+    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);                    /* libpng accepts two fewer */
+    png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text counts as damage, too */
     png_read_info(job->png, job->info);
 }
 
@@ -286,8 +286,8 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* A file is checked before libpng sees it, for the sake of a sentence that names what is wrong, and because libpng 1.6
- * allocates what a text chunk's length field says, up to 2 GiB, before it looks whether that much follows. */
+/* Checks a file before libpng reads it, in order to name what is wrong, and because libpng 1.6 allocates the length
+ * in a text chunk's header, up to 2 GiB, before it checks whether that much follows. */
 static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, size_t *end, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
@@ -324,7 +324,7 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
     job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool done = job.info && decode(&job);
-    if (!job.info || job.no_memory) /* though libpng carries on without a text that it cannot hold */
+    if (!job.info || job.no_memory) /* libpng itself would continue without a text for which there is no memory */
         status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels", out->width, out->height);
     else if (!done)
         status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %s", job.message);

@@ -1,7 +1,7 @@
 /* Reads and writes PNG files: 8- or 16-bit RGB, sRGB, with text chunks. Any thread. libpng reads them and writes
- * all but the pixels, which are encoded on as many cores as are idle (png_strips.h).
+ * everything except the pixels, which are encoded on as many cores as are idle (png_strips.h).
  *
- * Pixels are rows from the top, three channels, no padding; 16-bit samples are uint16_t of this machine. */
+ * Pixels are rows from the top, three channels, no padding; 16-bit samples are uint16_t in native byte order. */
 #ifndef KD_IMAGE_PNG_H
 #define KD_IMAGE_PNG_H
 
@@ -11,13 +11,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt where tEXt cannot hold it */
+struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt if tEXt cannot hold it */
 
 struct kd_png_params {
     uint32_t width, height;
-    int bit_depth;   /* 8 or 16 */
-    int compression; /* 0..8: 0 stored, 1 as fast as it goes, from 2 on each row by the filter that suits it; those of
-                        libdeflate: the same size as zlib's of that number in a third of the time */
+    int bit_depth; /* 8 or 16 */
+    /* 0..8: 0 stored, 1 fastest, from 2 on each row with its best filter; levels of libdeflate: the size of zlib's
+     * same level in a third of the time */
+    int compression;
     const void *pixels;
     const struct kd_png_text *text;
     size_t n_text;
@@ -35,9 +36,9 @@ struct kd_png {
 };
 enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error);
 
-/* What a PNG file says of itself, its pixels not decoded. It is a PNG file if its chunks are whole and end with the
- * file, libpng takes the header, and its bytes may hold as many pixels as it promises; else KD_EINVAL. Whether its
- * pixels are sound only decoding tells. */
+/* Header of a PNG file, without decoding its pixels. KD_EINVAL unless its chunks are complete and end with the file,
+ * libpng accepts the header, and the file is large enough for its number of pixels. Only decoding tells whether the
+ * pixels are valid. */
 struct kd_png_about {
     uint32_t width, height;
     int bit_depth, channels; /* as in the file: 1, 2, 4, 8 or 16; 1 to 4, and 1 for a palette */

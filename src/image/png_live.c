@@ -46,7 +46,7 @@ static enum kd_status put_file(struct kd_png_live *live, const struct kd_png_par
     enum kd_status status;
     KD_TRY(kd_buffer_append(out, signature, sizeof signature));
     KD_TRY(kd_png_chunk(out, "IHDR", header, sizeof header));
-    KD_TRY(kd_png_chunk(out, "sRGB", "", 1)); /* perceptual, as image/png.c */
+    KD_TRY(kd_png_chunk(out, "sRGB", "", 1)); /* perceptual intent, as in image/png.c */
     if ((status = kd_png_strips_append(live->strips, params, out, error)))
         return status;
     KD_TRY(kd_png_chunk(out, "IEND", NULL, 0));

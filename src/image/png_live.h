@@ -1,19 +1,19 @@
-/* Writes PNG of a live view: 8-bit RGB frames, one after another, fast rather than small. Files, with text and
- * 16 bits, are image/png.h.
+/* Writes PNG for a live view: 8-bit RGB frames, one after another, fast rather than small. Files with text and 16 bits
+ * are written by image/png.h.
  *
  *     struct kd_png_live *live;
  *     if (kd_png_live_create(kd_deflate_fastest(), &live, &error)) ...
  *     for each frame:
  *         struct kd_buffer png = { 0 };
  *         if (kd_png_live_encode(live, width, height, pixels, &png, &error)) ...
- *         hand png over; whoever is last to need it calls kd_buffer_finish
+ *         hand png over; its last user calls kd_buffer_finish
  *     kd_png_live_destroy(live);
  *
  * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working
- * memory stays (png_strips.h). What a frame costs: bench/results, *-encode.md.
+ * memory is kept (png_strips.h). Costs of a frame: bench/results, *-encode.md.
  *
- * The file: IHDR, sRGB, IDAT for each strip, IEND. No text: what a live frame shows is told beside it, and one that is
- * to be kept is rendered again, as a file that carries its scene (render/output/png.h). */
+ * The file: IHDR, sRGB, an IDAT for each strip, IEND. It has no text: the metadata of a live frame are sent
+ * separately, and a frame to be kept is rendered again, as a file that carries its scene (render/output/png.h). */
 #ifndef KD_IMAGE_PNG_LIVE_H
 #define KD_IMAGE_PNG_LIVE_H
 
@@ -27,11 +27,11 @@
 
 struct kd_png_live;
 enum kd_status kd_png_live_create(enum kd_deflate_engine engine, struct kd_png_live **out, struct kd_error *error);
-void kd_png_live_destroy(struct kd_png_live *live); /* NULL is fine */
+void kd_png_live_destroy(struct kd_png_live *live); /* accepts NULL */
 
-/* Append one file. pixels: rows from the top, three bytes a pixel, no padding, as kd_frame of 8 bits has them.
+/* Appends one file. pixels: rows from the top, three bytes a pixel, no padding, as in a kd_frame of 8 bits.
  * KD_EINVAL for a side outside 1 to 32768 pixels, KD_ETOOBIG over KD_PNG_LIVE_MAX, KD_ENOMEM; on error out->size is
- * as it was, and the next frame may be tried. */
+ * unchanged, and the next frame may be tried. */
 enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint32_t height, const uint8_t *pixels,
                                   struct kd_buffer *out, struct kd_error *error);
 

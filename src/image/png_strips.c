@@ -8,31 +8,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRIP = 512 << 10, MIB = 1 << 20, ROW_ROOM = 7 /* two rows, and what the filters need */ };
+enum { STRIP = 512 << 10, MIB = 1 << 20, ROW_ROOM = 7 /* two rows, and scratch of the filters */ };
 
-/* What a thread works with; in a list while none does. */
+/* Working memory of one thread; in a list while unused. */
 struct workspace {
     struct workspace *next;
     struct kd_deflate *deflate;
     uint8_t *rows; /* filtered */
-    uint8_t *room; /* for ROW_ROOM rows */
+    uint8_t *room; /* ROW_ROOM rows */
     size_t rows_size, room_size;
 };
 
 struct kd_png_strips {
     enum kd_deflate_engine engine;
     pthread_mutex_t lock;
-    struct workspace *idle; /* under the lock */
+    struct workspace *idle; /* guarded by the lock */
 };
 
-/* One picture. */
+/* State of one picture. */
 struct work {
     struct kd_png_strips *strips;
     const struct kd_png_params *p;
-    size_t step, stride, n; /* bytes of a pixel and of a row; strips */
-    uint32_t rows;          /* of a strip; the last may have fewer */
-    uint32_t *sums;         /* of each strip */
-    uint32_t sum;           /* of those that are joined */
+    size_t step, stride, n; /* bytes of a pixel and of a row; number of strips */
+    uint32_t rows;          /* rows of a strip; the last may have fewer */
+    uint32_t *sums;         /* checksum of each strip */
+    uint32_t sum;           /* checksum of the joined strips */
     struct kd_buffer *out;
 };
 
@@ -42,7 +42,7 @@ static void big_endian(uint8_t to[4], uint32_t value)
         to[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-/* A chunk of up to three parts. */
+/* Writes a chunk of up to three parts. */
 static enum kd_status put_chunk(struct kd_buffer *out, const char type[5], const void *const parts[3],
                                 const size_t sizes[3])
 {
@@ -73,7 +73,7 @@ static void workspace_destroy(struct workspace *workspace)
     free(workspace);
 }
 
-/* One that is idle, or a new one; NULL: out of memory. */
+/* Takes an unused workspace, or makes one; NULL: out of memory. */
 static struct workspace *workspace_take(struct kd_png_strips *strips, int level)
 {
     pthread_mutex_lock(&strips->lock);
@@ -100,13 +100,13 @@ static bool make_room(uint8_t **memory, size_t *size, size_t wanted)
 {
     if (wanted <= *size)
         return true;
-    free(*memory); /* what it held is of no use: no copy, as realloc would make */
+    free(*memory); /* its contents are not needed, so realloc's copy is avoided */
     *memory = malloc(wanted);
     *size = *memory ? wanted : 0;
     return *memory;
 }
 
-/* Samples of 16 bits stand with the larger byte first. */
+/* Converts 16-bit samples to big-endian. */
 static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
 {
     const uint8_t *from = (const uint8_t *)w->p->pixels + y * w->stride;
@@ -121,13 +121,13 @@ static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
     return room;
 }
 
-/* Trying filters costs more than it gains at the lowest levels. Sub makes kerrd's pictures smallest, among those whose
- * cost is nothing beside deflate's (docs/decisions/0004-live-png.md). */
+/* At the lowest levels trying all filters costs more than it gains. Sub makes the smallest files of kerrd's pictures
+ * among filters whose cost is negligible beside deflate's (docs/decisions/0004-live-png.md). */
 static void filter(const struct work *w, uint32_t first, uint32_t end, struct workspace *workspace)
 {
     const size_t stride = w->stride;
     uint8_t *to = workspace->rows, *room[2] = { workspace->room, workspace->room + stride };
-    memset(room[1], 0, stride); /* above the first row of a picture */
+    memset(room[1], 0, stride); /* the row above the first row of a picture */
     const uint8_t *above = first ? row_at(w, first - 1, room[1]) : room[1];
     for (uint32_t y = first; y < end; y++, to += stride + 1) {
         const uint8_t *row = row_at(w, y, room[(y - first) % 2]);
@@ -202,8 +202,8 @@ void kd_png_strips_destroy(struct kd_png_strips *strips)
     free(strips);
 }
 
-/* A piece by libdeflate takes a quarter longer than a whole stream (deflate_walk.h): a picture that one core encodes in
- * some ten milliseconds is one. */
+/* A piece by libdeflate takes a quarter longer than a whole stream (deflate_walk.h), so pictures that one core
+ * encodes in some ten milliseconds are not divided. */
 static size_t least_in_strips(enum kd_deflate_engine engine) { return engine == KD_DEFLATE_ISAL ? MIB : 4 * MIB; }
 
 enum kd_status kd_png_strips_append(struct kd_png_strips *strips, const struct kd_png_params *params,

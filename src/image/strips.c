@@ -14,7 +14,7 @@ struct bytes {
 struct work {
     const struct kd_strips *strips;
     pthread_mutex_t lock;
-    /* Under the lock: */
+    /* Guarded by the lock: */
     struct bytes *waiting; /* one for each strip */
     size_t joined;
     enum kd_status status;

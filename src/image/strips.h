@@ -1,5 +1,5 @@
-/* A picture is encoded strip by strip on as many cores as are idle, and its strips joined in order. What the strips are
- * follows from the picture alone, so that the bytes are the same on any number of threads. Any thread. */
+/* Encodes a picture strip by strip on as many cores as are idle, and joins the strips in order. The strips depend on
+ * the picture only, so that the bytes are the same on any number of threads. Any thread. */
 #ifndef KD_IMAGE_STRIPS_H
 #define KD_IMAGE_STRIPS_H
 
@@ -10,15 +10,15 @@
 
 struct kd_strips {
     size_t n;
-    /* Appends a strip's bytes. On several threads at once. */
+    /* Appends a strip's bytes. Called on several threads at once. */
     enum kd_status (*encode)(void *user, size_t strip, struct kd_buffer *out);
-    /* Joins them to those before: one call at a time, strip 0 first. */
+    /* Joins a strip to those before: one call at a time, strip 0 first. */
     enum kd_status (*join)(void *user, size_t strip, const struct kd_buffer *bytes);
     void *user;
 };
 
-/* Bytes of strips wait for those before them; of strips that are joined none are kept. Returns the status of a call
- * that failed, after which no other strip begins; KD_ENOMEM. */
+/* Bytes of strips are kept only until they are joined. Returns the status of a call that failed, after which no
+ * other strip begins; KD_ENOMEM. */
 enum kd_status kd_strips_encode(const struct kd_strips *strips);
 
 #endif

@@ -1,18 +1,18 @@
-/* Writes a text as characters of an address: deflated (RFC 1951) and in base64url without padding (RFC 4648, 5).
- * Pure; any thread. */
+/* Encodes a text for use in a URL: deflated (RFC 1951) and in base64url without padding (RFC 4648, 5). Pure; any
+ * thread. */
 #ifndef KD_IMAGE_TEXT_CODE_H
 #define KD_IMAGE_TEXT_CODE_H
 
 #include "base/buffer.h"
 
-/* What a code may be, and what it may unpack to: bounds that hold before anything is allocated. */
+/* Limits of a code and of the text that it unpacks to, checked before anything is allocated. */
 enum { KD_TEXT_CODE_MOST = 2048, KD_TEXT_CODE_TEXT_MOST = 8192 };
 
-/* Appends the code of size bytes, and a NUL that out->size does not count. KD_ETOOBIG: text or code are longer than
- * that. KD_ENOMEM. */
+/* Appends the code of `size` bytes, and a NUL that out->size does not count. KD_ETOOBIG if text or code exceed these
+ * limits. KD_ENOMEM. */
 enum kd_status kd_text_code_write(const void *text, size_t size, struct kd_buffer *out, struct kd_error *error);
 
-/* Appends the text of a code, and a NUL that out->size does not count. KD_EINVAL, KD_ETOOBIG: a sentence says what
+/* Appends the text of a code, and a NUL that out->size does not count. KD_EINVAL, KD_ETOOBIG with a sentence on what
  * the code must be. KD_ENOMEM. */
 enum kd_status kd_text_code_read(const char *code, struct kd_buffer *out, struct kd_error *error);
 

@@ -8,7 +8,7 @@
 enum { END = 22, END64 = 56, LOCATOR = 20, ENTRY = 46, HEADER = 30, COMMENT_MOST = 65535 };
 enum { STORED = 0, DEFLATED = 8, ENCRYPTED = 1 };
 #define SATURATED 0xffffffffu
-#define DENSEST 1032 /* bytes that deflate makes of one: 258 by two bits, and no more (RFC 1951) */
+#define DENSEST 1032 /* largest expansion by deflate: 258 bytes from two bits (RFC 1951) */
 
 static uint16_t u16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
 static uint32_t u32(const uint8_t *p) { return u16(p) | (uint32_t)u16(p + 2) << 16; }
@@ -19,7 +19,7 @@ static enum kd_status damaged(struct kd_error *error, const char *what)
     return kd_error_set(error, KD_EINVAL, "%s", what);
 }
 
-/* The end record, behind which there is its comment alone. */
+/* Finds the end record, which only its comment may follow. */
 static bool find_end(const uint8_t *data, size_t size, size_t *at)
 {
     for (size_t n = END; n <= size && n <= END + COMMENT_MOST; n++)
@@ -32,11 +32,11 @@ static bool find_end(const uint8_t *data, size_t size, size_t *at)
 
 struct directory {
     uint64_t n, size, at;
-    size_t end; /* where what follows it begins */
+    size_t end; /* offset of what follows the directory */
 };
 
-/* Takes the counts of a long file from its own record (APPNOTE 4.3.14), which a locator before the end record points
- * to. */
+/* Takes the counts of a ZIP64 file from its own end record (APPNOTE 4.3.14), to which a locator before the end
+ * record points. */
 static bool read_end64(const uint8_t *data, size_t end, struct directory *out)
 {
     if (end < LOCATOR + END64 || memcmp(data + end - LOCATOR, "PK\6\7", 4))
@@ -68,8 +68,7 @@ static enum kd_status read_end(const uint8_t *data, size_t size, struct director
                                                                 : KD_OK;
 }
 
-/* Takes the numbers that do not fit 32 bits from the extra field of ZIP64, where they stand in this order (APPNOTE
- * 4.5.3). */
+/* Takes values that exceed 32 bits from the ZIP64 extra field, where they are in this order (APPNOTE 4.5.3). */
 static bool read_long(const uint8_t *extra, size_t size, struct kd_unzip_member *m)
 {
     uint64_t *const wanted[] = { &m->size, &m->packed, &m->at };
@@ -93,7 +92,7 @@ static bool read_long(const uint8_t *extra, size_t size, struct kd_unzip_member 
     return true;
 }
 
-/* Reads an entry of the directory; returns its length, 0: it is damaged. */
+/* Reads an entry of the directory; returns its length, or 0 if it is damaged. */
 static size_t read_entry(const uint8_t *p, size_t left, struct kd_unzip_member *m)
 {
     if (left < ENTRY || memcmp(p, "PK\1\2", 4))
@@ -153,7 +152,7 @@ const struct kd_unzip_member *kd_unzip_find(const struct kd_unzip *zip, const ch
     return NULL;
 }
 
-/* Where a member's bytes begin, behind its own header; NULL: they are not all before the directory. */
+/* Data of a member, after its own header; NULL unless all of it is before the directory. */
 static const uint8_t *bytes_of(const struct kd_unzip *zip, const struct kd_unzip_member *m)
 {
     if (zip->directory < HEADER || m->at > zip->directory - HEADER || memcmp(zip->data + m->at, "PK\3\4", 4))

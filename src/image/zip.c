@@ -5,13 +5,13 @@
 #include <string.h>
 
 enum { LEVEL = 6 };
-#define SATURATED 0xffffffffu /* a field of 32 bits says: see the ZIP64 field (APPNOTE 4.4.8) */
-#define FIRST_DAY 0x21        /* 1 January 1980, the earliest date there is */
+#define SATURATED 0xffffffffu /* value of a 32-bit field that refers to the ZIP64 field (APPNOTE 4.4.8) */
+#define FIRST_DAY 0x21        /* 1 January 1980, the earliest possible date */
 #define FILE_MODE (0100644u << 16)
 
 struct entry {
     char *name;
-    uint64_t size, packed, at; /* at: where its header begins */
+    uint64_t size, packed, at; /* at: offset of its header */
     uint32_t crc;
     bool deflated, streamed; /* streamed: the checksum follows the bytes */
 };
@@ -19,7 +19,7 @@ struct entry {
 struct kd_zip {
     struct kd_buffer *out;
     bool deflated;
-    uint64_t at, left; /* bytes written so far; bytes that the open member lacks */
+    uint64_t at, left; /* bytes written so far; missing bytes of the open member */
     struct entry *entries;
     size_t n, room;
 };
@@ -48,7 +48,7 @@ static enum kd_status emit(struct kd_zip *zip, const void *data, size_t size)
 
 static bool is_long(const struct entry *e) { return e->size >= SATURATED || e->packed >= SATURATED; }
 
-/* The fields that both headers of a member share, from the version that a reader needs to the length of its name
+/* The fields shared by both headers of a member, from the version needed to read it to the length of its name
  * (APPNOTE 4.3.7 and 4.3.12). */
 static void put_common(struct record *r, const struct entry *e, bool directory)
 {
@@ -67,7 +67,7 @@ static enum kd_status put_header(struct kd_zip *zip, const struct entry *e)
 {
     struct record r = { 0 }, extra = { 0 };
     enum kd_status status;
-    if (is_long(e)) { /* a member's own header holds both sizes (APPNOTE 4.5.3) */
+    if (is_long(e)) { /* both sizes are in a member's own header (APPNOTE 4.5.3) */
         put(&extra, 1, 2);
         put(&extra, 16, 2);
         put(&extra, e->size, 8);
@@ -167,7 +167,7 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
     return KD_OK;
 }
 
-/* Appends an entry to the directory; NULL: no memory. */
+/* Appends an entry to the directory; NULL: out of memory. */
 static struct entry *enter(struct kd_zip *zip, const char *name)
 {
     if (zip->n == zip->room) {
@@ -217,7 +217,7 @@ enum kd_status kd_zip_pass_over(struct kd_zip *zip)
     return put_descriptor(zip, &zip->entries[zip->n - 1]);
 }
 
-/* Deflates; false: it does not become smaller, or there is no memory for it. *out is the caller's to free. */
+/* Deflates; false if the result is not smaller, or out of memory. The caller frees *out. */
 static bool deflate(const void *data, size_t size, void **out, size_t *packed)
 {
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);

@@ -1,5 +1,5 @@
 /* Writes ZIP files (PKWARE APPNOTE 6.3.10) in memory: members stored or deflated, without times, so that the same
- * members give the same bytes. Reading: unzip.h. One thread a file. */
+ * members give the same bytes. unzip.h reads them. One thread a file. */
 #ifndef KD_IMAGE_ZIP_H
 #define KD_IMAGE_ZIP_H
 
@@ -11,14 +11,14 @@
 
 struct kd_zip;
 
-/* Appends to *out, which must stay. deflated: kd_zip_add packs members that become smaller. KD_ENOMEM. */
+/* Writes to *out, which must remain valid. deflated: kd_zip_add compresses members that become smaller. KD_ENOMEM. */
 enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip **zip);
-/* Begins a stored member whose pieces add up to `size` bytes. Between any two of these calls the caller may take
- * bytes off *out. KD_ENOMEM. */
+/* Begins a stored member whose pieces add up to `size` bytes. Between any two calls the caller may remove bytes from
+ * *out. KD_ENOMEM. */
 enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size);
 enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size);
-/* Counts the bytes that the open member lacks as written, and gives none: for who wants to know how long a file will
- * be. KD_ENOMEM. */
+/* Counts the missing bytes of the open member as written, without producing them, in order to compute the size of a
+ * file. KD_ENOMEM. */
 enum kd_status kd_zip_pass_over(struct kd_zip *zip);
 /* Adds a whole member. KD_ENOMEM. */
 enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size);

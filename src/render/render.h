@@ -1,4 +1,4 @@
-/* The rest of the program needs this in order to render: a device, and pictures of scenes by it. */
+/* Everything that the rest of the program needs for rendering: a device, and pictures of scenes by it. */
 #ifndef KD_RENDER_RENDER_H
 #define KD_RENDER_RENDER_H
 

@@ -1,9 +1,10 @@
+/* The accuracy table that is embedded in the program. */
 #include "render/accuracy/table.h"
 
 #include <pthread.h>
 #include <stdlib.h>
 
-/* bench/results, by embed.py. */
+/* bench/results, embedded by embed.py. */
 extern const unsigned char kd_accuracy_json[];
 extern const size_t kd_accuracy_json_size;
 

@@ -4,10 +4,10 @@
 
 enum { PROFILES = KD_PROFILE_REFERENCE + 1 };
 
-/* docs/accuracy.md has the errors that go with these steps. */
+/* Default steps of each engine; docs/accuracy.md has their errors. */
 static const struct {
     const char *name;
-    uint32_t steps[2];             /* by precision: where neither steps nor a profile are named */
+    uint32_t steps[2];             /* by precision: used where neither steps nor a profile are named */
     uint32_t profile[2][PROFILES]; /* draft, interactive, balanced, high, reference */
 } engines[KD_ENGINE_COUNT] = {
     [KD_ENGINE_CLOSED] = { .name = "closed" },
@@ -30,9 +30,9 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* llvmpipe leaves a kernel's loops after 65535 rounds, all together, and silently. In Mino time no ray takes more
- * than 12 + KD_RAYS_MAX_ORDERS half periods; rays_kerr_schild.comp says what the others take, of which Tao's has an
- * inner loop. */
+/* llvmpipe leaves a kernel's loops silently after 65535 rounds, counted over all loops together. In Mino time a ray
+ * takes at most 12 + KD_RAYS_MAX_ORDERS half periods. rays_kerr_schild.comp gives the counts of the others, of which
+ * Tao's has an inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;
@@ -45,7 +45,7 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
-/* The words of a scene's enumerations: "auto", then the names in the order of ours (tests/unit/engine.c). */
+/* The words of a scene's enumerations are "auto", then the names in the order of our enums (tests/unit/engine.c). */
 struct kd_wish kd_wish_of(const struct kd_scene *scene)
 {
     const struct kd_accuracy *a = &scene->accuracy;
@@ -90,7 +90,7 @@ static struct kd_setting by_profile(const struct kd_wish *wish, bool float64)
     s.precision = wish->precision >= 0                   ? (enum kd_precision)wish->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
                                                          : KD_PRECISION_F32;
-    /* A precision and an engine that were not named may give way. */
+    /* A precision and an engine that come from the profile may be replaced. */
     if (s.precision == KD_PRECISION_F64 && !float64 && wish->precision < 0 && wish->engine < 0 && !wish->steps)
         s.engine = KD_ENGINE_CLOSED;
     s.steps = wish->steps ? wish->steps

@@ -1,3 +1,4 @@
+/* Writes the accuracy table as a JSON document, and reads it back. */
 #include "render/accuracy/table.h"
 
 #include "base/json.h"
@@ -8,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FORMAT 1 /* version of the document; a table of another version is measured anew */
+#define FORMAT 1 /* version of the document; a table of another version is measured again */
 
-/* Four digits: more would be the weather of the day. */
+/* Four digits: further ones vary from run to run. */
 static void add_figure(struct kd_json *json, const char *name, double value)
 {
     char text[32];
@@ -93,7 +94,8 @@ static double figure(const cJSON *object, const char *name)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
-/* Whole numbers of the document; what is none, or too large, is UINT32_MAX, which no reader of it accepts. */
+/* A whole number of the document. Anything else, or a number that is too large, gives UINT32_MAX, which no reader
+ * accepts. */
 static uint32_t whole(const cJSON *object, const char *name)
 {
     double value = figure(object, name);

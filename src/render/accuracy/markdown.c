@@ -1,3 +1,4 @@
+/* Writes the accuracy table as Markdown. */
 #include "render/accuracy/table.h"
 
 #include <math.h>

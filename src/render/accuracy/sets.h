@@ -1,12 +1,11 @@
-/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are
- * comparable.
+/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are comparable.
  *
- * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a low-
- * discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of 1/g
- * and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. They are not rounded: what
- * single precision loses by rounding them counts as its error. Rays within 5 % of the critical curve, with all their
- * crossings of order 2, belong to the near-critical set alone: there the error of any method is that of the arithmetic
- * times a condition number of hundreds. rho is counted from the centre of physics/null/critical.h. Pure; any thread. */
+ * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a
+ * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of
+ * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. They are not rounded: the
+ * rounding by single precision counts as its error. Rays within 5 % of the critical curve belong to the
+ * near-critical set alone, with all their crossings of order 2: there any method has the arithmetic's error times a
+ * condition number of hundreds. rho is measured from the centre of physics/null/critical.h. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 

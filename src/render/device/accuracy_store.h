@@ -5,17 +5,17 @@
 #include "render/accuracy/table.h"
 #include "render/device/renderer.h"
 
-/* Where it is kept; malloc'd, NULL where there is no cache directory. Any thread. */
+/* Path of the file: malloc'd, NULL if there is no cache directory. Any thread. */
 char *kd_accuracy_path(const struct kd_renderer *renderer);
 
-/* Replaces the table kept there, in one step. */
+/* Replaces the stored table atomically. */
 enum kd_status kd_accuracy_save(const struct kd_accuracy_table *table, const char *path, struct kd_error *error);
 
-/* KD_EIO where there is none or it cannot be read, KD_EINVAL where it is damaged or of another format: the message
- * says how to make one. path may be NULL. Any thread. */
+/* KD_EIO if the file is missing or cannot be read, KD_EINVAL if it is damaged or of another format; the message says
+ * how to make one. path may be NULL. Any thread. */
 enum kd_status kd_accuracy_load(const char *path, struct kd_accuracy_table *out, struct kd_error *error);
 
-/* The document of GET /v1/accuracy, appended; errors as kd_accuracy_load. Any thread. */
+/* Appends the document of GET /v1/accuracy; errors as kd_accuracy_load. Any thread. */
 enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
                                          struct kd_error *error);
 

@@ -11,8 +11,8 @@
 
 struct own {
     struct kd_vk_buffer *nodes;
-    char of[KD_ASSET_NAME]; /* whose they are, */
-    bool there;             /* if any are */
+    char of[KD_ASSET_NAME]; /* the asset's hash of the uploaded grid */
+    bool there;             /* whether there is one */
 };
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
@@ -43,7 +43,7 @@ static struct kd_kept_grid *kept_of(struct kd_grids *all, const char *hash)
     return NULL;
 }
 
-/* Finds the scene's grid, with its nodes where they are asked for: reads it unless it is there. */
+/* Finds the scene's grid, with its nodes if requested, and reads it if it is not cached. */
 static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes,
                               struct kd_matter_grid **out, struct kd_error *error)
 {
@@ -75,7 +75,7 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
         return KD_OK;
     if (own->there && !strcmp(own->of, scene->volume.grid)) {
         struct kd_kept_grid *at = kept_of(&work->renderer->grids, hash_of(scene));
-        if (at) /* it was read for what tell says of it */
+        if (at) /* `tell` has read it already */
             kd_matter_grid_finish(&at->grid);
         return KD_OK;
     }
@@ -95,7 +95,7 @@ done:
     return status;
 }
 
-/* Where its nodes are, and between which radii: those of the scene, and of the grid. */
+/* Location of the grid's nodes, and the range of radii common to scene and grid. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {
@@ -121,7 +121,7 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_field = (float)log2(g->field);
     to->inner = (float)fmin(inner, outer);
     to->outer = (float)outer;
-    if (kd_scene_is_radio_alone(scene)) { /* the march finds the edges of the only volume */
+    if (kd_scene_is_radio_alone(scene)) { /* if it is the only volume, the march finds its edges */
         out->frame.along_least = (float)(1 / outer);
         out->frame.along_most = (float)fmin(1 / fmin(inner, outer), 1e30);
     }

@@ -1,6 +1,5 @@
 /* Matter on a grid, on the device: reads volume.grid and uploads it when the asset has changed (kd_own_plasma of
- * render/emit/own.h). The renderer keeps the description of the last grids, without their numbers. Render thread only.
- */
+ * render/emit/own.h). The renderer keeps the descriptions of recent grids without their nodes. Render thread only. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
 #define KD_RENDER_DEVICE_GRIDS_H
 
@@ -10,10 +9,10 @@
 enum { KD_GRIDS = 8 };
 struct kd_grids {
     struct kd_kept_grid {
-        char of[KD_ASSET_NAME];     /* the asset's hash; "": there is none */
-        struct kd_matter_grid grid; /* nodes: until they are sent, up to 64 MiB; else NULL */
+        char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
+        struct kd_matter_grid grid; /* nodes: present until uploaded, up to 64 MiB; otherwise NULL */
     } kept[KD_GRIDS];
-    uint32_t n; /* so far: the next one stands in the place of the oldest */
+    uint32_t n; /* grids so far: the next one replaces the oldest */
 };
 void kd_grids_finish(struct kd_grids *grids);
 

@@ -67,12 +67,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAKERS = 4 }; /* threads that make kernels at once, at most */
+enum { MAKERS = 4 }; /* threads that make kernels concurrently, at most */
 
 _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN_COUNT <= KD_VK_MAX_STORAGE,
                "the kernels of light bind all buffers of the emitters, the lens map and what they write");
 
-/* Of the emitters' own buffers, by what they hold, where kernels read them as texels (shaders/light/inputs.glsl). */
+/* Texel type of each kind of the emitters' buffers, for kernels that read them as texels
+ * (shaders/light/inputs.glsl). */
 #define KD_KIND_words KD_VK_TEXELS_WORD
 #define KD_KIND_pairs KD_VK_TEXELS_PAIR
 #define KD_KIND_floats KD_VK_TEXELS_R
@@ -347,7 +348,7 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 
 static size_t room_of(const struct kd_kernels *kernels) { return kernels->kept ? kernels->kept : KD_KERNELS_KEPT; }
 
-/* The entry of a kernel; NULL: there is none. */
+/* The entry of a kernel; NULL if there is none. */
 static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
                                     const uint32_t key[KD_KERNEL_MAX_CONSTANTS])
 {
@@ -377,7 +378,7 @@ static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params 
             return;
     struct kd_kernel_entry *known = find(kernels, source, key);
     if (known)
-        known->used = ++kernels->clock; /* else it might make room, and be made anew for each frame */
+        known->used = ++kernels->clock; /* otherwise it might be evicted, and be made again for each frame */
     if (known || all->n == KD_KERNEL_WISHES || all->n == room_of(kernels))
         return;
     struct kd_kernel_wish *w = &all->at[all->n++];
@@ -427,7 +428,7 @@ struct makers {
 static void *make_wishes(void *user)
 {
     struct makers *m = user;
-    struct kd_error error = { 0 }; /* who asks for it again is told */
+    struct kd_error error = { 0 }; /* the next kd_kernels_get reports it */
     size_t i;
     while ((i = atomic_fetch_add(&m->next, 1)) < m->wishes->n) {
         struct kd_kernel_wish *w = &m->wishes->at[i];
@@ -437,7 +438,7 @@ static void *make_wishes(void *user)
     return NULL;
 }
 
-/* The longest text takes longest: last, one thread would make it while the others have nothing to do. */
+/* Longest SPIR-V first, as it takes longest: started last, it would keep one thread busy while the others are idle. */
 static int longer_first(const void *a, const void *b)
 {
     const size_t x = ((const struct kd_kernel_wish *)a)->source->spirv_bytes,
@@ -462,7 +463,7 @@ void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk)
     while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < wishes->n &&
            !pthread_create(&threads[n], NULL, make_wishes, &m))
         n++;
-    make_wishes(&m); /* alone, too, where no thread could be had */
+    make_wishes(&m); /* this thread takes part, and works alone if no thread could be created */
     for (size_t i = 0; i < n; i++)
         pthread_join(threads[i], NULL);
 }
@@ -471,7 +472,7 @@ void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct 
 {
     for (const struct kd_kernel_wish *w = made->at; w < made->at + made->n; w++)
         if (w->made && find(kernels, w->source, w->constants))
-            kd_vk_pipeline_destroy(vk, w->made); /* another one has made it meanwhile */
+            kd_vk_pipeline_destroy(vk, w->made); /* another thread has made it meanwhile */
         else if (w->made)
             keep(kernels, vk, w->source, w->constants, w->n, w->made);
     kernels->noted = kernels->clock;

@@ -1,4 +1,4 @@
-/* Compute pipelines of a renderer, created when a plan first needs them, and kept. Render thread only. */
+/* Compute pipelines of a renderer: created when a plan first needs them, then cached. Render thread only. */
 #ifndef KD_RENDER_DEVICE_KERNELS_H
 #define KD_RENDER_DEVICE_KERNELS_H
 
@@ -19,7 +19,7 @@ enum kd_kernel {
     KD_KERNEL_RAYS_F64,
     KD_KERNEL_RAYS_KS_F32,
     KD_KERNEL_RAYS_KS_F64,
-    KD_KERNEL_RAYS_TRACE_F32, /* the same four, telling each step */
+    KD_KERNEL_RAYS_TRACE_F32, /* the same four, which also record each step */
     KD_KERNEL_RAYS_TRACE_F64,
     KD_KERNEL_RAYS_KS_TRACE_F32,
     KD_KERNEL_RAYS_KS_TRACE_F64,
@@ -31,15 +31,15 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* likewise */
-    KD_KERNEL_TRANSFER_TELL,   /* of one ray, emitter by emitter; and in volumes */
+    KD_KERNEL_TRANSFER_TELL,   /* one ray, reported emitter by emitter; and in volumes */
     KD_KERNEL_MARCH_TELL,
     KD_KERNEL_LAYERS,
-    KD_KERNEL_MARCH,        /* the same two where there are volumes */
-    KD_KERNEL_MARCH_PIECES, /* the first, of rays that go on */
+    KD_KERNEL_MARCH,        /* the same two for scenes with volumes */
+    KD_KERNEL_MARCH_PIECES, /* the first, for rays that continue from a stored state */
     KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
-    KD_KERNEL_BLOOM_BRIGHT, /* each followed by its twin that reads texels */
+    KD_KERNEL_BLOOM_BRIGHT, /* each followed by its variant that reads texels */
     KD_KERNEL_BLOOM_BRIGHT_TEXELS,
     KD_KERNEL_BLOOM_GATHER,
     KD_KERNEL_BLOOM_GATHER_TEXELS,
@@ -56,7 +56,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the same, reading texels; kd_kernel_post tells which */
+    KD_KERNEL_POST_TEXELS, /* the same, reading texels; kd_kernel_post chooses */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,
@@ -72,11 +72,11 @@ enum kd_kernel {
 struct kd_kernel_entry {
     const struct kd_vk_pipeline_params *source; /* in constant data */
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
-    size_t n; /* of the constants */
+    size_t n; /* number of constants */
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
 };
-/* Kernels that somebody will ask for, and that are not there yet. */
+/* Kernels that will be requested and do not exist yet. */
 struct kd_kernel_wish {
     const struct kd_vk_pipeline_params *source;
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
@@ -89,37 +89,39 @@ struct kd_kernel_wishes {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
-    size_t kept; /* so many of the entries are used; 0: all. A test sets it before the first is asked for */
+    size_t kept; /* number of entries in use; 0: all. A test sets it before the first request */
     uint64_t clock;
     bool noting;
     struct kd_kernel_wishes wishes;
     uint64_t noted; /* the clock when the last of them were made */
 };
 
-/* The pipeline of a kernel with specialisation constants 0..n-1; the least recently used one makes room. */
+/* The pipeline of a kernel with specialisation constants 0..n-1; if the cache is full, the least recently used one
+ * is evicted. */
 enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
-/* The same of a kernel that is not in the list: emitters have their own (render/emit/own.h). */
+/* The same for a kernel that is not in the list, such as an emitter's (render/emit/own.h). */
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
                                  const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
                                  const struct kd_vk_pipeline **out, struct kd_error *error);
-/* From the first of these on kd_kernels_get makes no kernel: it notes those that are not there, up to
- * KD_KERNEL_WISHES, and *out is NULL for all. The second makes them, on as many threads as there are processors,
- * four at most, and ends that. A kernel that cannot be made is left to whoever asks for it, and is then told why. */
+/* kd_kernels_note starts recording: kd_kernels_get then makes no kernel but notes missing ones, up to
+ * KD_KERNEL_WISHES, and sets *out to NULL. kd_kernels_make ends recording and makes the noted kernels on as many
+ * threads as there are processors, at most four. A kernel that fails is left to the next kd_kernels_get, which
+ * reports the error. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* The second in three steps, of which the middle one may be any thread's while another one has the device, as long as
- * that stays open: ends noting and hands out what was noted, makes it, and keeps what was made. */
+/* kd_kernels_make in three steps: ends recording and hands out the noted kernels; makes them; adds them to the
+ * cache. The second may run on any thread while another one uses the device, as long as the device stays open. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_wishes *out);
 void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_wishes *made);
-/* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the
- * time, but how many it binds differs. The kernel that post takes there. */
+/* Whether a device reads the radiance of this many pixels as texels of four floats: software devices take a third of
+ * the time for them, but differ in how many they bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
-bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* and of so many bytes of anything */
-bool kd_kernels_map_as_texels(const struct kd_vk *vk); /* and of any lens map, a texel a number: software reads those in
-                                                          less than half the time */
+bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* the same for bytes of anything */
+/* the same for any lens map, one number a texel: software devices take less than half the time */
+bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
 {
@@ -128,9 +130,9 @@ static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
                     : KD_KERNEL_POST) +
            (texels ? 1 : 0);
 }
-/* Keeps the n that were used last. */
+/* Keeps the n most recently used ones. */
 void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n);
-uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* of those that are kept */
+uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* of the cached kernels */
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Looks for the bytes of an asset. */
+/* Takes the bytes of an asset. */
 static enum kd_status take(const struct kd_assets *assets, const char *hash, struct kd_asset_bytes *out,
                            struct kd_error *error)
 {
@@ -40,7 +40,7 @@ static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky 
     return status;
 }
 
-/* A Milky Way that was kept. */
+/* Reads a cached Milky Way. */
 static bool recall(const char *file, const struct kd_panorama_key *key, struct kd_panorama *out)
 {
     if (*key->sky.image || !file)
@@ -76,15 +76,15 @@ static enum kd_status make(const struct kd_assets *assets, const struct kd_panor
     return status;
 }
 
-/* Somebody waits for what has not been shown yet. */
+/* Whether `a` is evicted before `b`: panoramas that were not delivered go last, because somebody waits for them. */
 static bool goes_before(const struct kd_panorama *a, const struct kd_panorama *b)
 {
     const bool promised = *a->of && !a->shown, other = *b->of && !b->shown;
     return promised != other ? !promised : a->used < b->used;
 }
 
-/* The place of the one that was asked for longest ago, emptied. Place is made before a panorama is: memory for four
- * is not for three. */
+/* Evicts the least recently used panorama and returns its slot. This precedes making a new one, so that memory never
+ * holds more than KD_PANORAMAS. */
 static struct kd_panorama *room(struct kd_panoramas *all)
 {
     struct kd_panorama *oldest = all->given == all->at ? all->at + 1 : all->at;
@@ -96,7 +96,8 @@ static struct kd_panorama *room(struct kd_panoramas *all)
     return oldest;
 }
 
-/* With the lock, which is left while it is made. A Milky Way that was made, and should be kept, or NULL. */
+/* Makes the first requested panorama. Called with the lock, which is released meanwhile. Returns a newly made Milky
+ * Way that should be written to the file, or NULL. */
 static const struct kd_panorama *make_first(struct kd_panoramas *all)
 {
     const struct kd_panorama_key key = all->asked[0];
@@ -109,7 +110,7 @@ static const struct kd_panorama *make_first(struct kd_panoramas *all)
                             : all->blank ? make_blank(&made, &why)
                                          : make(all->assets, &key, &made, &why);
     pthread_mutex_lock(&all->lock);
-    const bool ahead = all->asked[0].ahead; /* by now */
+    const bool ahead = all->asked[0].ahead; /* it may have changed meanwhile */
     if (status && !ahead) {
         memcpy(all->broken, key.of, sizeof all->broken);
         all->why = why;
@@ -123,7 +124,7 @@ static const struct kd_panorama *make_first(struct kd_panoramas *all)
     return status || recalled || *key.sky.image ? NULL : place;
 }
 
-/* Without the lock, by the thread, which alone takes places away: so the words stay meanwhile. */
+/* Writes the file without the lock, on the thread, which alone evicts slots: so the words stay valid. */
 static void keep(struct kd_panoramas *all, int32_t seed, const struct kd_panorama *fresh)
 {
     if (!all->file || !fresh)
@@ -183,13 +184,13 @@ static struct kd_panorama_key *asked(struct kd_panoramas *all, const char *of)
     return NULL;
 }
 
-/* Bytes of a hash never change: what is no sound picture never will be one. */
+/* The bytes of a hash never change, so an invalid picture stays invalid. */
 static bool is_broken(const struct kd_panoramas *all, const char *of)
 {
     return all->why.status == KD_EINVAL && !strcmp(all->broken, of);
 }
 
-/* With the lock. Without memory for a thread nothing is begun. */
+/* With the lock. Does nothing if no thread can be created. */
 static void begin(struct kd_panoramas *all, const struct kd_panorama_key *key)
 {
     pthread_t thread;
@@ -227,15 +228,15 @@ void kd_panorama_ahead(struct kd_panoramas *all, const char *hash)
     snprintf(key.of, sizeof key.of, "%s", hash);
     snprintf(key.sky.image, sizeof key.sky.image, "%s", hash);
     pthread_mutex_lock(&all->lock);
-    if (!all->n_asked && kept(all, "")) /* an empty place */
+    if (!all->n_asked && kept(all, "")) /* a free slot */
         begin(all, &key);
     pthread_mutex_unlock(&all->lock);
 }
 
-/* With the lock: waits for it, or makes it here where there is no thread for it. NULL: it has failed. */
+/* With the lock: waits for a panorama, or makes it here if there is no thread. NULL: it has failed. */
 static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_panorama_key *key)
 {
-    if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* there may be memory by now */
+    if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* a failure for lack of memory is tried again */
         *all->broken = 0;
     while (!kept(all, key->of) && strcmp(all->broken, key->of)) {
         begin(all, key);
@@ -243,8 +244,8 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
             pthread_cond_wait(&all->changed, &all->lock);
             continue;
         }
-        all->asked[all->n_asked++] = *key; /* there are none without a thread */
-        all->runs = true;                  /* as the thread would be */
+        all->asked[all->n_asked++] = *key; /* without a thread the list is empty */
+        all->runs = true;                  /* in place of the thread */
         while (all->n_asked)
             make_first(all);
         all->runs = false;

@@ -1,5 +1,5 @@
-/* Lets emitters prepare on the device, before the transfer pass, the buffers of their own that it reads
- * (render/emit/own.h). It folds over the table of emitters and knows no names. Render thread only. */
+/* Lets emitters fill their device buffers, which the transfer pass reads (render/emit/own.h). It iterates over the
+ * table of emitters and knows no names. Render thread only. */
 #ifndef KD_RENDER_DEVICE_PREPARE_H
 #define KD_RENDER_DEVICE_PREPARE_H
 
@@ -13,22 +13,21 @@ struct kd_renderer;
 struct kd_vk;
 struct kd_vk_buffer;
 
-/* What each emitter keeps, as large as it says; NULL: nothing yet. */
+/* State of each emitter, of the size that it requests; NULL: none yet. */
 struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 
-/* Begins what emitters make on the host, on threads of their own. */
+/* Starts what emitters make on the host, on threads of their own. */
 void kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan);
-/* Tells of all emitters that the plan's scene has, after kd_emit_update. */
+/* Calls `tell` of all emitters of the scene, after kd_emit_update. */
 enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                                struct kd_emission *out, char *credit, size_t size, struct kd_error *error);
-/* Prepares all emitters that the plan's scene has. */
+/* Calls `prepare` of all emitters of the scene. */
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);
-/* Gives what an emitter that has buffers works with, those of the renderer, to whoever asks the emitter for more
- * than frames do. */
+/* The working set of an emitter that has buffers, for requests other than frames. */
 enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number, struct kd_own_work *out,
                                 struct kd_error *error);
-/* Buffers for the kernels of light, by their numbers; NULL: of emitters that the scene has not. */
+/* Buffers for the kernels of light, by number; NULL for emitters that the scene does not have. */
 void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan,
                          struct kd_vk_buffer *out[KD_OWN_COUNT]);
 void kd_prepared_forget(struct kd_prepared *prepared);

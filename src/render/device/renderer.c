@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Three quarters of the heap, and nothing that others hold already. */
+/* Three quarters of the heap, but not what other processes use. */
 static uint64_t free_bytes(const struct kd_vk_info *info)
 {
     uint64_t share = info->heap_bytes / 4 * 3;
     return info->budget_bytes && info->budget_bytes < share ? info->budget_bytes : share;
 }
 
-/* Before anything has been measured: orders of magnitude for this type of device, per item. */
+/* Defaults until something has been measured: orders of magnitude per item for this type of device. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
     uint64_t device = free_bytes(info), wish = kd_memory_main(memory_bytes);
@@ -40,7 +40,7 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
     return c;
 }
 
-/* The table that tolerances are looked up in: this device's own, if there is one and it can be read. */
+/* Loads the table in which tolerances are looked up: this device's own, if there is one and it can be read. */
 static void load_accuracy(struct kd_renderer *r)
 {
     char *path = kd_accuracy_path(r);
@@ -54,7 +54,7 @@ static void load_accuracy(struct kd_renderer *r)
     r->capacity.accuracy_measured = r->accuracy;
 }
 
-/* Beside what the device's driver keeps, and the same for all devices. */
+/* In the folder of the driver's cache, shared by all devices. */
 static char *milky_way_file(const struct kd_vk *vk)
 {
     char *own = kd_vk_cache_file(vk, ""), *slash = own ? strrchr(own, '/') : NULL, *out = NULL;
@@ -80,7 +80,7 @@ static enum kd_status open_device(struct kd_renderer *r, struct kd_error *error)
     return KD_OK;
 }
 
-/* All that is on the device goes with it. */
+/* Everything on the device is lost with it. */
 static void close_device(struct kd_renderer *r)
 {
     if (!r->vk)
@@ -174,7 +174,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer);
 }
 
-/* With another version of the driver, too, pictures may be others, and what is known of the device no more true. */
+/* A new driver version counts as another device: pictures and measured values may differ. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version &&
@@ -185,9 +185,9 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
+    /* submitted work may hang only now; the device then cannot be closed, and a second one is never opened */
     if (r->vk)
-        kd_vk_wait(r->vk, 0, NULL); /* what has been submitted may hang only now; then the device cannot be closed, and
-                                       there are never two */
+        kd_vk_wait(r->vk, 0, NULL);
     if (kd_renderer_hangs(r))
         return kd_error_set(error, KD_EDEVICE, "%s hangs: a submission missed its deadline", r->opened.name);
     close_device(r);

@@ -41,8 +41,8 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
-/* What is resident and has no name yet is the heap's or something else. Of the device's memory, which is counted as a
- * whole, pages may never have been touched: so the heap is no more than what is left. */
+/* Resident memory that no kind accounts for is either in the heap or `other`. Device memory is counted in full
+ * although some pages may never have been touched; the heap is therefore limited to what is left. */
 void kd_renderer_kept(const struct kd_renderer *r, uint64_t out[KD_N_KEPT_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
@@ -75,7 +75,7 @@ static void empty_asides(struct kd_renderer *r)
     }
 }
 
-/* All that can be given back while the device stays open. */
+/* Frees everything that can be freed while the device stays open. */
 static void give_back(struct kd_renderer *r)
 {
     empty_asides(r);
@@ -89,12 +89,12 @@ static void give_back(struct kd_renderer *r)
     kd_panoramas_rest(&r->panoramas, KD_REST_PANORAMAS);
 }
 
-/* Closes the device and opens it again. What the process is larger by afterwards is told, but is not the device's, and
- * no reason to open it once more. */
+/* Closes the device and reopens it. Any remaining growth of the process is reported, but not attributed to the
+ * device, and is no reason to reopen it again. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = kd_renderer_reopen(r, error);
-    if (status && !r->vk) /* whatever the reason: there is no device */
+    if (status && !r->vk) /* there is no device, whatever the reason */
         status = error->status = KD_EDEVICE;
     if (status)
         return status;
@@ -111,7 +111,7 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
         return KD_OK;
     KD_TRY(kd_vk_wait(r->vk, 0, error));
     give_back(r);
-    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* what was destroyed is freed now */
+    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* destroyed buffers are freed only now */
     kd_allocator_trim();
     kd_renderer_count(r);
     const uint64_t sum = kd_renderer_kept_sum(r);

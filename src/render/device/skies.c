@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A buffer that holds these bytes from now on. */
+/* Replaces a buffer by one with these bytes. */
 static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes,
                              const char *name, struct kd_error *error)
 {
@@ -26,7 +26,7 @@ done:
     return status;
 }
 
-/* The cell of a star on a face of side x side; -1: it is not there, beyond the edge. */
+/* Cell of a star on a face of side x side cells; -1: beyond the face's edge. */
 static int64_t cell_on(const struct kd_star *s, int face, int side)
 {
     const float n[] = { s->x, s->y, s->z, s->x, s->y }, *axis = &n[face / 2], along = face % 2 ? -*axis : *axis;
@@ -39,8 +39,8 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Where each cell begins, as sort wants it: one number too late; places are taken from `from` on. The last number is
- * where they end. */
+/* Start of each cell, shifted by one entry as `sort` needs it; places count from `from`. The last number is their
+ * end. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
     const size_t n = (size_t)KD_FACE_TABLE(side) - 2;
@@ -56,9 +56,9 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
         cells[i] += cells[i - 1];
 }
 
-/* Puts stars into their places, in order, so that each cell has its brightest first. As it goes, cells[c + 1] moves
- * from the beginning of cell c to its end, which is where the next one begins. all: places, behind which
- * temperatures are. */
+/* Sorts stars into cells, keeping their order, so that each cell has its brightest first. Meanwhile cells[c + 1]
+ * advances from the start of cell c to its end, which is the start of the next. all: number of places, after which
+ * the temperatures follow. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)
@@ -74,7 +74,7 @@ static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t
         }
 }
 
-/* The tables of fine and of coarse cells are one behind the other, and so are the places that they tell. */
+/* The table of coarse cells follows that of fine ones; so do their places. */
 static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene,
                                  struct kd_error *error)
 {
@@ -140,7 +140,7 @@ done:
 
 static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_panorama_begin(&r->panoramas, scene); }
 
-/* The panorama's size, and whose it is. */
+/* The panorama's size and author. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {

@@ -45,7 +45,7 @@ static uint64_t bytes_of_map(const struct kd_lens_map *map)
            bytes_of(map->rim_lens);
 }
 
-/* The light of stars, and the rim that has some of them. */
+/* Marks the light of stars and the rim as missing. */
 static void forget_stars(struct kd_lens_map *map)
 {
     map->star_key.lens[0] = 0;
@@ -66,7 +66,7 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
     map->used = 0;
 }
 
-/* Drop kept maps, oldest first, until the plan fits beside the others, and these within their bound. */
+/* Evicts cached maps, oldest first, until the plan fits beside the others and these are within their limit. */
 static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
 {
     for (;;) {
@@ -105,7 +105,7 @@ bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
     return false;
 }
 
-/* Room for the light of stars. New buffers hold none yet. */
+/* Allocates the light of stars; new buffers have no valid contents. */
 static enum kd_status make_star_light(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map *map,
                                       struct kd_error *error)
 {
@@ -116,14 +116,14 @@ static enum kd_status make_star_light(struct kd_store *store, const struct kd_pl
     return bands_init(light, store->vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error);
 }
 
-/* *buffer (NULL: none yet) is made once, and stays. */
+/* Makes *buffer if it is NULL; it is never resized. */
 static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
                            const char *name, struct kd_error *error)
 {
     return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
-/* kd_store_lens_map, but for what rays need beside their map. */
+/* kd_store_lens_map without the buffers that rays need besides their map. */
 static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                    bool *reused, struct kd_error *error)
 {
@@ -162,7 +162,8 @@ done:
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error)
 {
-    /* A map that is found may have come from another store, and rays are followed beside it (refine.c). */
+    /* A map that was found may come from another store, and refine.c traces rays beside it: the list of open rays is
+     * needed in any case. */
     const uint64_t bytes = 4 * (1 + kd_plan_open_most(plan));
     enum kd_status status =
         kd_store_at_least(store->vk, &store->undecided, bytes, KD_VK_DEVICE, "undecided rays", error);
@@ -204,7 +205,7 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
     return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
-/* What all pictures need, whatever their size. */
+/* Buffers of fixed size, which all pictures need. */
 static enum kd_status make_small(struct kd_store *store, struct kd_error *error)
 {
     struct kd_vk *vk = store->vk;
@@ -217,7 +218,7 @@ done:
     return status;
 }
 
-/* Nothing is kept for a beam that is no more: it takes as much as the picture. */
+/* A beam's buffers are freed when no longer needed: they are as large as the picture. */
 static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *plan, struct kd_error *error)
 {
     const struct kd_beam_grid *beam = &plan->beam;
@@ -355,7 +356,7 @@ void kd_store_empty(struct kd_store *store)
     *store = (struct kd_store) { .vk = store->vk, .memory_bytes = store->memory_bytes };
 }
 
-/* Those that were used last, as far as they fit. */
+/* Keeps the most recently used maps, as far as they fit. */
 static void keep_maps(struct kd_store *store, uint64_t bytes)
 {
     for (;;) {
@@ -386,7 +387,7 @@ void kd_store_finish(struct kd_store *store)
     finish_frame(store);
 }
 
-/* All but the lens maps. */
+/* Frees everything except the lens maps. */
 static void finish_frame(struct kd_store *store)
 {
     bands_finish(&store->radiance, store->vk);

@@ -1,4 +1,4 @@
-/* Names the types of devices. */
+/* Names of the types of devices. */
 #include "render/device/renderer.h"
 #include "vk/vk.h"
 

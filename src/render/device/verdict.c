@@ -22,7 +22,7 @@ const char *kd_verdict_word(const struct kd_verdict *verdict)
 
 const struct kd_verdict *kd_renderer_verdict(const struct kd_renderer *r) { return &r->verdict; }
 
-/* Which device, driver and kerrd a verdict is for. */
+/* Identifies the device, driver and kerrd that a verdict is for. */
 static void name_of(const struct kd_renderer *r, char *out, size_t size)
 {
     const struct kd_vk_info *info = kd_vk_info(r->vk);
@@ -56,7 +56,7 @@ void kd_verdict_save(const struct kd_renderer *r, struct kd_capacity capacity)
     free(path);
 }
 
-/* What a file says of this very device, driver and version; anything else is as no file. */
+/* Reads a file; one for another device, driver or version is ignored. */
 static void understand(struct kd_renderer *r, const char *text, size_t size)
 {
     struct kd_capacity *c = &r->capacity;
@@ -79,7 +79,7 @@ static void understand(struct kd_renderer *r, const char *text, size_t size)
         if (cJSON_IsNumber(ns) && ns->valuedouble > 1e-6 && ns->valuedouble < 1e9)
             c->ns[i] = ns->valuedouble;
         else
-            speed = NULL; /* and what follows stays a guess */
+            speed = NULL; /* ignore later figures as well: they stay defaults */
     }
     c->measured = known && speed;
     cJSON_Delete(root);
@@ -98,7 +98,7 @@ void kd_verdict_recall(struct kd_renderer *r)
     r->kept = r->capacity;
 }
 
-/* A figure that has changed by less is not worth a write. */
+/* A figure that changed by less is not worth a write. */
 static bool differs(double a, double b) { return !(a < 1.25 * b && b < 1.25 * a); }
 
 void kd_verdict_keep(struct kd_renderer *r)

@@ -1,5 +1,5 @@
-/* Result of the self-test: whether a device computes correctly, and how fast it is. It runs at the first start
- * (selftest/first_start.h) and is cached on disk. Thread of the renderer. */
+/* Result of the self-test: whether a device computes correctly, and how fast it is. The test runs at the first start
+ * (selftest/first_start.h) and its result is cached on disk. Only the renderer's thread. */
 #ifndef KD_RENDER_DEVICE_VERDICT_H
 #define KD_RENDER_DEVICE_VERDICT_H
 
@@ -10,20 +10,20 @@ struct kd_renderer;
 
 struct kd_verdict {
     enum { KD_UNTESTED, KD_PASSED, KD_FAILED } result;
-    bool now; /* in this process, not in one before */
+    bool now; /* tested by this process, not by an earlier one */
     unsigned checks, failed;
-    double seconds;  /* that it took */
-    char worst[160]; /* the first check that failed, "" if none has */
+    double seconds;  /* duration of the test */
+    char worst[160]; /* the first check that failed; "" if none */
 };
 
-/* A new renderer is told what is known of its device, and what its passes cost when it was last used. */
+/* Loads the cached verdict of a new renderer's device, and the costs of its passes. */
 void kd_verdict_recall(struct kd_renderer *renderer);
-/* Write the renderer's verdict, with the costs of this capacity if they were measured. */
+/* Writes the renderer's verdict, with the costs of this capacity if they were measured. */
 void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capacity);
-/* Keep what a pass costs by now, for the next start. Nothing where nothing is kept. */
+/* Stores the present costs of passes for the next start; does nothing if there is no cache. */
 void kd_verdict_keep(struct kd_renderer *renderer);
 
-/* What is known of a renderer's device. Belongs to the renderer. */
+/* The verdict on a renderer's device. Belongs to the renderer. */
 const struct kd_verdict *kd_renderer_verdict(const struct kd_renderer *renderer);
 /* "passed", "failed" or "not run". */
 const char *kd_verdict_word(const struct kd_verdict *verdict);

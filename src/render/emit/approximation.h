@@ -1,10 +1,10 @@
 /* An approximation: something that a picture leaves out or chooses. Constant data.
  *
  * Its name, such as "disk.thin", is short and stable, for headers and programs. Names are unique, and all of them
- * together fit into one header of an answer (tests/unit/emitters.c). */
+ * together fit into one header of an HTTP response (tests/unit/emitters.c). */
 #ifndef KD_RENDER_EMIT_APPROXIMATION_H
 #define KD_RENDER_EMIT_APPROXIMATION_H
 
-struct kd_approximation { const char *name, *text; /* text: a sentence */ };
+struct kd_approximation { const char *name, *text; /* text: one sentence */ };
 
 #endif

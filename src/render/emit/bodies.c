@@ -1,4 +1,4 @@
-/* These are bodies as an emitter: shaders/emit/bodies.glsl. */
+/* Bodies as an emitter: shaders/emit/bodies.glsl. */
 #include "render/emit/bodies.h"
 
 #include "physics/math/angle.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Past the observer of zero angular momentum it has this velocity; and its azimuth grows by so much. */
+/* Velocity relative to the observer of zero angular momentum; returns the angular velocity. */
 static double motion_of(const struct kd_body *body, const struct kd_vantage *at, double velocity[3])
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO), motion = kd_body_motion(body);
@@ -79,7 +79,7 @@ static unsigned varies(const struct kd_scene *scene)
     return by;
 }
 
-/* Counts those of a playground that cannot be shown. */
+/* Number of bodies of a playground that cannot be shown. */
 static size_t unseen_of(const struct kd_scene *scene)
 {
     size_t unseen = 0;
@@ -109,7 +109,7 @@ static uint64_t device_bytes(const struct kd_scene *scene)
     return sizeof(float) * kd_bodies_words(kd_bodies_count(scene));
 }
 
-/* All of them, n; to be freed. NULL: no memory. */
+/* All n bodies, to be freed by the caller. NULL: out of memory. */
 static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 {
     struct kd_seen_body *bodies = malloc((kd_bodies_count(scene) + 1) * sizeof *bodies);
@@ -117,7 +117,7 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
     return bodies;
 }
 
-/* Some throw back light of the disk, and there is one. */
+/* Whether some bodies reflect light of the disk, and the scene has one. */
 static bool is_lit(const struct kd_scene *scene)
 {
     struct kd_lit lit;
@@ -144,8 +144,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     const struct kd_bodies_view view = view_of(scene);
     size_t n;
     struct kd_seen_body *bodies = listed(scene, &n);
-    out->bodies =
-        (struct kd_bodies_block) { .least = 1, .leaves = 1 }; /* without memory `prepare` fails, and says so */
+    /* out of memory: `prepare` fails as well and reports it */
+    out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 };
     if (bodies)
         kd_bodies_bound(bodies, n, &view, &out->bodies);
     free(bodies);
@@ -164,7 +164,7 @@ static void forget(void *own)
     o->there = NULL;
 }
 
-/* *words become the ones that are there. */
+/* Uploads *words unless they are there already, and keeps them. */
 static enum kd_status send(const struct kd_own_work *work, float **words, size_t n, struct kd_error *error)
 {
     struct own *o = work->own;
@@ -221,7 +221,7 @@ const struct kd_own kd_own_bodies = {
     .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
 };
 
-/* It has a velocity, and its place is that of the scene's time alone. */
+/* Whether a body has a velocity although its position is fixed at the scene's time. */
 static bool stands(const struct kd_scene *scene, const struct kd_setting *rays)
 {
     const struct kd_body *on[KD_SCENE_BODIES];

@@ -1,5 +1,5 @@
-/* Bodies for the kernels of light: opaque spheres, by place, velocity and size, and a tree of bounding balls over them
- * (shaders/emit/bodies.glsl). Lengths in M, angles in radians. Pure; any thread. */
+/* Prepares bodies for the kernels of light: opaque spheres with position, velocity and size, in a tree of bounding
+ * balls (shaders/emit/bodies.glsl). Lengths in M, angles in radians. Pure; any thread. */
 #ifndef KD_RENDER_EMIT_BODIES_H
 #define KD_RENDER_EMIT_BODIES_H
 
@@ -13,40 +13,41 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* at most */
 
-/* Where all is seen from: the hole's spin, the observer's azimuth; temperature that the disk's brightness 1 is of. */
+/* How the bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to
+ * brightness 1 of the disk. */
 struct kd_lit;
 struct kd_bodies_view {
     double spin, azimuth, peak_k;
     const struct kd_lit *lit;
-}; /* lit: NULL, the disk does not light them */
+}; /* lit: NULL if the disk does not illuminate them */
 
-/* The disk as it lights them (bodies_lit.c). False: there is no thin one. */
+/* The disk as a light source for bodies (bodies_lit.c). False if the scene has no thin disk. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
 struct kd_lit {
     struct kd_lit_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];
 };
 bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out);
-/* The light that a body throws back, as the kernels have it: 3 us. lapse: at its place. */
+/* The light that a body reflects, in the kernels' layout; 3 us. lapse: at the body's position. */
 void kd_lit_body(const struct kd_lit *lit, const struct kd_seen_body *body, double lapse, float out[12]);
 
-/* Counts the floats of n bodies and their tree. */
+/* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
-/* Writes them; n at most KD_SEEN_BODIES. Some 10 us of 16 bodies, 2 ms of 4096. Bodies that cannot be, or have no
- * size, are left out: they have none of the numbers above, or are within KD_BODIES_CLEAR of the horizon's radius. */
+/* Writes bodies and tree; n at most KD_SEEN_BODIES. 10 us for 16 bodies, 2 ms for 4096. Bodies without a size, at
+ * impossible places or within KD_BODIES_CLEAR of the horizon's radius are left out. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
-/* Whether it is among those that are packed. A body of temperature 0 is: it is dark, and hides what lies behind it. */
+/* Whether a body is packed. One of temperature 0 is: it is dark and hides what is behind it. */
 bool kd_bodies_seen(const struct kd_seen_body *body, const struct kd_hole *hole);
-/* Finds the numbers that go with them. */
+/* Computes the block of numbers that goes with the packed bodies. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                      struct kd_bodies_block *out);
 #define KD_BODIES_CLEAR 1.02
 
-/* Count and list those that a valid scene shows: its own as they are at its time, then those of its crowd. */
+/* Count and list the bodies of a valid scene: its own at the scene's time, then those of its playground. */
 size_t kd_bodies_count(const struct kd_scene *scene);
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out);
 
-/* Brings the buffer to what a scene's bodies are (emit/own.h). */
+/* Brings the buffer up to date with a scene's bodies (emit/own.h). */
 extern const struct kd_own kd_own_bodies;
 
 #endif

@@ -1,13 +1,13 @@
-/* This is the light of the disk that falls on bodies. It flies straight, from a smooth thin disk of KD_LIT_RINGS
- * rings of KD_LIT_PLACES places each, evenly spaced in ln r and azimuth, that nothing hides. A place of area dA and
- * brightness I, as far as d from the centre of a body in the direction n, whose height over the plane is z, brings
+/* Illumination of bodies by the disk. Light travels straight from a smooth thin disk of KD_LIT_RINGS rings with
+ * KD_LIT_PLACES places each, evenly spaced in ln r and azimuth, and nothing casts shadows. A place of area dA and
+ * brightness I, at distance d in the direction n from the centre of a body at height z over the plane, contributes
  *
  *   dF = I g^4 (z/d) dA/d^2 / D^2,   g = D (lapse there/lapse here)/(gamma' (1 + v'.n)),   D = gamma (1 + v.n),
  *
- * v' and v being the velocities of gas and body past observers of zero angular momentum, whose frames are taken for
- * parallel; by the frame of the body what shines has a solid angle 1/D^2 as large, and lies along n' = (n + gamma v
- * (1 + gamma/(gamma + 1) v.n))/D. Of all that a body keeps the sums of dF, dF n' and dF n'n': what falls on each
- * side of it follows to the second order (shaders/emit/bodies.glsl). */
+ * where v' and v are the velocities of gas and body relative to observers of zero angular momentum, whose frames are
+ * taken as parallel. In the body's frame the source has a solid angle smaller by D^2, in the direction n' = (n +
+ * gamma v (1 + gamma/(gamma + 1) v.n))/D. A body keeps the sums of dF, dF n' and dF n'n', from which the
+ * illumination of each side follows to second order (shaders/emit/bodies.glsl). */
 #include "render/emit/bodies.h"
 
 #include "physics/spacetime/kerr.h"
@@ -37,11 +37,11 @@ bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out)
     return true;
 }
 
-/* By r, theta, phi of the body. */
+/* Adds the light of a place, in components along r, theta, phi of the body. */
 static void add(const struct kd_lit_ring *ring, double turn, const struct kd_seen_body *b, double lapse, float out[12])
 {
     const double c = cos(turn), s = sin(turn), x = ring->r * c, y = ring->r * s, height = b->r * b->u;
-    /* The body is at azimuth 0 of these. */
+    /* Cartesian, with the body at azimuth 0. */
     const double to[3] = { x - b->r * b->s, y, -height },
                  d2 = fmax(to[0] * to[0] + y * y + height * height, b->radius * b->radius), d = sqrt(d2);
     double n[3] = { (b->s * to[0] + b->u * to[2]) / d, (b->u * to[0] - b->s * to[2]) / d, y / d };
@@ -81,7 +81,7 @@ void kd_lit_body(const struct kd_lit *lit, const struct kd_seen_body *b, double 
         for (int k = 0; k < KD_LIT_PLACES; k++)
             add(&lit->rings[i], (k + 0.5) * (2 * M_PI / KD_LIT_PLACES), b, lapse, out);
     const float mean = out[0] > 0 ? out[7] / out[0] : 0;
-    for (int i = 0; i < 12; i++) /* a surface that throws back the same in all directions sends 1/pi of it in each */
+    for (int i = 0; i < 12; i++) /* a Lambertian surface reflects 1/pi of the flux into each direction */
         out[i] *= (float)(b->albedo / M_PI);
     out[7] = mean;
 }

@@ -1,3 +1,4 @@
+/* Packs bodies for the device: their data, and a tree of bounding balls over them. */
 #include "render/emit/bodies.h"
 
 #include "physics/spacetime/kerr.h"
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SINE 1e-4 /* on the axis azimuths stand for nothing */
+#define SINE 1e-4 /* lower bound of sin(theta): on the axis azimuth is undefined */
 
 /* A body with its ball. */
 struct ball {
@@ -25,8 +26,8 @@ static uint32_t leaves_of(size_t n)
 
 size_t kd_bodies_words(size_t n) { return (8 + KD_BODY_WORDS) * (size_t)leaves_of(n); }
 
-/* What the metric says at its centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta,
- * g_phiphi/sin^2, and the dragging. */
+/* The metric at its centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta and g_phiphi/sin^2,
+ * and frame dragging. */
 struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(double a, const struct kd_seen_body *b)
@@ -54,7 +55,7 @@ static double turn_of(const struct metric *g, const struct kd_seen_body *b)
     return g->phi * b->s * g->omega / g->lapse;
 }
 
-/* Azimuths are mirrored, as the path that is traced has them. What is met of a body at one time of the observer's is
+/* Bounding ball. Azimuths are mirrored, as in the traced path. At one time of the observer's a moving body appears
  * longer than it is wide. */
 static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
@@ -108,7 +109,8 @@ static void swap(struct ball *a, struct ball *b)
     *b = was;
 }
 
-/* The first k become those that lie least far along the axis (C. A. R. Hoare 1961, "Find", Commun. ACM 4, 321). */
+/* Moves the k balls with the least coordinate along the axis to the front (C. A. R. Hoare 1961, "Find", Commun. ACM
+ * 4, 321). */
 static void part(struct ball *balls, size_t n, size_t k, int axis)
 {
     size_t low = 0, high = n - 1;
@@ -124,7 +126,7 @@ static void part(struct ball *balls, size_t n, size_t k, int axis)
                 break;
             swap(&balls[i++], &balls[j--]);
         }
-        /* Up to j none is beyond `middle`, behind it none is before. */
+        /* Up to j no ball is beyond `middle`; after j none is before it. */
         if (k <= j)
             high = j;
         else
@@ -132,7 +134,7 @@ static void part(struct ball *balls, size_t n, size_t k, int axis)
     }
 }
 
-/* The box of some balls: its middle, and the axis along which it is longest. */
+/* Bounding box of some balls: its centre and its longest axis. */
 static struct ball round_all(const struct ball *balls, size_t n, int *axis)
 {
     struct ball all = { 0 };
@@ -163,8 +165,8 @@ struct tree {
     uint32_t leaves;
 };
 
-/* Balls go to the leaves below a node, half of them to either side. A leaf without a body is at the hole and of no
- * size, where no ray is near. */
+/* Distributes balls to the leaves below a node, half to either side. A leaf without a body has size 0 at the hole,
+ * where no ray is near. */
 static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t n)
 {
     int axis = 0;
@@ -184,7 +186,7 @@ static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t
     grow(t, 2 * node + 1, balls + (n + 1) / 2, n / 2);
 }
 
-/* The balls of those that are seen; they are so many. */
+/* Balls of the visible bodies; returns their number. */
 static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                       struct ball *balls)
 {

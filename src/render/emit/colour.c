@@ -1,3 +1,4 @@
+/* Fills the tables of black bodies: their colours, and how luminous they are. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/colour.h"
@@ -5,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* This is the temperature of a node of both tables. */
+/* Temperature of node i of both tables. */
 static double kelvin(int i)
 {
     return ldexp(KD_COLOUR_LEAST * (1 + (double)(i % KD_COLOUR_NODES) / KD_COLOUR_NODES), i / KD_COLOUR_NODES);

@@ -1,4 +1,4 @@
-/* This is debris of a playground as an emitter: shaders/emit/debris.glsl. */
+/* Debris of a playground as an emitter: shaders/emit/debris.glsl. */
 #include "scene/crowd.h"
 #include "render/emit/emitter.h"
 
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define REFERENCE 1000.0 /* M^2 that a body's worth of the optical depth `depth` is spread over */
+#define REFERENCE 1000.0 /* M^2: the area over which one body's debris has the optical depth `depth` */
 
 static const struct kd_crowd_debris *of(const struct kd_scene *scene) { return &scene->crowd.at->debris; }
 
@@ -60,7 +60,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 
 struct own {
     struct kd_vk_buffer *device, *staging;
-    uint64_t generation; /* of the crowd that is there; 0: none */
+    uint64_t generation; /* of the uploaded debris; 0: none */
 };
 
 static void forget(void *own) { ((struct own *)own)->generation = 0; }

@@ -11,7 +11,7 @@
 
 #define SLICE_MS 40.0
 
-/* Commands are timed under this. */
+/* Name under which commands are timed. */
 static const char PASS[] = "particles";
 
 static const struct kd_vk_pipeline_params particles = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2,
@@ -19,9 +19,9 @@ static const struct kd_vk_pipeline_params particles = { "particles", kd_spv_part
 static const struct kd_vk_pipeline_params density = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 };
 
 struct own {
-    struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, and kept */
-    struct kd_scene of;                                            /* what is in `guides`, */
-    double time; /* at this time: slices of a list, and frames that refine, find it there */
+    struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, then kept */
+    struct kd_scene of;                                            /* the scene that `guides` is for, */
+    double time; /* and the time; slices of a list and refining frames find it up to date */
 };
 
 static enum kd_status guides(const struct kd_own_work *w, const struct kd_scene *scene,
@@ -36,7 +36,7 @@ static enum kd_status guides(const struct kd_own_work *w, const struct kd_scene 
     p->time = status ? NAN : time;
     if (status || there)
         return status;
-    memcpy(&p->of, scene, sizeof *scene); /* padding too */
+    memcpy(&p->of, scene, sizeof *scene); /* with padding: scenes are compared by memcmp */
     kd_particle_tables_fill(kd_vk_buffer_map(p->staging), scene, grid, time);
     return kd_vk_copy(w->vk, "upload", p->guides, 0, p->staging, 0, bytes, error);
 }
@@ -45,7 +45,8 @@ static void forget(void *own) { ((struct own *)own)->time = NAN; }
 
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
-/* The particles from push->first up to `end`, which fall or do not: lavapipe takes both ways where a kernel has two. */
+/* Runs the particles from push->first up to `end`, either falling or not: in a kernel with both branches lavapipe
+ * executes both. */
 static enum kd_status share_out(const struct kd_own_work *w, const struct kd_scene *scene, bool plunge,
                                 struct kd_particles_push *push, uint32_t end, struct kd_error *error)
 {
@@ -69,8 +70,8 @@ done:
     return status;
 }
 
-/* Makes densities of weights, on one of the grids: from byte `at` of both, what its rows expect from byte
- * `expected`. */
+/* Converts weights to densities on one grid: it starts at byte `at` in both buffers, and the expected numbers of its
+ * rows at byte `expected`. */
 static enum kd_status divide(const struct kd_own_work *w, uint64_t at, uint64_t expected, uint32_t rows,
                              uint32_t columns, struct kd_error *error)
 {

@@ -1,5 +1,5 @@
-/* Counts the particles (render/emit/particles.h) in each cell of their grids, on the device, and reads back the places
- * of listed ones. Render thread only. */
+/* Counts the particles (render/emit/particles.h) in each cell of their grids on the device, and reads back the
+ * positions of listed ones. Render thread only. */
 #ifndef KD_RENDER_EMIT_DEPOSIT_H
 #define KD_RENDER_EMIT_DEPOSIT_H
 
@@ -7,14 +7,14 @@
 #include "render/emit/own.h"
 #include "render/emit/particles.h"
 
-/* The density at scene->top.time less its delay, ready for the transfer pass. */
+/* Fills the density at scene->top.time minus kd_particle_delay, for the transfer pass. */
 extern const struct kd_own kd_own_particles;
 
-/* Places of the particles first, first + stride, ..., n of them, at scene->top.time, as the device
- * computes them: Boyer-Lindquist r in M and phi in turns of 2^32, latitude in radians. */
+/* Positions of n particles (first, first + stride, ...) at scene->top.time, as the device computes them:
+ * Boyer-Lindquist r in M, phi in turns of 2^32, latitude in radians. */
 enum kd_status kd_particles_places(const struct kd_own_work *work, const struct kd_scene *scene, uint32_t first,
                                    uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error);
-/* Asks for the kernel that it takes, for kd_kernels_note. */
+/* Requests the kernel that it uses, for kd_kernels_note. */
 enum kd_status kd_particles_ask(const struct kd_own_work *work, const struct kd_scene *scene);
 
 #endif

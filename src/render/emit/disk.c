@@ -1,4 +1,4 @@
-/* This is the smooth disk as an emitter: shaders/emit/disk.glsl. */
+/* The smooth disk as an emitter: shaders/emit/disk.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/colour.h"
@@ -89,8 +89,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-/* T r^(3/4) is smooth and bounded in y = sqrt(1 - r_isco/r): linear at the ISCO, where the flux has a double zero, and
- * finite at infinity, where T falls as r^(-3/4). */
+/* T r^(3/4) is smooth and bounded in y = sqrt(1 - r_isco/r): linear at the ISCO, where the flux has a double zero,
+ * and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     kd_disk_flux_fn flux = flux_of(scene);

@@ -24,7 +24,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef MEMBER
 _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
 
-/* Tables are read as texels: on lavapipe those come four at the price of one of a storage buffer's words. */
+/* Tables are read as texels: on lavapipe four floats cost as much as one word of a storage buffer. */
 typedef float kd_table_row[4];
 #define KD_T(table, rows) kd_table_row table[rows];
 struct kd_emit_tables { KD_EMIT_TABLES };
@@ -34,7 +34,7 @@ _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMI
                "no gaps: the kernels count rows");
 #undef KD_T
 
-/* In no word do two variants share a bit: else the sum of all is more than all of them together. */
+/* No two variants share a bit of a word: otherwise their sum would exceed their bitwise or. */
 #define ADDED(trait) +(uint64_t)KD_TRAIT_##trait
 #define JOINED(trait) | KD_TRAIT_##trait
 #define DISJOINT(number, name) \
@@ -45,7 +45,7 @@ KD_EMITTERS(DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT)
 #undef JOINED
 #undef DISJOINT
 
-/* Buffers that emitters fill on the device, by their numbers: KD_OWN_density and so on. */
+/* Numbers of the buffers that emitters fill on the device: KD_OWN_density and so on. */
 #define KD_B(number, type, member) KD_OWN_##member = number,
 enum { KD_EMIT_BUFFERS };
 #undef KD_B
@@ -57,7 +57,7 @@ _Static_assert(KD_LIGHT_BINDING == KD_OWN_BINDING + KD_OWN_point_light, "as shad
 _Static_assert((0 KD_EMIT_BUFFERS) == (1 << KD_OWN_COUNT) - 1, "each has a number of its own, from 0 on");
 #undef KD_B
 
-/* Both lie in one buffer, the tables behind the numbers. */
+/* Both are in one buffer, numbers first, then tables. */
 struct kd_emit_data {
     struct kd_emission emission;
     char gap[256 - sizeof(struct kd_emission) % 256];

@@ -13,7 +13,7 @@ KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
 const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY,
                                                                              ENTRY) };
 
-/* Where the list has them. */
+/* Kinds of emitters, by their place in the list. */
 enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16, MET = 32 };
 #define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
 #define IS_PART(number, name) [number] = PART,
@@ -170,7 +170,7 @@ static bool is_current(const struct kd_emit_state *state, int i, const struct kd
     return true;
 }
 
-/* Radii between which some emitter of these kinds may be; the first is above the second if there is none. */
+/* Range of radii of all emitters of some kinds; radii[0] > radii[1] if there is none. */
 static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii[2])
 {
     radii[0] = INFINITY;
@@ -186,7 +186,7 @@ static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii
     }
 }
 
-/* The least and the largest |cos(theta)| of all volumes. */
+/* Least and largest |cos(theta)| of all volumes. */
 static double hollow_of_all(const struct kd_scene *scene)
 {
     double least = 1;
@@ -202,10 +202,10 @@ static double height_of_all(const struct kd_scene *scene)
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
             most = fmax(most, kd_emitters[i]->height ? kd_emitters[i]->height(scene) : 1);
-    return most >= 1 ? 2 : most; /* no ray is held to find where it passes the axis */
+    return most >= 1 ? 2 : most; /* no ray then stops at the axis */
 }
 
-/* 1/r of the outermost edge within a volume; 0: none has one. */
+/* 1/r of the outermost knot in a volume; 0: none. */
 static double knot_of_all(const struct kd_scene *scene)
 {
     double r = 0;
@@ -233,8 +233,8 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .band_pixels = band_pixels,
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .delay = (float)kd_particle_delay(scene),
-        /* Wider than a float is rough: the edge itself is the emitter's. */
-        .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 is no crossing */
+        /* Widened by more than a float's rounding: the emitter itself cuts off at the exact edge. */
+        .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 means no crossing */
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .along_least = (float)(1 / along[1]),
         .along_most = (float)fmin(1 / along[0], 1e30),
@@ -254,7 +254,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
             e->fill(numbers, scene);
         if (e->tables)
             e->tables(&state->data.tables, scene);
-        memcpy(&state->of[i], scene, sizeof *scene); /* padding too: it is compared */
+        memcpy(&state->of[i], scene, sizeof *scene); /* with padding: scenes are compared by memcmp */
         state->filled[i] = true;
     }
 }

@@ -1,4 +1,4 @@
-/* This is turbulent gas as an emitter: shaders/emit/gas.glsl. */
+/* Turbulent gas as an emitter: shaders/emit/gas.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/spacetime/kerr.h"
@@ -7,14 +7,13 @@
 
 #include <math.h>
 
-/* By its cells' width an octave is displaced by this at one standard deviation of the one before: streaks bend, and
- * do not tear. */
+/* Displacement of an octave at one standard deviation of the one before, in widths of its cells: streaks bend but do
+ * not tear. */
 #define WARP 0.2
-/* Mean square of the slope of both noises along an axis, a cell: displacements stretch what they displace by so
- * much. */
+/* Mean square slope of both noises along an axis, per cell: displacement increases slopes by this much. */
 #define STEEPNESS 16.6
-/* Each octave's part of the logarithm over that of the one before: cells are KD_GAS_FINER times as many, and
- * Kolmogorov's spectrum falls as the third root of that. */
+/* Amplitude ratio of successive octaves of the logarithm: cells are KD_GAS_FINER times as many, and Kolmogorov's
+ * amplitudes fall as the cube root of that. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -33,7 +32,7 @@ static uint32_t traits(const struct kd_scene *scene)
            (stirs(scene) ? (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
 }
 
-/* Rays that are on no grid tell their Q by their slope. */
+/* Rays that are not on a grid get Q from their slope. */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return KD_LENS_W | (stirs(scene) ? kd_orbit_needs(scene) | KD_LENS_SHAPE : 0) |
@@ -47,7 +46,7 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* The logarithm has the standard deviation `amplitude` in all octaves together. */
+/* Scaled so that the logarithm has the standard deviation `amplitude` over all octaves together. */
 static double loudness(const struct kd_scene *scene)
 {
     double sum = 0;
@@ -84,7 +83,7 @@ static double random_of(uint64_t seed, uint64_t n)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/* A place on the lattice, which repeats after 65536 cells, as the part of a cell and whole ones. */
+/* A place on the lattice, which repeats after 65536 cells, split into whole cells and the fraction of a cell. */
 static void place(double at, float *part, float *whole)
 {
     at -= 65536 * floor(at / 65536);
@@ -92,7 +91,7 @@ static void place(double at, float *part, float *whole)
     *part = (float)(at - floor(at));
 }
 
-/* From the plane of each ring to that of the next one the same place is turned and shrunk: by this complex factor. */
+/* From each ring's plane to the next one's, the same place is rotated and shrunk: multiplied by this complex factor. */
 static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {

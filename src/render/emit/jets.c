@@ -1,4 +1,4 @@
-/* These are two jets as an emitter: shaders/emit/jets.glsl. */
+/* Two jets as an emitter: shaders/emit/jets.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/spacetime/kerr.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define CLEAR 1.05 /* of the horizon's radius: what flies outwards there is no longer seen */
+#define CLEAR 1.05 /* times the horizon's radius: outflow below it is not visible */
 
 static bool present(const struct kd_scene *scene) { return scene->jets.brightness > 0; }
 

@@ -13,18 +13,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEVER -1e6 /* log2 of nothing */
-#define COLD -24.0 /* log2 of k T/(m_e c^2), below which no fit holds: 354 K */
+#define NEVER -1e6 /* log2 of zero */
+#define COLD -24.0 /* log2 of k T/(m_e c^2), below which no fit is valid: 354 K */
 #define EMPTY \
-    40.0 /* octaves that a node without matter has less than the fullest: light falls to nothing within a cell */
-#define EVEN 1e-3   /* of a step: so far from their places rows may be */
-#define AXIS 1e-9   /* sin^2(theta), below which no azimuth is known */
-#define UNIT 1e-2   /* of 1: so far from it u.u may be */
-#define FINEST 1024 /* rows where r grows by a factor of e: a stretch of the march is two cells */
-#define PARTS 64    /* of a turn, one of which a grid may be */
+    40.0 /* An empty node is set this many octaves below the densest one, so that the light falls to nothing within a \
+            cell. */
+#define EVEN 1e-3   /* of a step: tolerance for the even spacing of rows */
+#define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
+#define UNIT 1e-2   /* tolerance of |u.u + 1| */
+#define FINEST 1024 /* rows per factor of e in r: a stretch of the march is two cells */
+#define PARTS 64    /* the grid may cover 1/k of a turn, with k at most this */
 #define HEADER_MOST 65536
 
-/* Arrays by their places in a node; `scale`: times r to this power. */
+/* Arrays in the order of their place in a node; `scale`: the power of r by which they are multiplied. */
 static const struct {
     const char *name, *unit;
     double least, most;
@@ -42,9 +43,9 @@ struct kd_matter_reader {
     struct kd_unzip zip;
     struct kd_matter_grid grid;
     double *r, *theta;
-    bool look;                    /* the numbers are checked, and not made ready for a renderer */
-    struct kd_matter_array array; /* that is under way, */
-    size_t kind, done;            /* which of them it is, and its numbers that are done */
+    bool look;                    /* numbers are only checked, and not prepared for a renderer */
+    struct kd_matter_array array; /* the current array */
+    size_t kind, done;            /* its index, and how many of its numbers are done */
 };
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
@@ -108,7 +109,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     return status;
 }
 
-/* Checks that places grow in even steps, by their logarithm where they are to. */
+/* Checks that coordinates grow in even steps, or that their logarithms do. */
 static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
                                  double most, struct kd_error *error)
 {
@@ -156,7 +157,7 @@ done:
     return status;
 }
 
-/* Takes radii or angles, and the first and the last of them. */
+/* Reads radii or angles, and sets the first and the last of them. */
 static enum kd_status take_line(struct kd_matter_reader *r, const char *name, bool logarithmic, double least,
                                 double most, double **at, uint32_t *n, double edges[2], struct kd_error *error)
 {
@@ -232,7 +233,7 @@ static enum kd_status refuse_number(const struct kd_matter_grid *g, const char *
     return kd_matter_refuse(at, what, error);
 }
 
-/* Puts a number into its place of a node, as one that varies little with r. */
+/* Stores a number in its place of a node, scaled so that it varies little with r. */
 static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     struct kd_matter_grid *g = &r->grid;
@@ -252,8 +253,8 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
     return refuse_number(g, kinds[kind].name, i, read, allowed, error);
 }
 
-/* -lapse^2 (u^t)^2 + U^2 = -1 past observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), outside the
- * horizon. */
+/* Checks -lapse^2 (u^t)^2 + U^2 = -1 for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972),
+ * outside the horizon. */
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
@@ -273,8 +274,8 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
         "is -1 within a hundredth: it is timelike, of unit length, and in the components that are told", error);
 }
 
-/* The temperature of an empty node is none: it is the mean of its neighbours' that are not empty, so that what is
- * next to it has its own up to the edge. */
+/* An empty node has no temperature. It gets the mean of its non-empty neighbours, so that interpolation next to it
+ * gives matter its own temperature up to the edge. */
 static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i)
 {
     const size_t layers = g->layers, row = i / layers / g->columns, column = i / layers % g->columns,
@@ -295,11 +296,11 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
     return n ? (float)exp2(sum / n) : nodes[KD_MATTER_FLOATS * i + TEMPERATURE];
 }
 
-/* What turns about the axis goes as sin^2 theta there: over that it has on the axis itself what its neighbour has. */
+/* Azimuthal components go as sin^2 theta near the axis. Divided by that, the value on the axis is the neighbour's. */
 static void over_sine(struct kd_matter_grid *g, const double *theta)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
-    for (int pass = 0; pass < 2; pass++) /* the neighbours first */
+    for (int pass = 0; pass < 2; pass++) /* the neighbours first, then the axis */
         for (size_t i = 0; i < nodes_of(g); i++) {
             const size_t column = i / g->layers % g->columns, beside = column ? i - g->layers : i + g->layers;
             const double s2 = sin(theta[column]) * sin(theta[column]);
@@ -366,7 +367,7 @@ size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
 
-/* Unpacks the next array; false: u_con_t, the last, is not there. */
+/* Unpacks the next array; false: u_con_t, the last, is missing. */
 static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
 {
     const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";
@@ -379,10 +380,10 @@ static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, stru
     return true;
 }
 
-/* Goes on with the array that is under way, a stretch at a time. */
+/* Continues with the current array, a stretch at a time. */
 static enum kd_status take_numbers(struct kd_matter_reader *r, double until_ms, struct kd_error *error)
 {
-    enum { STRETCH = 16384 }; /* some 0.3 ms */
+    enum { STRETCH = 16384 }; /* about 0.3 ms */
     enum kd_status status = KD_OK;
     do
         for (size_t n = 0; n < STRETCH && r->done < r->array.n; n++, r->done++)

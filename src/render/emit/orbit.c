@@ -1,4 +1,4 @@
-/* Emitters on orbits have these in common: the C side of shaders/emit/orbit.glsl. */
+/* Common to emitters on orbits: the C side of shaders/emit/orbit.glsl. */
 #include "render/emit/emitter.h"
 
 uint32_t kd_orbit_traits(const struct kd_scene *scene)

@@ -1,4 +1,4 @@
-/* This is matter that is seen at one radio frequency as an emitter: shaders/emit/plasma.glsl. */
+/* Matter at one radio frequency as an emitter: shaders/emit/plasma.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/synchrotron.h"
@@ -12,9 +12,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#define NEVER -1e6 /* log2 of nothing */
+#define NEVER -1e6 /* log2 of zero */
 #define GHZ 1e9
-#define GOLD_GHZ 230 /* the frequency that the analytic model's numbers are of */
+#define GOLD_GHZ 230 /* frequency to which the numbers of the analytic model refer */
 #define ERG_CM3 0.1  /* W m^-3 of an erg/(s cm^3) */
 #define PER_CM 100   /* 1/m of a 1/cm */
 #define CM3 1e6
@@ -47,7 +47,7 @@ static void reach(const struct kd_scene *scene, double radii[2])
         radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
-/* Where a layer has thinned out, cos(theta): x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
+/* cos(theta) at which a layer has thinned out: x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
 static double height(const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
@@ -61,7 +61,7 @@ static double height(const struct kd_scene *scene)
     return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
 }
 
-/* Where the fall begins. */
+/* The radius at which infall begins. */
 static double knot(const struct kd_scene *scene)
 {
     const double isco = kd_kerr_isco(kd_scene_hole(scene));
@@ -72,8 +72,8 @@ static double knot(const struct kd_scene *scene)
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
 
-/* The scene does not say how large its grid is: as large as may be. On the host there are its file and its arrays
- * besides. */
+/* The scene does not contain the grid's size, so the largest one is assumed. The host also holds its file and its
+ * arrays. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
@@ -85,10 +85,9 @@ static uint64_t making_bytes(const struct kd_scene *scene)
     return is_grid(scene) && *scene->volume.grid
                ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double))
                : 0;
-} /* its numbers as they are read, and as they are sent */
+} /* its numbers as read, and as uploaded */
 
-/* A picture from another azimuth is another one, unless the grid is the same all round, which the scene does not
- * say. */
+/* The picture depends on the azimuth unless the grid is axisymmetric, which the scene does not tell. */
 static unsigned varies(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0;
@@ -198,7 +197,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     if (scene->volume.model == KD_VOLUME_TORUS)
         fill_torus(to, scene);
     if (is_grid(scene))
-        to->density = (float)log2_of(scene->volume.grid_scale); /* the rest is device/grids.c's */
+        to->density = (float)log2_of(scene->volume.grid_scale); /* device/grids.c fills in the rest */
 }
 
 static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays)

@@ -1,4 +1,4 @@
-/* This is gas that plunges from the ISCO as an emitter: shaders/emit/plunge.glsl. */
+/* Gas that plunges from the ISCO as an emitter: shaders/emit/plunge.glsl. */
 #include "render/emit/emitter.h"
 
 #include "render/emit/particles.h"
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* A share of the particles may be none of them: then there is no grid to look at. */
+/* A small fraction of the particles may round to none: then there is no grid. */
 static bool present(const struct kd_scene *scene)
 {
     return scene->disk.plunging_temperature > 0 && kd_plunging_is_on(scene) && kd_particle_grid(scene).plunging > 0;
@@ -14,8 +14,7 @@ static bool present(const struct kd_scene *scene)
 
 static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scene) | KD_LENS_SLOPE; }
 
-/* Both t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the
- * other. */
+/* t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the other. */
 struct range { double first, last; };
 static struct range range_of(const struct kd_plunging *p)
 {

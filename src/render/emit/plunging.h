@@ -1,15 +1,15 @@
-/* The particles that fall have one curve for all (physics/orbit/plunge.h), from a thirty-second of the way between the
- * ISCO and the horizon to all but a sixty-fourth of it, again and again. At its ends the curve takes for ever. Where
- * it starts here gas falls at 1e-3 without spin, at 7e-4 for a = 0.9, about as fast as a disk of alpha = 0.1 and h/r
- * = 0.1 drifts, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973), and goes round 3 times (a = 0), 7 (0.9) or 38 (0.998)
- * before it is gone; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17 for turbulent gas. Where it ends light that
- * gets away comes with g < 0.02, and less than 1e-6 of its brightness.
+/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again, from 1/32 of
+ * the way between ISCO and horizon to 1/64 before its end; at its very ends the curve takes for ever. At the start here
+ * gas falls at 1e-3 without spin and at 7e-4 for a = 0.9. That is about the drift of a disk of alpha = 0.1 and h/r =
+ * 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). It goes round 3 times (a = 0), 7 (0.9) or 38 (0.998) before it is
+ * gone; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17 for turbulent gas. At the end light that escapes has g <
+ * 0.02 and less than 1e-6 of its brightness.
  *
- * A steady stream is uniform in time, so a particle is its phase, the share of the curve's time that has passed. The
- * gas leaves the ISCO turning with it; its azimuth there, kept as that of the orbit goes on, is the other coordinate
- * in which a parcel of it stands still. On such a grid each cell is a parcel, which is drawn out as it falls, and
- * its surface density is 1/(r |u^r|) times what is conserved (mass: I. D. Novikov & K. S. Thorne 1973). Double
- * precision, pure, any thread. */
+ * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's
+ * time that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel
+ * of gas is at rest in both. On such a grid each cell is a parcel that is stretched as it falls, and its surface
+ * density is 1/(r |u^r|) times what is conserved (mass: I. D. Novikov & K. S. Thorne 1973). Double precision, pure,
+ * any thread. */
 #ifndef KD_RENDER_EMIT_PLUNGING_H
 #define KD_RENDER_EMIT_PLUNGING_H
 
@@ -18,23 +18,23 @@
 
 #include <stdbool.h>
 
-/* Says whether the scene has any: a disk of particles that reaches the ISCO, and a share of them. */
+/* Whether the scene has any: a disk of particles that reaches the ISCO, with a fraction of them falling. */
 bool kd_plunging_is_on(const struct kd_scene *scene);
 
 struct kd_plunging {
     struct kd_plunge curve;
     double start, end;            /* radii */
     double time, omega;           /* from start to end; angular velocity at the ISCO */
-    struct kd_plunge_event first; /* of the curve at its start */
+    struct kd_plunge_event first; /* the curve's event at its start */
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
-/* Gives the place at start >= r >= end: phase from 0 to 1; azimuth in turns, less what the orbit at the ISCO has
- * turned since the start. */
+/* Place at start >= r >= end: phase from 0 to 1; azimuth in turns, minus the turns of the orbit at the ISCO since
+ * the start. */
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* Goes the other way round, for many phases: cubics between points whose slopes are known; r within 1e-9. */
+/* The inverse, for many phases: cubics between points with known slopes; r within 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

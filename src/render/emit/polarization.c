@@ -1,4 +1,4 @@
-/* This is how light of the plane is polarised: shaders/emit/polarization.glsl. It shines nowhere itself. */
+/* Polarisation of light from the plane: shaders/emit/polarization.glsl. It emits nothing itself. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/scattering.h"
@@ -24,7 +24,6 @@ static uint32_t traits(const struct kd_scene *scene)
 
 static uint32_t needs(const struct kd_scene *scene) { return (void)scene, KD_LENS_W | KD_LENS_SLOPE; }
 
-/* Nowhere. */
 static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)

@@ -1,5 +1,5 @@
-/* Units of light at a radio frequency: 1 in the picture is KD_RADIO_KELVIN of brightness temperature. Pure functions
- * of valid scenes, any thread. */
+/* Units of light at a radio frequency: 1 in the picture is a brightness temperature of KD_RADIO_KELVIN. Pure
+ * functions of valid scenes, any thread. */
 #ifndef KD_RENDER_EMIT_RADIO_H
 #define KD_RENDER_EMIT_RADIO_H
 
@@ -7,16 +7,14 @@
 
 #define KD_RADIO_KELVIN 1e10
 
-/* Specific intensity of light 1, 2 nu^2 k T/c^2, W m^-2 Hz^-1 sr^-1. */
+/* Specific intensity of light 1: 2 nu^2 k T/c^2, W m^-2 Hz^-1 sr^-1. */
 double kd_radio_unit(const struct kd_scene *scene);
 
-/* Flux in Jy of so much light times solid angle as kd_light_report has it: in M^2 of the image plane, or in sr of a
- * camera at a finite radius, which is what the same picture would be seen as from spacetime.distance_pc
- * (kd_scene_width_uas). */
+/* Flux in Jy of light times solid angle as in kd_light_report: in M^2 of the image plane, or in sr for a camera at a
+ * finite radius. The latter is taken as the same picture seen from spacetime.distance_pc (kd_scene_width_uas). */
 double kd_radio_jansky(const struct kd_scene *scene, double flux);
 
-/* Jy that arrive from a pixel whose light is 1, seen from infinity: each stands for the same part of the image plane.
- */
+/* Jy from one pixel of light 1, seen from infinity: all pixels cover the same area of the image plane. */
 double kd_radio_jansky_pixel(const struct kd_scene *scene);
 
 #endif

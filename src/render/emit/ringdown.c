@@ -1,4 +1,4 @@
-/* This is a struck hole as a factor of light: shaders/emit/ringdown.glsl. */
+/* Ringdown of a struck hole as a factor of light: shaders/emit/ringdown.glsl. */
 #include "physics/spacetime/hole.h"
 #include "render/emit/emitter.h"
 
@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-/* sRGB turns a relative change d of luminance into 112 d steps of 8 bits at most: what is left is a tenth of a step. */
+/* sRGB turns a relative change d of luminance into at most 112 d steps of 8 bits: below this limit, a tenth of a
+ * step. */
 #define SEEN (1. / 1024)
 
 static bool present(const struct kd_scene *scene)
@@ -14,12 +15,12 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && (kd_emit_at_crossings(scene) || kd_emit_along(scene));
 }
 
-/* Says whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a
- * step, then. */
+/* Whether the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast: the remainder is
+ * then a third of a step. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;
-    if (since < 0 || (scene->accuracy.orders < 2 && !kd_emit_along(scene))) /* the march goes along all orders */
+    if (since < 0 || (scene->accuracy.orders < 2 && !kd_emit_along(scene))) /* a march covers all orders */
         return 0;
     const struct kd_ringdown_fit mode = kd_ringdown_fit(0, kd_hole(fabs(scene->spacetime.spin)));
     return scene->style.ringdown * exp(-mode.omega_re / (2 * mode.quality) * since) > SEEN ? KD_DIMS_WITH_TIME : 0;

@@ -1,5 +1,4 @@
-/* This is the sky as an emitter: a drawn celestial grid, or stars and the light that is spread between them
- * (shaders/emit/sky.glsl). */
+/* The sky as an emitter: a drawn celestial grid, or stars and diffuse light (shaders/emit/sky.glsl). */
 #include "render/emit/emitter.h"
 
 #include "faces.h"
@@ -48,7 +47,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     const char *spread = !is_spread(scene) ? "" : is_picture(scene) ? "a picture of the sky" : "a Milky Way";
     const char *before = stars[scene->sky.model],
                *and = *before && *spread ? is_picture(scene) ? " over " : " and " : "";
-    const bool begins = !*before; /* the sentence, with what is spread */
+    const bool begins = !*before; /* whether the sentence begins with the diffuse light */
     snprintf(out, KD_EMIT_TOLD, "%s%s%s%s behind.", before, and, begins ? "A" : "", begins ? spread + 1 : spread);
 }
 
@@ -61,8 +60,8 @@ static uint64_t device_bytes(const struct kd_scene *scene)
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
-/* Light of the panorama before it is packed; and before that all pixels of a picture, of which the scene does not
- * say how many they are. */
+/* Light of the panorama before it is packed, and before that all pixels of the picture, whose number the scene does
+ * not tell. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     const uint64_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT, most = KD_PANORAMA_MOST;
@@ -71,7 +70,7 @@ static uint64_t making_bytes(const struct kd_scene *scene)
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
-    const struct kd_rotation r = kd_sky_rotation(scene); /* the panorama's size is that of device/skies.c */
+    const struct kd_rotation r = kd_sky_rotation(scene); /* device/skies.c fills in the panorama's size */
     out->sky = (struct kd_sky_block) {
         .brightness = (float)kd_scene_sky_brightness(scene),
         .spacing = (float)(scene->sky.grid_deg * (M_PI / 180)),

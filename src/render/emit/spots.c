@@ -1,4 +1,4 @@
-/* These are hot spots as an emitter: shaders/emit/spots.glsl. */
+/* Hot spots as an emitter: shaders/emit/spots.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/spacetime/kerr.h"
@@ -10,7 +10,7 @@
 
 _Static_assert(KD_SPOT_MAX == KD_SPOTS, "those of a scene");
 
-/* Beyond this many sizes there is less than 1e-9 of the peak. */
+/* sizes of a spot: beyond, less than 1e-9 of the peak is left */
 #define REACH 6.44
 
 static bool present(const struct kd_scene *scene)

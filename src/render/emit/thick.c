@@ -1,4 +1,4 @@
-/* This is the smooth disk's gas with a height as an emitter: shaders/emit/thick.glsl. */
+/* The smooth disk's gas with a height as an emitter: shaders/emit/thick.glsl. */
 #include "render/emit/emitter.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static uint32_t traits(const struct kd_scene *scene)
                          : 0);
 }
 
-/* Crossings are looked for even of a smooth one: where they are thin, at the critical curve, so is its light. */
+/* Crossings are searched even for smooth gas: where they are thin, at the critical curve, so is its light. */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return KD_LENS_W | (stirs(scene) ? KD_LENS_PHI | KD_LENS_SHAPE : 0);
@@ -29,7 +29,7 @@ static uint32_t needs(const struct kd_scene *scene)
 
 static unsigned varies(const struct kd_scene *scene) { return stirs(scene) ? kd_orbit_varies(scene) : 0; }
 
-/* H/R is monotone in R: largest at one of the edges. */
+/* H/R is monotone in R, so it is largest at one of the edges. */
 static double height(const struct kd_scene *scene)
 {
     double radii[2], most = 0;
@@ -39,8 +39,8 @@ static double height(const struct kd_scene *scene)
     return most / sqrt(1 + most * most);
 }
 
-/* Here the outer fade begins. What is deep lets e^-depth through before and, at once behind, as much as has faded:
- * its depth there goes as a logarithm. */
+/* Where the outer fade begins. An opaque disk transmits e^-depth before it, and at once behind it the faded
+ * fraction: its optical depth there varies as a logarithm. */
 static double knot(const struct kd_scene *scene)
 {
     const double r = scene->disk.outer * (1 - scene->disk.taper);

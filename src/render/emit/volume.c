@@ -1,4 +1,4 @@
-/* This is a shell of matter that is the same everywhere, as an emitter: shaders/emit/volume.glsl. */
+/* A uniform shell of matter as an emitter: shaders/emit/volume.glsl. */
 #include "render/emit/emitter.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* The list of all approximations, of pictures and of rays: docs/approximations.md and GET /v1/approximations. Any
+/* Lists all approximations, of pictures and of rays, for docs/approximations.md and GET /v1/approximations. Any
  * thread. */
 #ifndef KD_RENDER_EXPLAIN_APPROXIMATIONS_H
 #define KD_RENDER_EXPLAIN_APPROXIMATIONS_H
@@ -6,8 +6,7 @@
 #include "base/buffer.h"
 #include "base/error.h"
 
-/* Append the page, and the document {"approximations": [{"name", "of", "sentence"}]}. They fail with KD_ENOMEM
- * alone. */
+/* Append the page, or the document {"approximations": [{"name", "of", "sentence"}]}. The only error is KD_ENOMEM. */
 enum kd_status kd_approximations_page(struct kd_buffer *page);
 enum kd_status kd_approximations_json(struct kd_buffer *out);
 

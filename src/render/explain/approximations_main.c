@@ -1,4 +1,4 @@
-/* This program prints docs/approximations.md. */
+/* Prints docs/approximations.md. */
 #include "render/explain/approximations.h"
 
 #include <stdio.h>

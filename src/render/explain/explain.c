@@ -28,7 +28,7 @@ static struct kd_null_ray null_ray(const struct kd_explained *x)
     };
 }
 
-/* Crossings and end, with the azimuths and frequencies of the scene. A ray of negative energy goes round the other
+/* Computes crossings and end, with azimuths and frequencies of the scene. A ray of negative energy rotates the other
  * way (view/camera.h). */
 static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *error)
 {
@@ -49,13 +49,13 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
         c->delay = kd_ray_path_delay(&x->frame, c->delay);
-        c->g /= x->label.energy; /* of light whose energy at infinity is below 0 both are */
+        c->g /= x->label.energy; /* for light of negative energy at infinity both are negative */
     }
     x->end.phi = kd_ray_path_phi(&x->frame, x->end.phi);
     return status;
 }
 
-/* The picture's crossings, which end where nothing behind is seen. */
+/* Compares with the picture's crossings, which end where nothing behind is visible. */
 static void compare(struct kd_explained *x)
 {
     x->picture_error = x->told->n_places ? 0 : NAN;
@@ -66,7 +66,7 @@ static void compare(struct kd_explained *x)
     }
 }
 
-/* The place that lets nothing pass; NULL: there is none, or light ended in a volume. */
+/* The opaque place of the ray; NULL if there is none or if a volume was opaque before. */
 static const struct kd_told_place *hiding(const struct kd_told_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {
@@ -98,7 +98,7 @@ static void say_why(struct kd_explained *x)
 #undef SAY
 }
 
-/* The pixel's colour, of what the picture is shown with. */
+/* The displayed colour of the pixel. */
 static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
 {
     const struct kd_frame *f = picture->frame;
@@ -109,7 +109,7 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
                                                   : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
 }
 
-/* Labels are those of the camera that counts its pixels in the steps of the ray. */
+/* Computes the labels with a camera that counts in the steps of the ray. */
 static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
     const uint32_t steps = x->told->steps_a_pixel;
@@ -117,7 +117,7 @@ static void find_label(const struct kd_picture *picture, struct kd_explained *x)
     kd_lens_label(&counted, picture->plan, x->told->x, x->told->y, &x->label);
 }
 
-/* Everything but the path. */
+/* Computes everything except the path. */
 static enum kd_status explain(const struct kd_picture *picture, const struct kd_told_ray *ray, struct kd_explained *x,
                               struct kd_error *error)
 {
@@ -273,7 +273,7 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
 {
     const struct kd_scene tile = kd_scene_tile(scene, (struct kd_window) { plan->told.x, plan->told.y, 1, 1 });
     struct kd_needs needs = kd_needs_of(scene);
-    struct kd_error why = { 0 }; /* that it takes the whole picture is no error */
+    struct kd_error why = { 0 }; /* needing the whole picture is not an error */
     struct kd_window cut;
     struct kd_plan narrow;
     if (kd_tile_check(&tile, &needs, &why))
@@ -283,8 +283,8 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
     if (status)
         return status;
     *scene = kd_tile_with_margin(&tile, &cut);
-    narrow.cut = (struct kd_window) { 0 }; /* with its margin it is a picture like any other */
-    memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations); /* the picture's */
+    narrow.cut = (struct kd_window) { 0 }; /* with its margin it is rendered as a picture of its own */
+    memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations); /* those of the picture */
     narrow.n_approximations = plan->n_approximations;
     narrow.told = plan->told;
     narrow.told.x = cut.left;

@@ -1,9 +1,9 @@
-/* Explains the light of one pixel. Each of its rays is traced in closed form, and the picture's own kernel reports
- * what each emitter added to that ray (frame/tell.h). The document has both, their difference, and the path of the
- * middle ray for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
+/* Explains the light of one pixel. Each of its rays is traced in closed form, and the picture's own kernel reports what
+ * each emitter added to that ray (frame/tell.h). The document has both, their difference, and the path of the middle
+ * ray for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
  *
- * Lengths and times in M, angles in radians, frequencies as the observer measures them. docs/pixel.md describes the
- * document. */
+ * Lengths and times are in M, angles in radians, frequencies as measured by the observer. docs/pixel.md describes
+ * the document. */
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H
 #define KD_RENDER_EXPLAIN_EXPLAIN_H
 
@@ -15,64 +15,64 @@
 
 struct kd_explained {
     const struct kd_told *pixel;
-    const struct kd_told_ray *told; /* which of its rays this is */
-    double weight;                  /* that its light has in the pixel's: 0, or 1 over the number of rays */
-    const char *eye;                /* "left", "right"; NULL: the picture is of one eye */
-    struct kd_scene scene;          /* that of this eye */
-    struct kd_camera_label label;   /* energy: E at infinity by what the observer measures */
+    const struct kd_told_ray *told; /* the ray that this is about */
+    double weight;                  /* weight of its light in the pixel's: 0, or 1 over the number of rays */
+    const char *eye;                /* "left" or "right"; NULL: not a pair */
+    struct kd_scene scene;          /* scene of this eye */
+    struct kd_camera_label label;   /* energy: E at infinity, in units of the energy that the observer measures */
     struct kd_ray_motion motion;
-    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS]; /* by closed form, as the scene has azimuths, and g as the
-                                                             observer measures it */
+    /* in closed form, with azimuths of the scene, and g as measured by the observer */
+    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
-    struct kd_ray_path path; /* of the middle ray; of others it has no places */
-    double picture_error;    /* of the picture's, likewise; 1: it has another number of them */
-    double shown[3];         /* the pixel as it is shown, 0 to 1 */
-    char why[240];           /* where the ray ends and why, a sentence */
+    struct kd_ray_path path; /* of the middle ray; for other rays it has no places */
+    double picture_error;    /* error of the picture's crossings, likewise; 1: it has another number of them */
+    double shown[3];         /* displayed value of the pixel, 0 to 1 */
+    char why[240];           /* where the ray ends and why, one sentence */
 };
 
-/* The middle ray; or one of those that the pixel's light is the mean of, without its path. KD_EINVAL for a ray
- * without a course in closed form. Finish *out in any case. */
+/* Explain the middle ray; or one of the rays whose mean is the pixel's light, without its path. KD_EINVAL for a ray
+ * that has no closed form. Call kd_explained_finish in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
 enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
                                struct kd_error *error);
-/* Where the ray goes through the picture, in pixels. */
+/* Where the ray passes through the picture, in pixels. */
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
-/* How far the mean of the rays' light is off the pixel's, relative to that. */
+/* Relative difference between the mean of the rays' light and the pixel's light. */
 double kd_explained_sum_error(const struct kd_told *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, I the luminance of all its light; how many of them are known, without
- * V where only light of the plane is polarised; 0: none is in the scene. */
+/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many are
+ * known: without V if only light of the plane is polarised; 0 if the scene is not polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES]);
-/* The angle of the electric field, and the part of the light that is polarised; NAN where there is none. */
+/* Angle of the electric field, and degree of polarisation; NAN if undefined. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
-/* The delay of light from volumes, their mean over what arrives; NAN: there is no light of any, or the observer is
- * within the horizon, where a far clock tells no time. */
+/* Mean delay of the light from volumes, weighted by what arrives; NAN if there is none, or if the observer is inside
+ * the horizon, where a distant clock is meaningless. */
 double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
-/* A place of the crossing of that order in what is told, NULL: its light did not come through, or nothing shines. */
+/* The reported place of the crossing of that order; NULL: its light is blocked, or nothing emits light there. */
 const struct kd_told_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
-/* Says whether gas lies there, of whose temperature and angle something can be told; place may be NULL. */
+/* Whether there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_told_place *place);
-/* Boyer-Lindquist azimuth of the hole's own frame in (-pi, pi]. */
+/* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
 
-/* A table for eyes. KD_EINVAL as kd_explain. */
+/* A table as plain text. KD_EINVAL as kd_explain. */
 enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error);
 
-/* The document of POST /v1/pixel: not among kd_formats, for it is of one pixel. */
+/* The document of POST /v1/pixel; not among kd_formats, because it is about one pixel. */
 extern const struct kd_format kd_format_pixel;
-/* Names the pixel at a place "X,Y" of the picture, in pixels from its upper left corner, in a plan of it. KD_EINVAL
- * for what is no place of it. */
+/* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. KD_EINVAL if it is not a
+ * place in the picture. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
-/* Makes the scene and its plan those of that pixel and a margin round it alone, where nothing of the pixel depends on
- * the rest of the picture (render/plan/tile.h): with an exposure that is a number, no glare, no beam. Else it leaves
- * them. */
+/* Reduces the scene and its plan to that pixel with a margin, if nothing of the pixel depends on the rest of the
+ * picture (render/plan/tile.h): a numeric exposure, no bloom, no beam. Otherwise leaves them unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
-/* What else is told, by a word: "steps", those of the engine along the middle ray. KD_EINVAL for another. */
+/* Requests additional output by a word: "steps" are the engine's steps along the middle ray. KD_EINVAL for any other
+ * word. */
 enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);
 
 #endif

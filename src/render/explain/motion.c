@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define FAR 50.0     /* M: as far as the path goes on, */
-#define FARTHEST 1e3 /* or as far as this for a crossing out there */
-#define NEAR 0.01    /* of the horizon's radius: as near as it comes to it */
+#define FAR 50.0     /* M: the path normally extends to this radius, */
+#define FARTHEST 1e3 /* or up to this for a crossing further out */
+#define NEAR 0.01    /* of the horizon's radius: how near the path comes to it */
 #define DEGREES (180 / M_PI)
 
 static const char *const radial_cases[] = { "I", "II", "III", "IV" }, *const polar_cases[] = { "ordinary", "vortical",
@@ -22,7 +22,7 @@ const char *kd_ray_radial_case(size_t i)
 }
 const char *kd_ray_polar_case(size_t i) { return i < sizeof polar_cases / sizeof *polar_cases ? polar_cases[i] : NULL; }
 
-/* Roots in the order of Gralla & Lupsasca 2020, and the number of the case, arXiv:1910.12881, section IV. */
+/* Roots and case number as in Gralla & Lupsasca 2020, arXiv:1910.12881, section IV. */
 static void name_roots(struct kd_ray_motion *m)
 {
     static const int cases[] = { [KD_NULL_FOUR_REAL] = 1, [KD_NULL_TWO_REAL] = 2, [KD_NULL_NO_REAL] = 3 };
@@ -63,7 +63,7 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
     m.roots = kd_null_roots_of(&constants);
     name_roots(&m);
     name_polar(&m, &constants);
-    if (m.within) { /* from next to the horizon it can turn at r3 alone, if that is outside */
+    if (m.within) { /* a ray from next to the horizon can turn only at r3, if that is outside */
         m.turning_r = m.roots.kind == KD_NULL_FOUR_REAL && m.roots.r3 > m.horizon ? m.roots.r3 : NAN;
         return m;
     }

@@ -33,7 +33,7 @@ static void put_step(struct kd_json *json, const struct kd_steps_column *columns
     kd_json_string(json, NULL, kd_steps_stage(step));
     kd_json_number(json, NULL, step->order);
     for (const struct kd_steps_column *c = columns; c->name; c++)
-        kd_json_number(json, NULL, kd_steps_value(step, c)); /* null: there is none */
+        kd_json_number(json, NULL, kd_steps_value(step, c)); /* NAN becomes null */
     kd_json_end(json);
 }
 

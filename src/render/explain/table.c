@@ -1,4 +1,4 @@
-/* Writes what is explained of a pixel as tables for eyes. */
+/* Writes the explanation of a pixel as tables in plain text. */
 #include "render/emit/emitter.h"
 #include "render/explain/explain.h"
 
@@ -140,7 +140,7 @@ done:
     return status;
 }
 
-/* Those whose mean the pixel's light is, where they are several. */
+/* The rays whose mean is the pixel's light, if there are several. */
 static enum kd_status put_each(const struct kd_picture *picture, const struct kd_told *pixel, struct kd_buffer *out,
                                struct kd_error *error)
 {

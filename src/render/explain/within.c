@@ -1,4 +1,4 @@
-/* Follows a ray of an observer within the horizon, where closed forms end: by the steps of
+/* Follows a ray of an observer inside the horizon, where closed forms do not apply, by the steps of
  * physics/null/null_course.h in ingoing coordinates. */
 #include "render/explain/motion.h"
 
@@ -8,9 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside are as good as on it */
+#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside count as on it */
 
-/* Outwards: the photon leaves the gas with p^r > 0, where followed back the ray comes inwards. */
+/* outwards: the photon leaves the gas with p^r > 0; the ray traced back moves inwards there. */
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
     const double a = m->ray.spin;
@@ -18,7 +18,7 @@ static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
                                          : kd_disk_redshift_plunging(kd_hole(a), r, m->lambda, m->eta, outwards);
 }
 
-/* Azimuth and time stay ingoing within the horizon, where a crossing has no gas to have a g of. */
+/* Inside the horizon azimuth and time stay ingoing, and a crossing has no g because there is no gas. */
 static struct kd_ray_crossing crossing_of(const struct kd_ray_motion *m, bool reversed, const struct kd_null_place *p,
                                           bool inwards)
 {

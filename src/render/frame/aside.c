@@ -1,10 +1,10 @@
-/* Finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no
- * other. */
+/* Chooses the buffers in which a frame is rendered: the renderer's own, or those of an aside, which are shared with
+ * no other frame. */
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"
 #include "render/frame/parts.h"
 
-/* An aside that nobody is in and that has the plan's lens map; NULL: none. */
+/* An idle aside that has the plan's lens map; NULL if there is none. */
 static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *plan)
 {
     for (size_t i = 0; i < KD_ASIDES; i++)
@@ -42,7 +42,7 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
     return status;
 }
 
-/* What idle ones hold is given up, the oldest first, until so much fits beside what is in use. */
+/* Empties idle asides, the oldest first, until `bytes` fit beside those in use. */
 static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
 {
     struct kd_capacity c;
@@ -63,7 +63,7 @@ static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
     }
 }
 
-/* What idle ones hold beside the last one is bounded, whatever room there is: the oldest are emptied. */
+/* Limits the memory of idle asides other than the last one, even if there is room: the oldest are emptied. */
 static void bound_idle_asides(struct kd_renderer *r)
 {
     for (;;) {

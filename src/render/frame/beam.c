@@ -1,9 +1,9 @@
-/* This pass convolves light with a telescope's beam (render/plan/beam.h). */
+/* The beam pass: convolves light with a telescope's beam (render/plan/beam.h). */
 #include "render/frame/job.h"
 
 #include <math.h>
 
-/* Weights that one submission adds up at most: some 40 ms of a small device. */
+/* Weights summed in one submission, at most: about 40 ms on a small device. */
 #define SUBMISSION 2e7
 
 static struct kd_vk_binding lines(struct kd_frame_job *j, bool write)
@@ -18,7 +18,8 @@ static struct kd_vk_binding grid(struct kd_frame_job *j, int number, bool write)
                                     write };
 }
 
-/* A kernel between a band of pixels and rows of cells, or its twin that reads texels, which is the next one. */
+/* Runs a kernel between a band of pixels and rows of cells; its variant that reads texels is the next one in the
+ * list. */
 static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kernel kernel, bool texels,
                            uint64_t invocations, struct kd_vk_binding from, struct kd_vk_binding to)
 {
@@ -42,19 +43,19 @@ static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kern
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     if (j->plan->bands == 1)
         return KD_OK;
-    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* short submissions */
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* keeps submissions short */
     KD_TRY(kd_frame_report(j, 0));
 done:
     return status;
 }
 
-/* Light of what is lit, band by band, to rows of cells. */
+/* Gathers completed light, band by band, into rows of cells. */
 static enum kd_status gather(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     const uint64_t pixels = (uint64_t)p->width * p->band_rows, bytes = kd_post_radiance_bytes(pixels);
     enum kd_status status = KD_OK;
-    if (j->lit < p->height) /* rows that nothing is written to */
+    if (j->lit < p->height) /* rows that are not written */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0,
                           kd_beam_lines_bytes(&p->beam), 0, j->error));
     for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
@@ -65,7 +66,7 @@ done:
     return status;
 }
 
-/* And back, as light of its own. */
+/* Interpolates back from cells, as separate light. */
 static enum kd_status spread(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
@@ -78,7 +79,7 @@ done:
     return status;
 }
 
-/* One of the kernels that make a grid from another, or its twin. */
+/* A kernel that makes one grid from another, or its variant that reads texels. */
 static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel, const uint32_t *constants, size_t n,
                                   const struct kd_vk_binding *from, const struct kd_vk_pipeline **out)
 {
@@ -86,7 +87,7 @@ static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel,
                           constants, n, out, j->error);
 }
 
-/* A slice of rows, the last of them if it is all. */
+/* Dispatches a slice of rows, or the rest if `all`. */
 static enum kd_status slice(struct kd_frame_job *j, const struct kd_vk_dispatch *d, bool all)
 {
     enum kd_status status;
@@ -99,7 +100,7 @@ done:
     return status;
 }
 
-/* Rows that one submission makes, each with so many weights: a multiple of four. */
+/* Rows of one submission, a multiple of four, with `weights` weights each. */
 static uint32_t rows_at_once(double weights, uint32_t rows)
 {
     return 4 * (uint32_t)fmin(fmax(SUBMISSION / weights / 4, 1), (rows + 3) / 4);
@@ -136,7 +137,7 @@ done:
     return status;
 }
 
-/* push: but for columns and slice. rows: of what is made. */
+/* push: complete except for columns and slice. rows: of the result. */
 static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows,
                              struct kd_vk_binding from, struct kd_vk_binding to)
 {
@@ -158,7 +159,7 @@ done:
     return status;
 }
 
-/* Rows of cells, one for each of pixels, to the grid: cell i of it begins (i - 1) cells below the upper edge of the
+/* Sums rows of cells (one a row of pixels) to the grid: its cell i begins (i - 1) cells below the upper edge of the
  * picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {

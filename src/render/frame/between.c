@@ -40,7 +40,7 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
     for (uint32_t band = 0; band < j->plan->bands; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
-        /* Some thirty steps of a ray's length. */
+        /* Slices are sized by the time that tracing these rays would take. */
         const uint32_t step = kd_frame_slice(j->plan->trace_ns * part->list->lattice.rays, (uint32_t)part->n);
         for (; from < to; from += step) {
             struct kd_between_push push = {
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* As many pixels as one buffer holds with their words, which come to the host. */
+/* Marks as many pixels as fit one buffer with their result words, which are copied to the host. */
 static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host,
                                 uint8_t *marks)
 {

@@ -1,4 +1,4 @@
-/* This pass spreads light over white as a lens does (render/plan/bloom.h). */
+/* The bloom pass: spreads light above white as a lens does (render/plan/bloom.h). */
 #include "render/frame/job.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@ static struct kd_vk_binding range(struct kd_frame_job *j, uint64_t offset, uint6
     return (struct kd_vk_binding) { j->store->bloom, offset, 16 * cells, write };
 }
 
-/* Bright light of a band, in blocks. */
+/* Sums the bright light of a band, in blocks. */
 static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_plan *p = j->plan;
@@ -45,33 +45,33 @@ static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* It is done of what is lit, band by band. */
+/* The same for all completed light, band by band. */
 static enum kd_status brighten(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     enum kd_status status = KD_OK;
-    if (j->lit < p->height) /* blocks that nothing is written to */
+    if (j->lit < p->height) /* blocks that are not written */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->bloom.blocks,
                           16 * kd_bloom_blocks(&p->bloom), 0, j->error));
     for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
         KD_TRY(brighten_band(j, band));
         if (p->bands == 1)
             continue;
-        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* short submissions */
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* keeps submissions short */
         KD_TRY(kd_frame_report(j, 0));
     }
 done:
     return status;
 }
 
-/* Blocks along an axis that two cells may see: of four cells, and where the last one is narrow of those that stand
- * closer there. */
+/* Blocks along an axis that two cells may read: those of four cells, and more where the last block is narrow and
+ * blocks are therefore closer. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
     return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);
 }
 
-/* Blocks as cells of the finest grid. */
+/* Converts blocks to cells of the finest grid. */
 static enum kd_status gather(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
@@ -106,7 +106,7 @@ static enum kd_status gather(struct kd_frame_job *j)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* A kernel that makes all cells of a grid. Its twin that reads cells as texels is the next one. */
+/* Runs a kernel that makes all cells of a grid. Its variant that reads cells as texels is the next one in the list. */
 static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32_t level, float share,
                            float coarse_share, const struct kd_vk_binding bindings[3])
 {
@@ -116,7 +116,7 @@ static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32
         uint32_t columns, rows;
         float share, coarse_share;
     } push = { b->columns >> level, b->rows >> level, share, coarse_share };
-    const uint32_t side = kernel == KD_KERNEL_BLOOM_UP ? 2 : 1; /* cells along it of an invocation */
+    const uint32_t side = kernel == KD_KERNEL_BLOOM_UP ? 2 : 1; /* cells along a side of an invocation */
     const uint64_t invocations = (uint64_t)((push.columns + side - 1) / side) * ((push.rows + side - 1) / side);
     kernel += kd_kernels_cells_as_texels(j->r->vk, b) ? 1 : 0;
     const struct kd_spec_bloom_grid spec = { .AROUND = b->around };
@@ -130,7 +130,7 @@ static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* The light of a grid from that of the next finer one. */
+/* Makes a grid from the next finer one. */
 static enum kd_status down(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->bloom;
@@ -139,8 +139,7 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* The sum of a grid and all coarser ones. Behind the coarsest there is none: its own light, which is finite, counts
- * nothing there. */
+/* Sum of a grid and all coarser ones. The coarsest has none beyond it: its own light is bound there, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->bloom;

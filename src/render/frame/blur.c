@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes of the host for a pixel: its sum, and the light of one picture. */
+/* Host memory for a pixel: the sum, and the light of one picture. */
 enum { SUM = 3 * sizeof(double), LIGHT = 3 * sizeof(float) };
 
-/* The picture's linear light comes to the host beside it. */
+/* Requests the linear light on the host. */
 static void bring_light(struct kd_plan *plan)
 {
     plan->radiance = true;
@@ -45,7 +45,7 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
     return KD_OK;
 }
 
-/* The part of the whole that one picture is. */
+/* Progress of one picture as a part of the whole. */
 struct part {
     const struct kd_blurred *blurred;
     unsigned done;

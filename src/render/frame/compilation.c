@@ -10,9 +10,9 @@
 
 struct kd_compilation {
     struct kd_renderer *renderer;
-    bool picture; /* of a scene, by a plan: rehearsed as a whole */
+    bool picture; /* a scene by a plan, which is rendered as a whole */
     struct kd_scene scene;
-    struct kd_crowd *crowd; /* of the scene, held: whoever wanted the picture may be gone before it is rehearsed */
+    struct kd_crowd *crowd; /* playground of the scene, referenced: the requester may be gone by then */
     struct kd_plan plan;
     struct kd_kernel_wishes wishes;
     kd_progress_fn progress;
@@ -47,7 +47,7 @@ struct picture {
 static enum kd_status ask_picture(struct kd_renderer *r, const void *user)
 {
     const struct picture *p = user;
-    struct kd_error error = { 0 }; /* who renders is told */
+    struct kd_error error = { 0 }; /* the error is reported to the render that needs the kernel */
     struct kd_frame_job job = { .r = r, .store = &r->store, .scene = p->scene, .plan = p->plan, .error = &error };
     const enum kd_status status = kd_frame_normalise_ask(r, p->scene, p->plan, &error);
     return status ? status : kd_frame_ask_kernels(&job);
@@ -64,15 +64,15 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     c->crowd = (struct kd_crowd *)scene->crowd.at;
     kd_crowd_keep(c->crowd);
     c->plan = *plan;
-    c->plan.audit = 0; /* of nothing */
+    c->plan.audit = 0; /* there is nothing to audit */
     return c;
 }
 
-/* Dispatches each kernel once, without workgroups. What is bound is of no content, but of the kernel's kinds. */
+/* Dispatches each kernel once, without workgroups. Bound buffers have no contents but the right kinds. */
 static enum kd_status dispatch_each(struct kd_compilation *c, struct kd_renderer *own, struct kd_error *error)
 {
-    static const uint32_t push[128 / 4]; /* Vulkan promises no device more */
-    const uint64_t bytes = 16384;        /* what each device takes as uniform, at least */
+    static const uint32_t push[128 / 4]; /* the size of push constants that Vulkan guarantees */
+    const uint64_t bytes = 16384;        /* size of a uniform buffer that every device accepts */
     struct kd_vk_buffer *any = NULL;
     enum kd_status status;
     KD_TRY(kd_vk_buffer_create(own->vk, bytes, KD_VK_DEVICE, "of nothing", &any, error));
@@ -92,8 +92,8 @@ done:
     return status;
 }
 
-/* The picture, or its kernels alone, on a device that computes nothing. That is closed afterwards, for the driver
- * writes its files in a thread of its own, which then has ended. */
+/* Renders the picture, or dispatches its kernels, on a device that computes nothing. The device is closed
+ * afterwards: the driver writes its files on a thread of its own, which ends with it. */
 static void *rehearse(void *user)
 {
     struct kd_compilation *c = user;
@@ -114,7 +114,7 @@ static void *rehearse(void *user)
     if (own && kd_renderer_hangs(own))
         return NULL; /* it can never be closed */
     if (c->status == KD_EDEVICE)
-        c->status = KD_EIO; /* the picture's own device may be well */
+        c->status = KD_EIO; /* the picture's own device may be in order */
     if (own)
         kd_renderer_sky_stop(own);
     kd_renderer_destroy(own);

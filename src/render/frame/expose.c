@@ -1,9 +1,9 @@
-/* This pass finds how bright a picture is, and the exposure that follows where it is "auto". */
+/* The expose pass: histogram of a picture's brightness, and the exposure if that is "auto". */
 #include "render/frame/job.h"
 
 #include <math.h>
 
-/* Histogram of what is lit to the host. */
+/* Copies the histogram of the completed light to the host. */
 static enum kd_status measure(struct kd_frame_job *j)
 {
     struct kd_vk *vk = j->r->vk;
@@ -15,7 +15,7 @@ static enum kd_status measure(struct kd_frame_job *j)
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
         uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
         const uint32_t push[] = { pixels, pixels > 1 << 17 ? 7 : 1 };
-        uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
+        uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts about 64 pixels */
         const struct kd_vk_dispatch d = {
             kd_passes[KD_PASS_EXPOSE].name,
             expose,
@@ -33,7 +33,7 @@ done:
     return status;
 }
 
-/* log2 luminance below which lie all but `share` of the lit pixels. */
+/* log2 luminance that only the brightest `share` of the lit pixels exceeds. */
 static double luminance_quantile(const uint32_t *counts, double share)
 {
     uint64_t lit = 0, above = 0;
@@ -49,9 +49,10 @@ static double luminance_quantile(const uint32_t *counts, double share)
     return log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
 }
 
-/* sRGB clips at 1: bring the brightest lit pixels (all but four in a thousand) there. The film-like curve has a long
- * shoulder: the wider the range from the median up, the further over white the brightest may go, so that a beamed disk
- * keeps its dim side. all: what a beam has smoothed has its brightest place there, and nothing is clipped. */
+/* sRGB clips at 1: the brightest lit pixels, without the top four in a thousand, are exposed to 1. The film-like
+ * curve has a long shoulder: the wider the range from the median up, the further above white the brightest may be,
+ * so that a beamed disk keeps its dim side. all: light smoothed by a beam has its true maximum in a pixel, so
+ * nothing is clipped. */
 static double auto_exposure(const uint32_t *counts, int tone_map, bool all)
 {
     double white = luminance_quantile(counts, all ? 0 : 0.004), median = luminance_quantile(counts, 0.5);

@@ -1,5 +1,4 @@
-/* This pass finds the footprints of a lens map from differences of its rays: after they are traced, before light
- * needs them. */
+/* The footprint pass: footprints of a lens map from differences of its rays, between tracing and light. */
 #include "render/frame/job.h"
 
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l,
@@ -30,7 +29,8 @@ static enum kd_status dispatch(struct kd_frame_job *j, const struct kd_footprint
     d->pass = kd_passes[KD_PASS_FOOTPRINT].name;
     d->push = &area->push;
     d->bindings[0] = (struct kd_vk_binding) { area->lens, 0, 0, true };
-    d->bindings[KD_FOOTPRINT_PLACES].buffer = d->counts ? d->counts : j->store->undecided; /* read with counts alone */
+    /* read only together with counts */
+    d->bindings[KD_FOOTPRINT_PLACES].buffer = d->counts ? d->counts : j->store->undecided;
     d->bindings[2] = (struct kd_vk_binding) { area->lens, 0, 0, false };
     const enum kd_status status = kd_frame_footprint_kernel(j, area->lattice, &d->pipeline);
     return status ? status : kd_vk_dispatch(j->r->vk, d, j->error);

@@ -1,4 +1,4 @@
-/* This file has the order of a frame's passes. */
+/* The order of a frame's passes. */
 #include "render/frame/job.h"
 
 #include "render/lens/audit.h"
@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Buffers for all of it, and what the kernels of light read. */
+/* Allocates the buffers, and prepares what the kernels of light read. */
 static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacity *c, bool *reused)
 {
     struct kd_renderer *r = j->r;
     enum kd_status status;
-    /* Beside what is rendered aside there is a quarter to keep; of those each keeps its own lens map. */
+    /* Beside pictures rendered aside, a quarter of the memory is for cached maps; each aside keeps its own lens map. */
     j->store->memory_bytes = j->aside ? j->plan->device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
@@ -45,7 +45,7 @@ done:
     return status;
 }
 
-/* The lattices of rays that a picture has: on the grid, at the critical curve, and those of refining. */
+/* The lattices of rays of a picture: on the grid, at the critical curve, and those of refinement. */
 static size_t lattices_of(const struct kd_plan *p, struct kd_critical_lattice out[5])
 {
     size_t n = 0;
@@ -92,8 +92,7 @@ done:
     return status;
 }
 
-/* Kernels that are not there yet are made at once, those that take longest, and while emitters make something on the
- * host. */
+/* Makes the missing kernels that take long, concurrently, while emitters work on the host. */
 static enum kd_status make_kernels(struct kd_frame_job *j)
 {
     kd_kernels_note(&j->r->kernels);
@@ -105,7 +104,7 @@ static enum kd_status make_kernels(struct kd_frame_job *j)
     return status;
 }
 
-/* A lens map that was just made is judged, and kept. */
+/* Audits and caches a lens map that was just made. */
 static enum kd_status judge_map(struct kd_frame_job *j)
 {
     double start = kd_clock_ms();
@@ -121,7 +120,7 @@ done:
     return status;
 }
 
-/* That of the lens map; of the pixels there is something already. */
+/* Copies the accuracy of the lens map into the frame's; that of pixels and volumes is already there. */
 static void report_accuracy(struct kd_frame_job *j)
 {
     const struct kd_accuracy_report own = j->frame->accuracy;
@@ -143,7 +142,7 @@ static const struct kd_plan_pass *pass_of(const struct kd_plan *plan, enum kd_pa
     return NULL;
 }
 
-/* As many rows as are traced and lit in the time that refining is planned to take. */
+/* The number of rows traced and lit in the time that refinement is estimated to take. */
 static double rows_of_refining(const struct kd_frame_job *j, double rows)
 {
     const struct kd_plan_pass *refine = pass_of(j->plan, KD_PASS_REFINE), *trace = pass_of(j->plan, KD_PASS_TRACE);
@@ -161,13 +160,13 @@ static enum kd_status refine(struct kd_frame_job *j)
     KD_TRY(kd_frame_expose(j));
     j->refine_rays = pass ? (double)pass->invocations : 0;
     KD_TRY(kd_frame_refine(j));
-    KD_TRY(kd_frame_report(j, j->refine_rows)); /* fewer rays than were planned have done */
+    KD_TRY(kd_frame_report(j, j->refine_rows)); /* fewer rays than planned were needed */
     j->refine_rays = j->refine_rows = 0;
 done:
     return status;
 }
 
-/* None of this picture's rays is lost yet. */
+/* Empties the lists of stopped rays for this picture. */
 static enum kd_status forget_lost(struct kd_frame_job *j)
 {
     enum kd_status status = KD_OK;
@@ -226,8 +225,7 @@ done:
     return status;
 }
 
-/* After a defect of the program, which may have left anything in them: the next frame makes all that it needs. The
- * device is idle. */
+/* Drops all cached buffers after a defect of the program, which may have corrupted them. The device is idle. */
 static void begin_anew(struct kd_frame_job *job)
 {
     kd_log(KD_LOG_ERROR, "a defect of kerrd: %s", job->error ? job->error->message : "no word of what it is");

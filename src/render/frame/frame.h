@@ -1,4 +1,4 @@
-/* A renderer makes pictures of scenes, on the thread that has it. */
+/* Renders pictures of scenes, on the thread that has the renderer. */
 #ifndef KD_RENDER_FRAME_FRAME_H
 #define KD_RENDER_FRAME_FRAME_H
 
@@ -19,62 +19,61 @@ struct kd_frame {
     uint32_t width, height;
     struct kd_layer layers[KD_FRAME_MAX_LAYERS];
     size_t n_layers;
-    char credit[KD_CREDIT]; /* whose work is in it, as they ask to be named; "": nobody does */
-    double exposure;        /* stops that were applied */
-    bool lens_reused;       /* the trace pass was skipped: the lens map was in the cache */
-    uint32_t others_traced; /* lens maps of the other pictures that its light is the mean with (frame/blur.h) */
+    char credit[KD_CREDIT]; /* credits of its sources, as their authors ask to be named; "": none */
+    double exposure;        /* exposure applied, in stops */
+    bool lens_reused;       /* the trace pass was skipped because the lens map was cached */
+    uint32_t others_traced; /* lens maps traced for the other pictures of a mean (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
-    double density_scale; /* what the density was multiplied by (volume.normalise_to_jy); 1: by nothing */
-    struct kd_told *told; /* of the pixel that the plan names (frame/tell.h); NULL: of none */
-    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* by the names of plan/pass.h, "upload", "fill", those that ran;
-                                                       "kernels" where some had to be made; "total" */
+    double density_scale; /* factor applied to the density (volume.normalise_to_jy); 1: none */
+    struct kd_told *told; /* light of the pixel that the plan names (frame/tell.h); NULL: none */
+    /* passes that ran, by the names of plan/pass.h, "upload" and "fill"; "kernels" if some had to be made; "total" */
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
 };
 void kd_frame_finish(struct kd_frame *frame);
 
-/* These are of the first layer. */
+/* Pixels and bit depth of the first layer. */
 static inline void *kd_frame_pixels(const struct kd_frame *frame) { return frame->layers[0].data; }
 static inline int kd_frame_bit_depth(const struct kd_frame *frame)
 {
     return frame->layers[0].type == KD_LAYER_U16 ? 16 : 8;
 }
 
-/* Render a valid scene by its plan (made with this renderer's capacity). */
+/* Renders a valid scene by its plan, which was made with this renderer's capacity. */
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
-/* How a picture that takes long looks so far: it is drawn from the top, some rows at a time. Called between these. */
+/* Preview of a long picture, which is drawn from the top some rows at a time. Called between these. */
 struct kd_glance {
     bool (*wanted)(void *user);
-    /* frame: of the whole size, black from row `rows` on, with an exposure of its own where that is "auto", no
-     * timings and no accuracy. Its layers are not the callee's to keep. */
+    /* frame: of full size, black from row `rows` on, with an exposure of its own if that is "auto", without timings
+     * and accuracy. Its layers are valid only during the call. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 
-/* The same with buffers of its own. progress, called at least every 100 ms or so, may let other threads use the
- * renderer before it returns, for anything that this header has, and the picture stays the same to the byte. At most
- * KD_ASIDES are under way at once, and what they hold between them, their plans' device_bytes, is the callers' to
- * bound: lens maps that earlier ones left make room. Timings are without what progress took. glance: NULL, or both
- * functions, with the same user. */
+/* The same with separate buffers. progress, called about every 100 ms, may let other threads use the renderer for
+ * anything in this header before it returns; the picture's bytes do not depend on that. At most KD_ASIDES may run
+ * concurrently, and the callers must limit their total memory, the plans' device_bytes; cached lens maps of finished
+ * ones are evicted to make room. Timings exclude the time spent in progress. glance: NULL, or both functions, called
+ * with `user`. */
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                                kd_progress_fn progress, const struct kd_glance *glance, void *user,
                                struct kd_frame *out, struct kd_error *error);
 
-/* Linear light of other pictures of the same size, added up: red, green and blue of each pixel, rows from the top,
- * of n pictures. */
+/* Sum of the linear light of n other pictures of the same size: red, green and blue of each pixel, rows from the
+ * top. */
 struct kd_light_sum {
     double *sum;
-    unsigned n, traced; /* traced: lens maps that were made for them */
+    unsigned n, traced; /* traced: lens maps that were traced for them */
 };
-/* As kd_render, or with `aside` kd_render_aside, of a picture whose light is the mean with that of others;
- * frame/blur.h is how it is asked for. plan->radiance is true, and plan->eyes 1. How far off pixels are that were
- * refined is not measured. */
+/* As kd_render (or kd_render_aside if `aside`), for a picture whose light is averaged with that of others; called by
+ * frame/blur.h. plan->radiance must be true, and plan->eyes 1. The error of refined pixels is not measured. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
                               const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error);
 
-/* The lens map alone: plan->planes planes of plan->rays floats each, rows from the top, in the order that
+/* Renders only the lens map: plan->planes planes of plan->rays floats each, rows from the top, in the order that
  * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               float *planes, double *trace_ms, struct kd_error *error);

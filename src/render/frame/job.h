@@ -1,4 +1,5 @@
-/* The files of a frame share this: one picture on its way, and the bands it is made in. Render thread only. */
+/* State of a frame in progress, shared by its files: one picture, and the bands in which it is made. Render thread
+ * only. */
 #ifndef KD_RENDER_FRAME_JOB_H
 #define KD_RENDER_FRAME_JOB_H
 
@@ -12,43 +13,41 @@ struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
     struct kd_prepared *prepared;
-    bool aside;                                /* progress may render */
-    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* of an aside: of what is done, */
+    bool aside;                                /* progress may render other pictures */
+    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* for an aside: device times of finished work */
     size_t n_times;
-    double away_ms; /* and what its progress took */
+    double away_ms; /* time spent in progress */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    const struct kd_light_sum *others; /* whose mean with the picture's light is shown; NULL: none's */
-    struct kd_vk_buffer *marched; /* light of a sample, as the picture has it and more closely followed; NULL: none */
+    const struct kd_light_sum *others; /* pictures with which the light is averaged; NULL: none */
+    struct kd_vk_buffer *marched;      /* light of the sample, as in the picture and followed more finely; NULL: none */
     struct kd_lens_map *lens;
-    struct kd_star_key star_key;   /* what the light of stars is made of in this frame, */
-    bool stars_kept;               /* and whether it is there already */
-    uint64_t undecided;            /* rays of the lens map that are given up */
-    uint64_t traced, interpolated; /* as in the accuracy report */
-    double listed_ms, audit_ms;    /* the host's time for them, and for the audit */
-    double
-        kernels_ms; /* and for making kernels that were not there, as the driver makes them before they are run first */
+    struct kd_star_key star_key;   /* key of the light of stars in this frame */
+    bool stars_kept;               /* whether that light is cached */
+    uint64_t undecided;            /* rays of the lens map that were given up */
+    uint64_t traced, interpolated; /* as in kd_accuracy_report */
+    double listed_ms, audit_ms;    /* the host's time for these rays; for the audit */
+    double kernels_ms;             /* the host's time for making missing kernels before they first run */
     kd_progress_fn progress;
     const struct kd_glance *glance;
     void *user;
-    double done, weight;             /* rows so far, of all passes */
-    double refine_rows, refine_rays; /* what refining counts for among them, what is left of that; and rays that it is
-                                        expected to follow */
-    uint32_t lit;                    /* rows of pixels from the top whose light is there */
-    bool looking;                    /* they are being looked at */
-    uint8_t *kinds;                  /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
-    bool teaches;                    /* what passes cost, */
-    struct kd_waiting waiting;       /* but for the time that its threads waited for a core */
+    double done, weight; /* rows done so far, over all passes; rows in total */
+    /* the rows that refinement counts for and that are not yet reported; rays that it is expected to trace */
+    double refine_rows, refine_rays;
+    uint32_t lit;              /* rows of pixels from the top whose light is complete */
+    bool looking;              /* a preview is being made */
+    uint8_t *kinds;            /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
+    bool teaches;              /* whether its times are measurements of the passes' costs */
+    struct kd_waiting waiting; /* time that its threads waited for a core, which is subtracted */
     struct kd_frame *frame;
     struct kd_error *error;
 };
 
-/* Learn from the device times of a frame: nanoseconds an item as they are when nothing else wants the cores,
- * smoothed. */
+/* Update the costs of passes from the device times of a frame: nanoseconds an item on idle cores, smoothed. */
 void kd_frame_learn_begin(struct kd_frame_job *job);
 void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame);
 
-/* So many rows more are done. Cancelled: KD_ECANCELLED. */
+/* Reports `rows` more rows as done. KD_ECANCELLED if cancelled. */
 enum kd_status kd_frame_report(struct kd_frame_job *job, double rows);
 
 static inline uint32_t kd_frame_band_first(const struct kd_frame_job *j, uint32_t band)
@@ -60,13 +59,13 @@ static inline uint32_t kd_frame_band_rows(const struct kd_frame_job *j, uint32_t
     uint32_t left = j->plan->height - kd_frame_band_first(j, band);
     return left < j->plan->band_rows ? left : j->plan->band_rows;
 }
-/* Those of them that are lit. */
+/* The rows of a band whose light is complete. */
 static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t band)
 {
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
 }
-/* What is shown of a band: its radiance, or that as the beam sees it. */
+/* The displayed light of a band: its radiance, or that after the beam. */
 static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job *j, uint32_t band)
 {
     return j->plan->beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
@@ -80,92 +79,91 @@ static inline uint32_t kd_frame_groups(uint64_t items)
     return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE);
 }
 
-/* Asks for the kernels that take long to make, as the frame will: for kd_kernels_note. Of the job it needs its
- * renderer, store, scene and plan. */
+/* Requests the kernels that take long to make, as the frame will, for kd_kernels_note. Uses only the job's renderer,
+ * store, scene and plan. */
 enum kd_status kd_frame_ask_kernels(struct kd_frame_job *job);
-/* Render by job's scene and plan, into *out. */
+/* Renders the job's scene by its plan into *out. */
 enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out);
-/* The times of all passes that ran, in the order in which they did. */
+/* Collects the times of all passes that ran, in their order. */
 void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, double total_ms);
 
-/* The passes, a file each. */
+/* The passes, one file each. */
 
-/* The cameras of the grid and of the pixels at the critical curve, on their way to the device. */
+/* Uploads the cameras of the grid and of the pixels at the critical curve. */
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *job);
-/* The lens map, unless it is reused, and from it the radiance of all bands. */
+/* Makes the lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
-/* Light of listed pixels, row by row in the list, by so many rays each (view/critical_pixels.h); what they had
- * before is lost. */
+/* Listed pixels whose light is computed anew, row by row in the list, by a number of rays each
+ * (view/critical_pixels.h). Earlier light of these pixels is overwritten. */
 struct kd_frame_list {
     const struct kd_critical_pixels *pixels;
-    struct kd_critical_lattice lattice;  /* where each has how many, */
-    int camera;                          /* whose steps are those of this camera (view/layout.h) */
-    uint64_t most;                       /* pixels that one buffer holds the lens map of */
-    struct kd_vk_buffer *const *buffers; /* for the first `most` of them, the next, ... */
-    bool again;                          /* or one for all, in turn: nothing is kept */
-    bool between;     /* their rays are not followed, but interpolated; on pixels where that is right (frame/lens.h) */
-    bool layers;      /* layers of light likewise, or of the picture alone */
-    const char *pass; /* that their time counts for; NULL: as that of the others */
+    struct kd_critical_lattice lattice;  /* the rays in each pixel */
+    int camera;                          /* the camera that counts in steps of the lattice (view/layout.h) */
+    uint64_t most;                       /* pixels whose lens map fits one buffer */
+    struct kd_vk_buffer *const *buffers; /* one for the first `most` of them, one for the next, ... */
+    bool again;                          /* one buffer is reused for all: no map is kept */
+    bool between;     /* rays are interpolated instead of traced, on pixels where that is accurate (frame/lens.h) */
+    bool layers;      /* layers of light are computed as well, not only the picture */
+    const char *pass; /* pass to which their time counts; NULL: the usual passes */
 };
-/* needed: the lens map is not there yet. */
+/* needed: the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
-/* Footprints of rows of rays of a buffer, or of a range of rays on listed pixels, all of which are traced with those
- * next to them. Recorded, not submitted. Nothing where the plan has none. */
+/* Footprints for rows of rays of a buffer, or for a range of rays on listed pixels; all of these and their
+ * neighbours must be traced. Recorded, not submitted. Does nothing if the plan has no footprints. */
 struct kd_footprint_area {
     struct kd_vk_buffer *lens;
-    const struct kd_critical_lattice *lattice; /* NULL: the grid */
+    const struct kd_critical_lattice *lattice; /* NULL: rays of the grid */
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* The same of a sampled map whose rows from `traced` on were sampled just now, that buffer's first row being row0 of
- * the picture's rays: of the rays that were followed alone, and of those before that were marked as not finished. */
+/* The same for a sampled map whose rows from `traced` on have just been sampled; row0: the picture's row of rays at
+ * the buffer's first row. Covers rays that were traced singly, and earlier ones marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
-/* Its kernel; lattice: of listed pixels, NULL: of the grid. *out is NULL where no light needs footprints. */
+/* The kernel of footprints; lattice: of listed pixels, NULL: of the grid. *out is NULL if no light needs footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
-/* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept,
- * over its pixels; nothing where that light is there from the frame before. Its map must be whole. The bands of a
- * frame from the first to the last. */
+/* Spreads points of light over the pixels of a band: those seen by its rays and, if the whole map is cached, by rays
+ * of adjacent rows. Does nothing if that light is cached. The band's map must be complete. Call for the bands of a
+ * frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
-/* All of its kernels. */
+/* Gets all of its kernels. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
-/* Whether that light is there: to be told as soon as the emitters are. */
+/* Determines whether that light is cached; call as soon as the emitters' numbers are set. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
-/* Where the rim of the job's lens map is, if it has one (view/rim.h); and its rays, if they were not followed
- * before. */
+/* Finds the rim of the job's lens map, if it has one (view/rim.h); traces its rays, unless that was done before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
-/* Layers of light that the march has brought, of what it left in the radiance (kd_plan_gathers): as far as there is
- * light. Recorded, not submitted. */
+/* Layers of light that the march stored with the radiance (kd_plan_gathers), for rows whose light is complete.
+ * Recorded, not submitted. */
 enum kd_status kd_frame_gather(struct kd_frame_job *job);
 
-/* Tells the light of the plan's pixel, if it lies in this band, whose lens map must be there; and, when all light
- * is, what became of it. */
+/* Describes the light of the plan's pixel if it is in this band, whose lens map must exist; then, when all light is
+ * complete, the pixel's result. */
 enum kd_status kd_frame_tell(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_tell_pixel(struct kd_frame_job *job);
-/* Asks for the kernels of its steps, where they are told. */
+/* Requests the kernels for its steps, if these are recorded. */
 enum kd_status kd_frame_tell_ask(struct kd_frame_job *job);
 
-/* Follows rays through volumes once more on a sample of this band's pixels, as the picture has them and more
- * closely, and, when all have been, says in the frame's accuracy how far apart these are. Nothing where there are no
- * volumes. */
+/* Follows rays through volumes again on a sample of this band's pixels, as in the picture and more finely. After all
+ * bands, writes the differences into the frame's accuracy. Do nothing without volumes. */
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
-/* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and
- * centroid of them. */
+/* Sum the light of all bands and copy the sums to the host; wait for these, and compute the frame's flux and
+ * centroid. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
-/* The light of all bands becomes the mean with j->others; waits for the device. */
+/* Replaces the light of all bands by the mean with j->others; waits for the device. */
 enum kd_status kd_frame_mean(struct kd_frame_job *job);
-/* Light as a telescope's beam sees what is lit, which the passes behind it take for light; nothing where the plan
- * has no beam. */
+/* Convolves the completed light with a telescope's beam, for the passes that follow; does nothing if the plan has no
+ * beam. */
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
-/* The exposure of what is lit; waits for the device where it is "auto". */
+/* Sets the exposure from the completed light; waits for the device if it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
-/* More rays for the pixels that need them, at the frame's exposure: into j->kinds which have what. And how far off
- * the picture is then, into the frame's accuracy; what is lit is no longer right afterwards. */
+/* Refine: trace more rays for the pixels that need them, at the frame's exposure; j->kinds records which. Residual:
+ * measure the remaining error of the picture into the frame's accuracy; the light of the sampled pixels is
+ * overwritten. */
 enum {
     KD_REFINED_NOT,
     KD_REFINED_NOT_AT_CURVE,
@@ -176,19 +174,19 @@ enum {
 };
 enum kd_status kd_frame_refine(struct kd_frame_job *job);
 enum kd_status kd_frame_residual(struct kd_frame_job *job);
-/* The picture as it is shown, at 16 bits without dither, glare, beam or palette, row by row to the host; waits for
+/* Copies the displayed picture to the host row by row, at 16 bits without dither, bloom, beam or palette; waits for
  * the device. */
 enum kd_status kd_frame_bare(struct kd_frame_job *job, uint16_t *to);
-/* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no
- * bloom. */
+/* Computes the bloom of the completed light in j->store->bloom, at the frame's exposure; does nothing if the plan
+ * has no bloom. */
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
-/* Pixels of what is lit, on the host. */
+/* Makes pixels of the completed light, on the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
-/* All of these one after the other: from light to pixels. */
+/* Runs all of these in order: from light to pixels. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* Room for the layers of a plan behind the picture; and they, as far as there is light, on the host. One that is
- * asked for alone takes the place of the picture, in false colour. */
+/* Allocates the layers of a plan after the picture; copies them to the host as far as light is complete. A single
+ * requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error);
 enum kd_status kd_frame_layers(struct kd_frame_job *job);
 

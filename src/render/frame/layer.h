@@ -1,7 +1,7 @@
-/* A frame holds layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown,
- * which is the one map that is asked for in false colour; behind it may be "radiance", linear sRGB in units of the
- * brightest surface brightness of the disk at g = 1, and maps by their names (plan/layer_kinds.h), where NaN stands
- * for nothing. */
+/* Layers of a frame, each with one value or a few for every pixel. The first is "rgb", the displayed picture; if a
+ * single map is requested, it shows that in false colour. Further ones may be "radiance", linear sRGB in units of
+ * the disk's largest surface brightness at g = 1, and maps by their names (plan/layer_kinds.h), where NaN means no
+ * value. */
 #ifndef KD_RENDER_FRAME_LAYER_H
 #define KD_RENDER_FRAME_LAYER_H
 
@@ -10,16 +10,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and as many maps as image.layers has words */
+#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and as many maps as image.layers may name */
 
 struct kd_layer {
     char name[40];
     uint32_t channels;
     enum kd_layer_type { KD_LAYER_U8, KD_LAYER_U16, KD_LAYER_F32 } type;
-    void *data; /* rows from the top, a pixel's channels together, no padding, numbers of this machine; malloc'd */
+    void *data; /* rows from the top, channels of a pixel adjacent, no padding, native byte order; malloc'd */
 };
 
-/* Bytes of a pixel. */
 static inline size_t kd_layer_pixel_bytes(const struct kd_layer *layer)
 {
     static const size_t sizes[] = { [KD_LAYER_U8] = 1, [KD_LAYER_U16] = 2, [KD_LAYER_F32] = 4 };
@@ -27,11 +26,11 @@ static inline size_t kd_layer_pixel_bytes(const struct kd_layer *layer)
 }
 
 struct kd_frame;
-/* Adds one more layer of the frame's size, its data not yet set. KD_ENOMEM. */
+/* Adds a layer of the frame's size; its data is not set. KD_ENOMEM. */
 enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
                                   struct kd_error *error);
 const struct kd_layer *kd_frame_layer(const struct kd_frame *frame,
-                                      const char *name); /* NULL: it has none of that name */
-void kd_frame_drop_layers(struct kd_frame *frame);       /* all else is still there */
+                                      const char *name); /* NULL: there is none of that name */
+void kd_frame_drop_layers(struct kd_frame *frame);       /* frees the layers and nothing else */
 
 #endif

@@ -1,4 +1,4 @@
-/* Maps of numbers go from the device to the frame's layers, and of one of them a picture in false colour. */
+/* Copies layers from the device to the frame, and shows one of them in false colour. */
 #include "render/frame/job.h"
 
 #include "image/legend.h"
@@ -21,7 +21,7 @@ enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan 
     return status;
 }
 
-/* Reads one band of a layer, as far as there is light. */
+/* Reads one band of a layer, as far as light is complete. */
 static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *from, uint64_t offset,
                                 const struct kd_layer *to)
 {
@@ -52,22 +52,21 @@ static enum kd_status read_all(struct kd_frame_job *j)
     return status;
 }
 
-/* Finds the least and largest of the numbers, of a logarithmic scale those above 0; 0 and 1, or 1 and 10, where
- * there are none. */
+/* Least and largest value; on a logarithmic scale of those above 0. If there are none, 0 and 1, or 1 and 10. */
 static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };
     for (size_t i = 0; i < n; i++) {
         if (isinf(values[i]) || (logarithmic && values[i] <= 0))
             continue;
-        extent.low = values[i] < extent.low ? values[i] : extent.low; /* false of NaN */
+        extent.low = values[i] < extent.low ? values[i] : extent.low; /* false for NaN */
         extent.high = values[i] > extent.high ? values[i] : extent.high;
     }
     return extent.low <= extent.high ? extent : (struct kd_map_scale) { logarithmic, logarithmic ? 10 : 1, false };
 }
 
-/* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is
- * logarithmic, else at 0, so that its ends are as far from there. */
+/* Ends of the colour scale: from the scene's fields, else from the kind of layer, else from the values. A diverging
+ * map is centred at 0, or at 1 if it is logarithmic, with both ends equally far. */
 static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values,
                                     size_t n)
 {
@@ -81,8 +80,8 @@ static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct k
     scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : about_zero ? far : extent.high;
     scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
     scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
-    /* One end that was set may lie beyond all numbers: then they are all at that end of the colours, which do not
-     * turn round. */
+    /* An end set by the scene may be beyond all values: then all have the colour of that end; the scale is not
+     * reversed. */
     if (scale.low > scale.high && isfinite(scene->image.layer_min))
         scale.high = scale.low + fabs(scale.low) + 1;
     else if (scale.low > scale.high)
@@ -132,8 +131,8 @@ static enum kd_status show(struct kd_frame_job *j)
     return KD_OK;
 }
 
-/* Light is finite: a layer of it that is infinite has overflowed. It is refused, for no number of 32 bits is right
- * there. */
+/* Light is finite: an infinite value of a layer has overflowed. The layer is refused, because no 32-bit number would
+ * be right. */
 static enum kd_status check_light(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;

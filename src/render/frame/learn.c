@@ -1,21 +1,22 @@
+/* Updates the costs of passes from the device times of a frame. */
 #include "render/frame/job.h"
 #include "render/plan/cost_class.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Learns what an item of a pass took, of the pass's figure and of the picture's class. */
+/* Learns the cost of an item of a pass, for the pass's figure and for the picture's class. */
 static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const struct kd_plan_pass *pass, double ms)
 {
     const double ns = ms * 1e6 / (double)pass->invocations;
-    if (!(ms > 0 && pass->invocations >= 4096)) /* a small picture measures the overhead */
+    if (!(ms > 0 && pass->invocations >= 4096)) /* a small picture measures only the overhead */
         return;
     if (!job->r->probing)
         kd_cost_learn(c, job->plan->cost_class, (enum kd_pass_id)(kd_pass_find(pass->name) - kd_passes), ns);
     if (pass->figure == KD_NS_NONE)
         return;
     if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
-        return; /* takes what its cells ask for */
+        return; /* depends on the cells */
     double *figure = &c->ns[pass->figure];
     *figure = job->r->probing ? fmin(*figure, ns) : kd_cost_mean(*figure, ns);
 }
@@ -28,9 +29,9 @@ static double timing(const struct kd_frame *frame, const char *pass)
     return 0;
 }
 
-/* A device that is the host's processor is slowed down by whatever else runs there. What a pass costs is kept over
- * starts, and planned by: an hour of load must not make a picture too dear for an idle machine. To look at every
- * thread takes 0.1 to 0.3 ms, so that of short frames one in eight teaches. */
+/* A device that is the host's processor is slowed down by other programs. Costs are cached between starts and used
+ * for planning: an hour of load must not make pictures look too expensive on an idle machine. Examining every thread
+ * takes 0.1 to 0.3 ms, so only one short frame in eight is measured. */
 static bool on_the_host(const struct kd_renderer *r) { return kd_vk_info(r->vk)->type == KD_VK_CPU; }
 
 void kd_frame_learn_begin(struct kd_frame_job *job)

@@ -1,5 +1,4 @@
-/* This part of a frame follows rays: it makes the lens map and the light that it brings, band by band, in short
- * submissions. */
+/* Traces rays of a frame: makes the lens map and its light, band by band, in short submissions. */
 #include "render/frame/lens.h"
 
 #include "render/view/camera.h"
@@ -14,12 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
+#define SLICE_MS 40.0 /* device time of a submission: short enough for progress, fairness and a driver's watchdog */
 
-static const struct kd_critical_lattice on_grid; /* none */
+static const struct kd_critical_lattice on_grid; /* all 0: the grid */
 
-/* Rows of pixels of a band from `row` on that one submission takes. A sampled map's slices end where its blocks do, if
- * they come so far, so that none of these is followed twice. */
+/* Rows of pixels of a band, from `row` on, in one submission. Slices of a sampled map end at its blocks if they
+ * reach one, so that no block is traced twice. */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
@@ -33,16 +32,16 @@ static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint3
     return held < left ? held : left;
 }
 
-/* Kernels are looked up for each slice: while others had the device theirs may have taken their places. */
+/* Kernels are looked up for each slice, because other work may have evicted them meanwhile. */
 
-/* Rows of pixels that one submission takes, given nanoseconds a row. */
+/* Rows of pixels in one submission, given nanoseconds a row. */
 uint32_t kd_frame_slice(double ns_per_row, uint32_t rows)
 {
     double n = SLICE_MS * 1e6 / fmax(ns_per_row, 1);
     return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
 }
 
-/* NULL where no kernel is run for it. l: of the listed pixels; all 0: for the grid. */
+/* *out is NULL if no kernel is needed. l: lattice of the listed pixels; all 0: the grid. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l,
                                      const struct kd_vk_pipeline **out)
 {
@@ -83,7 +82,7 @@ static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of)
     return makes >= 0 && kd_layer_kinds[p->layers[makes].kind].of == of;
 }
 
-/* Says whether that is made by the march; numbers of a crossing are where a body may hide it. */
+/* Whether the march makes it; layers of a crossing need it because a body may hide the crossing. */
 static bool marches(const struct kd_plan *p, int makes)
 {
     return p->march.steps && makes != KD_MAKES_RAYS &&
@@ -92,7 +91,7 @@ static bool marches(const struct kd_plan *p, int makes)
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
 {
-    return makes < 0 && marches(plan, makes) ? rays : 1; /* of layers one ray, or none, is followed */
+    return makes < 0 && marches(plan, makes) ? rays : 1; /* layers follow at most one ray */
 }
 
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes,
@@ -128,10 +127,10 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* Rows of pixels of a band, traced and lit in one go. */
+/* Rows of pixels of a band that are traced and lit together. */
 struct slice { uint32_t band, first, count; };
 
-/* Says whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
+/* Whether the transfer kernel processes columns of pixels, and leaves pixels without light as they are. */
 static bool in_columns(const struct kd_plan *p)
 {
     return p->side == 1 && !(p->ends && kd_plan_is_spread(p)) && !p->march.steps;
@@ -172,7 +171,7 @@ static struct kd_slice slice_of(const struct kd_frame_job *j, uint32_t band)
     };
 }
 
-/* Record the kernel that makes something over a slice: of rays the grid is theirs, else that of the pixels. */
+/* Records a kernel over a slice: for rays the grid is that of rays, otherwise that of pixels. */
 static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, int makes)
 {
     const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
@@ -191,8 +190,8 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error)
-                                                 : KD_OK; /* a march takes long: its time is not these rays' */
+    /* a march is slow, and its time is not a measurement for these rays */
+    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)
         status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
@@ -223,11 +222,11 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct 
         { { lens, 0, 0, true },
           { j->store->undecided, 0, 0, true },
           camera_binding(j, camera),
-          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* of rays by their places it is another */
+          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* replaced for rays by place */
     };
 }
 
-/* pipeline: of kd_frame_trace_kernel. */
+/* pipeline: from kd_frame_trace_kernel. */
 static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s, const struct kd_vk_pipeline *pipeline)
 {
     if (j->plan->path == KD_LENS_LISTED)
@@ -255,8 +254,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     };
     kd_prepared_buffers(j->prepared, j->plan, own);
     own[KD_OWN_point_light] =
-        j->plan->points ? j->lens->star_light.buffers[band] : NULL; /* stars.c has made it, band by band */
-    for (int i = 0; i < KD_OWN_COUNT; i++)                          /* something must be bound where nothing is read */
+        j->plan->points ? j->lens->star_light.buffers[band] : NULL; /* made by stars.c, band by band */
+    for (int i = 0; i < KD_OWN_COUNT; i++)                          /* unused bindings need some buffer */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
@@ -268,8 +267,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     return d;
 }
 
-/* Some rows of a slice that was just traced can be finished. Footprints need the row of rays below too, and two at
- * the upper edge: they are held back by so much, until the band ends. */
+/* The rows that can be completed after a slice was traced. Footprints need the row of rays below as well, and at the
+ * upper edge two: such rows are held back until more are traced or the band ends. */
 static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
     if (!kd_plan_has_footprints(j->plan))
@@ -279,8 +278,8 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-/* s: what can be finished; traced: of it these rows are new. In a sampled map they are those of rays that were followed
- * alone, and of the rows that were held back, those that were marked. */
+/* s: rows that can be completed; traced: those of them that are new. In a sampled map these are the rays traced
+ * singly, and in rows that were held back the marked ones. */
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
@@ -298,7 +297,7 @@ static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice
     return kd_frame_footprint_sampled(j, &area, first * p->side, (traced->first - first) * p->side);
 }
 
-/* Trace a slice, settle what that leaves open, and finish what then can be. */
+/* Traces a slice, settles the rays left open, and completes the rows that are then ready. */
 static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *traced, const struct slice *whole)
 {
     const struct kd_vk_pipeline *trace;
@@ -314,7 +313,7 @@ done:
     return status;
 }
 
-/* Make those pixels dark. */
+/* Makes these pixels black. */
 static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
@@ -335,7 +334,7 @@ done:
     return status;
 }
 
-/* Record and submit; s: what is lit. */
+/* Records and submits the light of rows s. */
 static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_vk_pipeline *transfer;
@@ -373,7 +372,7 @@ done:
     return status;
 }
 
-/* Goes on with rays of a band that is lit, but for those that were lost. */
+/* Continues the stopped rays of a lit band. */
 static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_vk_dispatch d =
@@ -383,7 +382,7 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
-/* Lights a band slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
+/* Lights a band slice by slice, so that a long picture can be previewed. ns: per ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
 {
     const struct kd_plan *p = j->plan;
@@ -405,7 +404,7 @@ done:
     return status;
 }
 
-/* The pixels at the critical curve, by more rays than the others. */
+/* Lights the pixels at the critical curve, with their additional rays. */
 static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
 {
     enum kd_status status = KD_OK;
@@ -424,7 +423,7 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
     return status ? status : kd_frame_light_list(j, &list, needed);
 }
 
-/* The map of a band alone. */
+/* Makes only the map of a band. */
 static enum kd_status map_band(struct kd_frame_job *j, uint32_t band, double ns)
 {
     const struct kd_plan *p = j->plan;
@@ -442,7 +441,7 @@ done:
     return status;
 }
 
-/* Points of light need the whole map of a band before its light, and of the bands next to it where all are kept. */
+/* Points of light need the complete map of a band before its light, and of the adjacent bands if all are cached. */
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;
@@ -477,7 +476,7 @@ done:
     return status;
 }
 
-/* Copy one band of the lens map to its place in each plane. */
+/* Copies one band of the lens map to its place in each plane. */
 static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *host, float *planes)
 {
     const struct kd_plan *p = j->plan;

@@ -1,5 +1,5 @@
-/* Traces more rays for listed pixels: runs the kernels of the grid once more, over a list of pixels, and writes the
- * light of these pixels anew. */
+/* Traces more rays for listed pixels: runs the kernels of the grid over a list of pixels, and overwrites the light
+ * of these pixels. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
@@ -41,7 +41,7 @@ void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_p
     *to = b < first ? 0 : b - first < part->n ? b - first : part->n;
 }
 
-/* For how many rows rays count that refine the picture: rays at the critical curve come before, and count for none. */
+/* Progress of refinement in rows; rays at the critical curve before it count for none. */
 static double refined_rows(struct kd_frame_job *j, uint64_t rays)
 {
     const double rows = j->refine_rays > 0 ? fmin(j->refine_rows, j->refine_rows * (double)rays / j->refine_rays) : 0;
@@ -50,8 +50,8 @@ static double refined_rows(struct kd_frame_job *j, uint64_t rays)
     return rows;
 }
 
-/* Run the kernel that makes something over pixels `from` to `to` of a part in slices: rays are an invocation each,
- * else pixels are. base: the dispatch but for its pipeline and size. */
+/* Runs a kernel over pixels `from` to `to` of a part in slices, with one invocation a ray if it makes rays,
+ * otherwise one a pixel. base: the dispatch without its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_part *part, uint64_t from, uint64_t to,
                                const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
 {
@@ -117,7 +117,7 @@ done:
     return status;
 }
 
-/* Traces a part by the kernel, and settles what that leaves open. */
+/* Traces a part by the kernel, and settles the rays left open. */
 static enum kd_status trace_and_settle(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);
@@ -130,7 +130,7 @@ done:
     return status;
 }
 
-/* Footprints of a part that is traced, in slices. */
+/* Footprints of a traced part, in slices. */
 static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_footprint_area area = {
@@ -155,7 +155,7 @@ done:
 static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     enum kd_status status = kd_frame_upload_pixels(j, part);
-    if (status || !j->plan->planes) /* light that is marched alone follows its rays itself */
+    if (status || !j->plan->planes) /* if all light is marched, the march traces its own rays */
         return status;
     if (part->list->between)
         return kd_frame_between(j, part);
@@ -164,7 +164,7 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_p
     return trace_and_settle(j, part);
 }
 
-/* A pixel's light is written anew, for the picture or a layer of light. */
+/* Computes the pixels' light anew, for the picture or a layer of light. */
 static enum kd_status transfer_part(struct kd_frame_job *j, struct kd_frame_part *part, int makes, double ns)
 {
     enum kd_status status = KD_OK;

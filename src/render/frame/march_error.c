@@ -1,5 +1,5 @@
-/* Measures how far off the light of volumes is: the first ray of each pixel of a lattice is followed once more
- * as the picture has it, and KD_MARCH_FINER times as closely, by the same kernel into a buffer of its own. */
+/* Measures the error of light from volumes: the first ray of each pixel of a lattice is followed again as in the
+ * picture, and KD_MARCH_FINER times as finely, by the same kernel into a separate buffer. */
 #include "render/frame/lens.h"
 
 #include <math.h>
@@ -7,17 +7,17 @@
 
 static uint32_t pixels_of(const struct kd_march_sample *s) { return s->columns * s->rows; }
 
-/* Rows of the lattice that lie above a row of the picture. */
+/* Rows of the lattice above a row of the picture. */
 static uint32_t above(const struct kd_march_sample *s, uint32_t row)
 {
     const uint32_t n = row > s->first[1] ? (row - s->first[1] + s->every[1] - 1) / s->every[1] : 0;
     return n < s->rows ? n : s->rows;
 }
 
-/* Lights the pixels of a band from number `to` of the buffer on, and submits it. */
+/* Lights the sample's pixels of a band, to the buffer from index `to` on, and submits. */
 static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct kd_march *march, uint32_t to)
 {
-    static const struct kd_critical_lattice on_grid; /* none */
+    static const struct kd_critical_lattice on_grid; /* all 0: the grid */
     const struct kd_plan *p = j->plan;
     const struct kd_march_sample *s = &p->march.sample;
     const uint32_t first = kd_frame_band_first(j, band), from = above(s, first),
@@ -80,11 +80,11 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Light that is a number, of a ray that was not given up, whose is -1. */
+/* Whether light is finite and the ray was not given up, which is marked by -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
-/* Relative differences of n rays' light, where there is any, in order; how many: rays that meet no volume have none.
- * Rays without a right one are off by 1. */
+/* Relative differences of the light of n rays, sorted; returns their number: rays that meet no volume have none. A
+ * ray without valid light counts as 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;

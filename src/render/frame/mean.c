@@ -1,4 +1,4 @@
-/* The light of a picture becomes its mean with that of others, before anything is made of it. */
+/* Replaces the light of a picture by its mean with that of others, before any later pass. */
 #include "render/frame/job.h"
 
 #include <string.h>

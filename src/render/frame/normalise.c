@@ -7,19 +7,20 @@
 #include <math.h>
 #include <string.h>
 
-enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels of a side, pictures */
-#define NEAR 1e-3    /* of the flux: what pictures of 48 pixels are closer to those of 128 than */
-#define HELD 5e-5    /* and what is left; a flux is a sum of floats, good to 1e-6 */
-#define THIN 2.0     /* light goes as the density times the field, which goes as its root or more */
-#define LONGEST 6.9  /* a factor of a thousand at once */
-#define MARGIN 0.05  /* of a bracket: a guess nearer to its ends is none */
-#define DENSEST 1e30 /* as the fields' range */
+enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels of a side; largest number of pictures */
+#define NEAR 1e-3 /* relative to the flux: pictures of 48 pixels agree with those of 128 better than this */
+#define HELD 5e-5 /* remaining error; a flux is a sum of floats, accurate to 1e-6 */
+/* initial slope: light is proportional to density times field, and the field to at least the density's square root */
+#define THIN 2.0
+#define LONGEST 6.9  /* largest step of ln scale: a factor of a thousand */
+#define MARGIN 0.05  /* fraction of a bracket: estimates nearer to its ends are replaced */
+#define DENSEST 1e30 /* the range of the fields */
 
 struct search {
     struct kd_renderer *r;
-    struct kd_scene scene; /* what is rendered, but for its density and its size */
+    struct kd_scene scene; /* the rendered scene, without density and size */
     double target, most;   /* Jy; ln of the largest scale */
-    double slope;          /* of ln flux by ln scale, as it was last */
+    double slope;          /* d ln flux / d ln scale, from the last pictures */
     kd_progress_fn progress;
     void *user;
     struct kd_error *error;
@@ -33,7 +34,7 @@ static double *density_of(struct kd_scene *scene)
                                         : &v->density_cm3;
 }
 
-/* The picture by which the flux is measured. */
+/* The picture that measures the flux. */
 static enum kd_status plan_of(const struct search *s, int side, double log_scale, struct kd_scene *scene,
                               struct kd_plan *plan)
 {
@@ -71,8 +72,8 @@ static enum kd_status refuse(const struct search *s, const char *why, double jy)
                           s->target, why, jy);
 }
 
-/* The next guess: by the line through the ends of a bracket, or by the slope; in the middle where that is next to an
- * end. */
+/* The next estimate: by the secant through the ends of a bracket, or by the slope; the middle if that is too near to
+ * an end. */
 static double guess(const struct search *s, double x, double y, const double at[2], const double off[2])
 {
     if (!isfinite(at[0]) || !isfinite(at[1]))
@@ -81,8 +82,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, ln of the scale, from where it is. Regula falsi in ln flux by ln scale, the end that stays being
- * believed half as much each time (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, ln of the scale, starting from its value. Regula falsi in ln flux over ln scale; the value at a retained
+ * end is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
@@ -112,7 +113,7 @@ done:
     return status;
 }
 
-/* A device that computes nothing sees no light: of each size it renders one picture. */
+/* A device that computes nothing gives no light: one picture of each size is rendered, to compile its kernels. */
 static enum kd_status rehearse(struct search *s, double *scale)
 {
     double none;
@@ -137,7 +138,7 @@ done:
     return status;
 }
 
-/* All that the flux depends on, and nothing else. */
+/* Only what the flux depends on. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *plan)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
@@ -158,7 +159,7 @@ static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan *
     return bare;
 }
 
-/* By all of it, by the shape of the picture and by the flux. */
+/* Hash keys of it, of the picture's shape and of the flux. */
 static enum kd_status keys_of(const struct search *s, struct kd_normal *out)
 {
     struct kd_scene key = s->scene, plain;
@@ -177,7 +178,7 @@ done:
     return status ? kd_error_set(s->error, status, "out of memory while hashing the scene") : KD_OK;
 }
 
-/* The latest that was found for this scene, or where it is held for this matter; 0: there is none. */
+/* The latest scale found for this scene or, if `held`, for this matter; 0 if there is none. */
 static double known(const struct kd_normalised *kept, const struct kd_normal *wanted, bool held)
 {
     const uint32_t n = kept->n < KD_NORMALISED ? kept->n : KD_NORMALISED;

@@ -1,5 +1,5 @@
-/* Pictures that are made of parts, one render after the other (render/plan/parts.c): a pair of eyes, a tile with its
- * margin, strips. Render thread only. */
+/* Pictures made of parts, one render after the other (render/plan/parts.c): a pair of eyes, a tile with its margin,
+ * strips. Render thread only. */
 #ifndef KD_RENDER_FRAME_PARTS_H
 #define KD_RENDER_FRAME_PARTS_H
 
@@ -10,26 +10,26 @@ struct kd_parted {
     struct kd_renderer *renderer;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    bool aside; /* as kd_render_aside; nothing can be seen of it before it is done */
+    bool aside; /* as kd_render_aside; there are no previews */
     kd_progress_fn progress;
     void *user;
 };
 
-/* Says whether a plan is of parts, and renders it: *out is the whole picture. Of a pair the left eye's picture is on
- * the left, and both have the exposure of that one. */
+/* Whether a plan consists of parts; renders it into *out, the whole picture. In a pair the left eye's picture is on
+ * the left, and both have its exposure. */
 static inline bool kd_plan_is_parted(const struct kd_plan *plan)
 {
     return plan->eyes == 2 || plan->cut.width || plan->strips;
 }
 enum kd_status kd_frame_parted(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);
 
-/* Renders one part, by a plan for it. */
+/* Renders one part, by its own plan. */
 enum kd_status kd_frame_render_part(const struct kd_parted *parted, const struct kd_scene *scene,
                                     const struct kd_plan *plan, kd_progress_fn progress, void *user,
                                     struct kd_frame *out, struct kd_error *error);
 
-/* Adds to what a part tells of itself, its times, its accuracy, whether its lens map was there, what another one
- * tells: counts of both, and of errors the larger one. */
+/* Merges the report of another part (times, accuracy, whether its lens map was cached) into that of a part: counts
+ * are added, and the larger error is kept. */
 void kd_frame_tell_both(struct kd_frame *to, const struct kd_frame *from);
 
 enum kd_status kd_frame_pair(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);

@@ -1,18 +1,17 @@
-/* This pass adds up the light of a picture: flux and centroid (render/plan/photometry.h). */
+/* The light pass: sums the light of a picture to flux and centroid (render/plan/photometry.h). */
 #include "render/frame/job.h"
 
 #include "render/view/camera.h"
 
 #include <math.h>
 
-/* Sums of the light of all bands, on their way to the host. */
+/* Sums the light of all bands and copies the sums to the host. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
-    const uint64_t sums =
-        kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
+    const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band, because the whole may exceed a binding */
     const struct kd_spec_photometry spec = {
         .APART = p->apart, .FINITE = finite, .STOKES = p->stokes_words > 0, .STOKES_APART = kd_plan_stokes_apart(p)
     };
@@ -37,7 +36,7 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             light,
             { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } },
             &push,
-            { per_band }, /* of the last, smaller band too: they write zeros */
+            { per_band }, /* for the last, smaller band too: surplus groups write zeros */
         };
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }

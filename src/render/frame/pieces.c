@@ -1,9 +1,9 @@
-/* Follows rays through volumes to their end that a driver's limit on loops has ended before: the march lists
- * them, and they go on in pieces, a dispatch each. */
+/* Completes rays through volumes that were stopped by a driver's limit on loops: the march lists them, and they
+ * continue in pieces, one dispatch each. */
 #include "render/frame/compilation.h"
 #include "render/frame/lens.h"
 
-/* The words behind the light that count rays, by where they stand from the end. */
+/* Reads the counters of rays, at their places before the end of the light's buffer. */
 static enum kd_status read_counts(struct kd_frame_job *j, const struct kd_vk_dispatch *base,
                                   uint32_t counts[KD_LOST_WAITING])
 {
@@ -28,7 +28,7 @@ static enum kd_status forget(struct kd_frame_job *j, const struct kd_vk_dispatch
                       j->error);
 }
 
-/* Follows those of number push->ray among some listed rays, piece by piece, until none waits. */
+/* Continues the ray number push->ray of each listed pixel, piece by piece, until none is left. */
 static enum kd_status follow(struct kd_frame_job *j, struct kd_vk_dispatch *d, struct kd_slice *push,
                              const struct kd_critical_lattice *l)
 {

@@ -1,4 +1,4 @@
-/* This pass makes pixels of light, and brings them to the host. */
+/* The post pass: converts light to pixels, and copies them to the host. */
 #include "render/frame/job.h"
 
 #include "image/legend.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The table of style.palette, which the host keeps. */
+/* Uploads the table of style.palette from the host. */
 static enum kd_status make_palette(struct kd_frame_job *j)
 {
     struct kd_map_table *table = malloc(sizeof *table);
@@ -29,7 +29,7 @@ static enum kd_status make_palette(struct kd_frame_job *j)
     return status;
 }
 
-/* How bright what is shown is, and how large on the sky. */
+/* Draws scales for brightness and for size on the sky. */
 static void draw_scales(struct kd_frame_job *j)
 {
     const struct kd_frame *frame = j->frame;
@@ -43,8 +43,8 @@ static void draw_scales(struct kd_frame_job *j)
         kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
 }
 
-/* What is made of light: pixels of so many bits, dithered or not, with what a lens spreads or without. bare: of what
- * is lit, without a beam and a palette; else they are those that were asked for. */
+/* How light is converted: pixels of 8 or 16 bits, with or without dither and bloom. bare: the completed light
+ * without beam and palette; otherwise as requested. */
 struct look {
     bool wide, dither, bare;
     const struct kd_bloom *bloom;
@@ -73,8 +73,8 @@ static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look,
     return kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, out, j->error);
 }
 
-/* Counts of a band, which are read back with its pixels (KD_POST_COUNTS). The light's own buffer has the rays that
- * were given up, whatever a beam makes of it. */
+/* Copies the counts of a band after its pixels (KD_POST_COUNTS). Rays that were given up are counted in the buffer
+ * of light before the beam. */
 static enum kd_status count(struct kd_frame_job *j, uint32_t band, uint64_t at)
 {
     struct kd_vk_buffer *light = j->store->radiance.buffers[band];
@@ -92,7 +92,7 @@ static uint64_t counted(const struct kd_store *s, uint64_t at)
     return (uint64_t)two[0] + two[1];
 }
 
-/* Post and read back what is lit, one band at a time. */
+/* Posts and reads back completed light, one band at a time. */
 static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
 {
     struct kd_frame *frame = j->frame;

@@ -1,22 +1,20 @@
-/* Follows more rays where one was not enough, in rounds.
+/* Refinement: traces more rays, in rounds, where one ray a pixel is not enough.
  *
- * One ray a pixel is off by up to half of what changes across it. Where the picture is straight from pixel to pixel,
- * a ray in the middle of each is right whatever the slope: what counts is the second difference of what is shown.
- * Pixels where that is large come first; in the next rounds those beside pixels that came out otherwise than one ray
- * had it, until there are none: a line or a rim that one ray in each pixel met here and there is so followed to its
- * end.
+ * One ray a pixel has an error of up to half of the change across it. Where the picture is linear from pixel to pixel,
+ * a ray in the middle of each is exact whatever the slope, so the criterion is the second difference of displayed
+ * values. Pixels where it is large are refined first; in later rounds the neighbours of pixels that changed, until
+ * there are none. A line or a rim that one ray a pixel hit only here and there is thus followed to its end.
  *
- * A pixel that is chosen has a square grid of rays. Where the lens map is smooth around it they are taken from
- * between the rays that there are, and no light is followed; at edges of orders and fates they are traced, in no
- * more than a quarter of the rays that 16 in every pixel would be. At the critical curve pixels have more rays
- * already (view/critical_pixels.h). */
+ * A chosen pixel has a square grid of rays. Where the lens map is smooth around it, they are interpolated from
+ * existing rays; at edges of orders and fates they are traced, in total at most a quarter of the rays that 16 in
+ * every pixel would need. Pixels at the critical curve have more rays already (view/critical_pixels.h). */
 #include "render/frame/choose.h"
 #include "render/frame/lens.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The picture as it is shown, and as it was a round ago. */
+/* The displayed picture now, and a round ago. */
 struct work { uint16_t *now, *before; };
 
 static void finish(struct work *w)
@@ -41,8 +39,8 @@ static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, 
         j->kinds[list->pixels[i].y * (size_t)j->plan->width + list->pixels[i].x] = kind;
 }
 
-/* The pixels of a round by where their rays come from, row by row: those that have more already, at the critical
- * curve; those that are followed; those whose rays lie between others. */
+/* The pixels of a round by the source of their rays, row by row: those at the critical curve, which have more rays
+ * already; traced ones; interpolated ones. */
 enum { AT_CURVE, FOLLOWED, BETWEEN, WAYS };
 static const uint8_t kind_of[WAYS] = { KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN };
 struct ways { struct kd_choice of[WAYS]; };
@@ -74,7 +72,7 @@ static enum kd_status light(struct kd_frame_job *j, int way, const struct kd_cri
     return kd_frame_light_list(j, &list, true);
 }
 
-/* marks: of which pixels of the choice the rays lie between others. */
+/* marks: for which chosen pixels interpolation is accurate. */
 static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, const uint8_t *marks, struct ways *to)
 {
     enum kd_status status = KD_OK;
@@ -86,8 +84,8 @@ static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, co
     return status;
 }
 
-/* Give the chosen pixels their rays. *left: how many more may be followed; where they do not suffice, half are for
- * the critical curve. */
+/* Gives the chosen pixels their rays. *left: rays that may still be traced; if they are not enough, half are for the
+ * critical curve. */
 static enum kd_status one_round(struct kd_frame_job *j, const struct kd_choice *c, struct ways *by, uint64_t *left)
 {
     uint8_t *marks = malloc(c->list.n);
@@ -143,7 +141,7 @@ done:
     return status;
 }
 
-/* On a device that computes nothing no pixel would be chosen: one has its rays in each way. */
+/* A device that computes nothing would choose no pixel: one pixel is refined by each way, to compile their kernels. */
 static enum kd_status rehearse(struct kd_frame_job *j)
 {
     struct kd_pixel pixel = { 0, 0 };

@@ -1,4 +1,4 @@
-/* This is told of a picture on its way: how far it is, how it looks so far, and how long its passes took. */
+/* Reports on a picture in progress: how far it is, previews, and the times of its passes. */
 #include "render/frame/compilation.h"
 #include "render/frame/job.h"
 
@@ -22,7 +22,7 @@ done:
     return status;
 }
 
-/* The device's times since the last reset, added to the picture's own. */
+/* Adds the device's times since the last reset to the picture's own. */
 static void keep_times(struct kd_frame_job *j)
 {
     struct kd_vk_time now[KD_VK_MAX_PASSES];
@@ -39,11 +39,11 @@ static void keep_times(struct kd_frame_job *j)
     }
 }
 
-/* Has others told, who may have the device meanwhile where the picture is rendered aside. */
+/* Calls back; if the picture is rendered aside, others may use the device meanwhile. */
 static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
                            bool *go_on)
 {
-    if (j->aside) { /* who comes next need not wait, or measure, what is under way here */
+    if (j->aside) { /* others then need not wait for this picture's work, nor measure it */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
@@ -62,7 +62,7 @@ static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j
 
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *j, kd_kernels_ask_fn ask, const void *user)
 {
-    enum { TRIES = 4 }; /* others' kernels may take the place of these meanwhile; at last they are made here */
+    enum { TRIES = 4 }; /* others' kernels may evict these meanwhile; after the last try they are made here */
     struct kd_compilation *c;
     enum kd_status status;
     bool go_on = true;
@@ -85,7 +85,7 @@ static bool tell_progress(struct kd_frame_job *j, void *what)
 enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 {
     bool go_on;
-    j->done += j->looking ? 0 : rows; /* none of the picture's own */
+    j->done += j->looking ? 0 : rows; /* a preview's rows do not count */
     const enum kd_status status = away(j, tell_progress, NULL, &go_on);
     if (status)
         return status;

@@ -1,8 +1,8 @@
-/* Measures how far off the pixels of a picture are, on a sample of them against the picture in which each has
- * 64 rays. The last pass of all: the light of the sample is that of those rays afterwards.
+/* Measures the remaining error of a picture's pixels, on a sample compared with 64 rays each. It is the last pass,
+ * because it overwrites the light of the sample.
  *
- * Kinds of pixels are sampled alike, however few they are, and each counts by its number. At the critical curve more
- * rays than 64 are followed in that picture too: those that have them count as right. */
+ * All kinds of pixels have the same sample size, however few they are, and are weighted by their number. At the
+ * critical curve the reference may have more than 64 rays; pixels that have as many count as exact. */
 #include "render/frame/residual.h"
 
 #include "render/frame/lens.h"
@@ -13,8 +13,7 @@
 enum { AT_CURVE, ELSEWHERE, PLACES };
 enum { OF_EACH = KD_PLAN_SAMPLED_OF_EACH, KINDS = KD_REFINED_KINDS };
 
-/* The pixels of the sample at the critical curve or elsewhere, row by row, and how many of the picture each stands
- * for. */
+/* Sampled pixels at the critical curve or elsewhere, row by row, and the number of pixels that each represents. */
 struct sample {
     struct kd_pixel pixels[KINDS * OF_EACH];
     double weights[KINDS * OF_EACH];
@@ -54,7 +53,7 @@ static void neutral(double c[3])
         c[i] = (1 - white) * c[i] * shown / peak + white * shown;
 }
 
-/* post.comp in double precision; sources are there. */
+/* post.comp in double precision, which cites the sources. */
 void kd_frame_shown(const float light[3], double gain, int32_t tone_map, double out[3])
 {
     double c[3] = { gain * light[0], gain * light[1], gain * light[2] };
@@ -74,7 +73,7 @@ static int by_size(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Which of n things to take, in order: places of a lattice by the golden section, which no grid agrees with. */
+/* Chooses from n things, in order: places of a lattice with the golden ratio, which coincides with no regular grid. */
 static size_t chosen(uint64_t n, uint64_t at[OF_EACH])
 {
     const size_t k = n < OF_EACH ? (size_t)n : OF_EACH;
@@ -107,7 +106,7 @@ static void draw(const struct kd_frame_job *j, struct sample of_place[PLACES])
     }
 }
 
-/* The light of the sample to the host. */
+/* Copies the light of the sample to the host. */
 static enum kd_status read_sample(struct kd_frame_job *j, const struct sample *s, struct kd_vk_buffer *host)
 {
     enum kd_status status = KD_OK;
@@ -142,7 +141,7 @@ static enum kd_status light_sample(struct kd_frame_job *j, const struct sample *
     return kd_frame_light_list(j, &truth, true);
 }
 
-/* Adds up squares of differences by their weights. */
+/* Weighted sum of squared differences. */
 static double compare(const struct kd_frame_job *j, const struct sample *s, const float *had, const float *truth,
                       double *worst)
 {

@@ -1,5 +1,4 @@
-/* Uploads the rim of the shadow, for the star search there (view/rim.h): where its rays come from, and tables of its
- * layout. */
+/* Uploads the rim of the shadow for the star search (view/rim.h): directions of its rays, and tables of its layout. */
 #include "render/frame/job.h"
 
 #include "render/view/rim_sky.h"

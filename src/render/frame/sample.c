@@ -21,7 +21,7 @@ static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const str
                           &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* What of smooth cells is filled: crossings, and where rays end. */
+/* Whether smooth cells are filled with crossings, or with the ends of rays. */
 static bool fills(const struct kd_plan *plan, bool of_sky)
 {
     return of_sky ? kd_plan_holds(plan, KD_LENS_SKY) : plan->orders > 0;
@@ -37,7 +37,7 @@ enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
     return status;
 }
 
-/* One way through some rows. */
+/* One pass over some rows. */
 struct run {
     struct kd_frame_job *j;
     struct kd_vk_buffer *lens; /* of the band */
@@ -64,7 +64,7 @@ done:
     return status;
 }
 
-/* Nothing is counted, and no place is a node. */
+/* Resets all counts, and marks all places as having no node. */
 static enum kd_status clear(struct run *run)
 {
     struct kd_frame_job *j = run->j;
@@ -137,10 +137,11 @@ static enum kd_status fill(struct run *run, bool of_sky)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* A driver that compiles a kernel as it is first dispatched has each submission's deadline for one kernel. */
+/* Submits at once: a driver that compiles kernels at their first dispatch then has each submission's deadline for
+ * one kernel. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
-/* What rays have that cross nothing and are captured: kernels write what is otherwise. */
+/* Fills in rays that cross nothing and are captured; kernels overwrite the others. */
 static enum kd_status fill_nothing(struct run *run)
 {
     const struct kd_plan *p = run->j->plan;

@@ -1,6 +1,6 @@
-/* Settles rays that the kernels leave open: whose end, or number of crossings, single precision cannot tell.
- * They are few, are followed again in closed form, in double on the host, and take their places in the lens map
- * before anything reads it. */
+/* Settles rays that the kernels leave open because single precision cannot determine their end or number of
+ * crossings. There are few; they are traced again in closed form, in double on the host, and written into the lens
+ * map before anything reads it. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
@@ -9,15 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rays that were left open in a band of the grid, or in a part of a list. */
+/* Rays left open in a band of the grid, or in a part of a list. */
 struct open_rays {
     struct kd_vk_buffer *lens;
     uint32_t n, stride;
-    uint32_t *places; /* in a plane of the map */
+    uint32_t *places; /* indices in a plane of the map */
     struct kd_camera_label *labels;
 };
 
-enum { READ_AT_ONCE = 255 }; /* places; most maps have fewer */
+enum { READ_AT_ONCE = 255 }; /* indices; most maps have fewer */
 
 static const char *pass_of(const struct kd_frame_part *part)
 {
@@ -35,7 +35,7 @@ static uint32_t places_of(const struct kd_frame_job *j)
     return (uint32_t)(kd_vk_buffer_size(j->store->undecided) / 4 - 1);
 }
 
-/* Reads the list of open rays: its counter, and the first places, of which most maps need no more. */
+/* Reads the list of open rays: first its counter and the first indices, which are enough for most maps. */
 static enum kd_status read_list(struct kd_frame_job *j, uint32_t places)
 {
     enum kd_status status;
@@ -47,7 +47,7 @@ done:
     return status;
 }
 
-/* Follows them, and sends them to their places. words: those places, before the planes. */
+/* Traces them, and uploads the results to their places. words: the indices, before the planes. */
 static enum kd_status follow(struct kd_frame_job *j, const struct open_rays *open, const char *pass,
                              struct kd_vk_buffer *host, struct kd_vk_buffer *device)
 {
@@ -75,7 +75,7 @@ static enum kd_status send(struct kd_frame_job *j, const struct open_rays *open,
     KD_TRY(kd_vk_buffer_create(j->r->vk, bytes, KD_VK_UPLOAD, "rays that were settled", &host, j->error));
     KD_TRY(
         kd_vk_buffer_create(j->r->vk, bytes, KD_VK_DEVICE, "rays that were settled, on the device", &device, j->error));
-    memset(kd_vk_buffer_map(host), 0, bytes); /* footprints, which are made anew */
+    memset(kd_vk_buffer_map(host), 0, bytes); /* footprints are made later */
     KD_TRY(follow(j, open, pass, host, device));
 done:
     kd_vk_buffer_destroy(j->r->vk, host);
@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* The labels of those whose places are known. */
+/* Computes the labels of the rays at these indices. */
 static void label(const struct kd_frame_job *j, struct open_rays *open, const struct kd_frame_part *part, uint32_t band)
 {
     const struct kd_critical_lattice *l = part ? &part->list->lattice : NULL;
@@ -99,7 +99,7 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     }
 }
 
-/* found: open rays, of which as many are listed as the list has places. */
+/* found: number of open rays; those beyond the list's capacity are not listed. */
 static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;

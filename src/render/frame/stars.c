@@ -1,4 +1,5 @@
-/* This pass finds points of light: from a band's lens map it makes light over its pixels, before they are lit. */
+/* The stars pass: finds points of light through a band's lens map, and spreads them over its pixels before these are
+ * lit. */
 #include "render/frame/job.h"
 
 #include "base/cores.h"
@@ -8,25 +9,25 @@
 #include <math.h>
 #include <string.h>
 
-#define LIST_GROUPS 128 /* of kernels whose invocations share a list out; an H200 is no faster with 8192 */
-/* Likewise, for each core where cores are the device: there a group that finds the list done costs 15 us all the same,
- * and a rim has some grids. */
+#define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; an H200 is no faster with 8192 */
+/* The same for each core if the device is a CPU: there a group costs 15 us even if the list is done, and a rim has
+ * several grids. */
 #define LIST_GROUPS_CORE 4
-#define RIM_TILE 3 /* rays along a side of a small tile, and of those of the rim */
+#define RIM_TILE 3 /* rays along a side of a small tile, and of tiles of the rim */
 #define SPILL 2u   /* rows of pixels that an image may reach into the next band */
 
-/* Stars are sought on this: rays of a lens map, a few rows of them, or those of a grid of the rim. */
+/* Rays among which stars are searched: some rows of a lens map, or a grid of the rim. */
 struct part {
     struct kd_vk_buffer *lens;
-    const struct kd_rim_grid *rim; /* of the rim, if it is that and not rays of the picture */
+    const struct kd_rim_grid *rim; /* for a grid of the rim; NULL for rays of the picture */
     struct kd_stars_push push;
     struct kd_vk_buffer *light;
 };
 
-/* What a kernel goes through: rays of a picture that has no rim, or of one that has, or the rim. */
+/* What a kernel processes: rays of a picture without a rim, of one with a rim, or the rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-/* Bright images are sought without. */
+/* A search for bright images only leaves the rim out. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
@@ -51,13 +52,13 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* In software that takes a third of the time. */
+/* Reading texels takes a third of the time in software. */
 static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 {
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
 }
 
-/* How many stars there are is not known yet: as many as the catalogue has, or fewer. */
+/* The number of stars is not known yet; at most the catalogue's is assumed. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);
@@ -91,7 +92,7 @@ static struct kd_vk_binding camera(const struct kd_frame_job *j)
                                     false };
 }
 
-/* Something must be bound where there is none. */
+/* The binding needs some buffer even if there is no rim. */
 static struct kd_vk_binding rim(const struct kd_frame_job *j)
 {
     return (struct kd_vk_binding) { has_rim(j) ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
@@ -99,15 +100,15 @@ static struct kd_vk_binding rim(const struct kd_frame_job *j)
 
 static uint32_t along(uint32_t rays, uint32_t tile) { return (rays + tile - 1) / tile; }
 
-/* Where a part's rays come from. */
+/* Directions of a part's rays. */
 static struct kd_vk_binding lens_of(const struct part *part)
 {
     return (struct kd_vk_binding) { part->lens, part->rim ? 4ull * part->rim->first : 0,
                                     part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
 }
 
-/* Pairs of rays and stars: of large tiles, then of small ones and of rays that are listed; on the rim of small tiles
- * and of rays. */
+/* Makes pairs of rays and stars: for large tiles, then for small ones and listed rays; on the rim for small tiles
+ * and rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
@@ -151,7 +152,7 @@ done:
     return status;
 }
 
-/* The stars that the rays of a part see. */
+/* Finds the stars that the rays of a part see. */
 static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
@@ -188,7 +189,7 @@ done:
     return status;
 }
 
-/* What the kernels are told of the rim; of the rays at hand nothing yet. */
+/* Push constants for the rim; those for a part's rays are not set. */
 static struct kd_stars_push push_of(const struct kd_frame_job *j)
 {
     const struct kd_rim *r = &j->lens->rim;
@@ -212,8 +213,8 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     };
 }
 
-/* Images have places in the picture, whatever tile of it this is, so that they come out the same: this leads from
- * there to the light of a band. */
+/* Images have places in the whole picture, so that tiles are identical to it; this converts from there to the light
+ * of a band. */
 static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_window window = kd_scene_window(j->scene);
@@ -222,7 +223,7 @@ static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, 
     push->aside = 0u - window.left;
 }
 
-/* Rows of pixels of a band, first to end of it, to the light of another or of the same. */
+/* Processes rows `first` to `end` of one band; their light goes to this or another band. */
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
@@ -238,7 +239,7 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
     part.push.column0 = window.left * p->side;
     set_light(&part.push, j, to);
     uint32_t step = KD_PLAN_STAR_RAYS / width;
-    step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* in whole tiles */
+    step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* a multiple of the tile */
     enum kd_status status = KD_OK;
     for (uint32_t row = first * p->side; row < end * p->side && !status; row += step) {
         part.push.first = row;
@@ -265,11 +266,11 @@ static enum kd_status grid_of(struct kd_frame_job *j, const struct kd_rim_grid *
     return stars_of(j, &part);
 }
 
-/* Images next to the critical curve, to the light of a band. */
+/* Adds images next to the critical curve to the light of a band. */
 static enum kd_status rim_of(struct kd_frame_job *j, uint32_t to)
 {
     const struct kd_rim_grids *grids = &j->lens->rim_grids;
-    uint32_t rays = 0; /* that were not submitted yet */
+    uint32_t rays = 0; /* recorded but not submitted */
     enum kd_status status = KD_OK;
     for (uint32_t i = 0; has_rim(j) && i < grids->n; i++) {
         KD_TRY(grid_of(j, &grids->of[i], to));
@@ -305,16 +306,16 @@ done:
     return status;
 }
 
-/* What the light of stars is made of now, before others have the device and tell the renderer of another sky. */
+/* Key of the present light of stars, made before others use the device and may change the renderer's sky. */
 static struct kd_star_key key_of(const struct kd_frame_job *j)
 {
     struct kd_star_key key;
-    memset(&key, 0, sizeof key); /* it is compared byte by byte */
+    memset(&key, 0, sizeof key); /* keys are compared byte by byte */
     memcpy(key.lens, j->plan->lens_key, sizeof key.lens);
     key.bright = j->plan->bright;
     key.visible = j->scene->disk.band == KD_BAND_VISIBLE;
     key.sky = j->scene->sky;
-    key.block = j->r->emit->data.emission.sky; /* which way it is turned */
+    key.block = j->r->emit->data.emission.sky; /* includes the sky's orientation */
     return key;
 }
 

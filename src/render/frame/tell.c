@@ -1,4 +1,4 @@
-/* This part of a frame tells the light of one pixel, ray by ray. */
+/* Describes the light of one pixel, ray by ray. */
 #include "physics/spacetime/kerr.h"
 #include "render/frame/lens.h"
 #include "render/frame/tell.h"
@@ -12,7 +12,7 @@
 
 enum {
     RECORDS = 8192
-}; /* some 360 kB: a march makes two for each part of each step, 6144 at most, and emitters theirs */
+}; /* about 360 kB: a march makes two for each part of each step, at most 6144, and emitters add theirs */
 struct record { float of, a[4], b[4], c[2]; };
 #define SIZE (sizeof(float) + (KD_TELL_SUMS + RECORDS) * sizeof(struct record))
 _Static_assert(sizeof(struct record) == KD_TELL_RECORD * sizeof(float), "the record of interface.h");
@@ -58,7 +58,7 @@ static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind
     };
 }
 
-/* Makes room: two neighbours before the same crossing become one. */
+/* Makes room by joining two adjacent stretches before the same crossing. */
 static void join(struct kd_told_ray *told)
 {
     struct kd_told_stretch *s = told->stretches;
@@ -147,20 +147,20 @@ static void take(struct kd_told_ray *told, const struct record *r)
         memcpy(told->light, r->a, sizeof told->light);
 }
 
-/* Where rays are, and what reads them. */
+/* Where the rays are, and what reads them. */
 struct source {
     const struct kd_critical_lattice *lattice; /* all 0: the grid */
     struct kd_vk_buffer *lens, *records;
     uint32_t band;
     int camera;
-    struct kd_slice push; /* but for the ray */
+    struct kd_slice push; /* without the ray's number */
 };
 
 static enum kd_status follow(struct kd_frame_job *j, const struct source *s, struct kd_told_ray *out)
 {
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
-    if (!j->plan->planes && !j->plan->march.steps) /* nothing shines anywhere */
+    if (!j->plan->planes && !j->plan->march.steps) /* nothing emits light */
         return KD_OK;
     KD_TRY(kd_frame_light_kernel(j, s->lattice, KD_MAKES_TOLD, &pipeline));
     struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, s->lens, s->band, s->camera, KD_MAKES_PICTURE);
@@ -179,7 +179,7 @@ done:
     return status;
 }
 
-/* Tells that the pixel has so many rays, of none of which anything is known yet. */
+/* Allocates `rays` rays of the pixel, still empty. */
 static enum kd_status make_room(struct kd_frame_job *j, uint32_t rays)
 {
     struct kd_told *told = j->frame->told;
@@ -196,7 +196,7 @@ static struct kd_told_ray ray_at(uint32_t steps_a_pixel, uint32_t x, uint32_t y)
     return (struct kd_told_ray) { .through = 1, .steps_a_pixel = steps_a_pixel, .x = x, .y = y };
 }
 
-/* Those of the square grid. */
+/* Describes the rays of the square grid. */
 static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
 {
     struct kd_told *told = j->frame->told;
@@ -215,7 +215,7 @@ static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
 
 enum kd_status kd_frame_tell(struct kd_frame_job *j, uint32_t band)
 {
-    static const struct kd_critical_lattice on_grid; /* none */
+    static const struct kd_critical_lattice on_grid; /* all 0: the grid */
     const struct kd_plan *p = j->plan;
     const uint32_t first = kd_frame_band_first(j, band);
     if (!p->told.on || p->told.y < first || p->told.y >= first + kd_frame_band_rows(j, band))
@@ -243,7 +243,7 @@ done:
     return status;
 }
 
-/* Its place in the list, or past its end. */
+/* Index of the pixel in the list, or the list's end. */
 static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_told *told)
 {
     uint64_t i = 0;
@@ -307,7 +307,7 @@ enum kd_status kd_frame_tell_ask(struct kd_frame_job *j)
     return j->plan->told.steps ? kd_rays_steps_ask(j->r, &params) : KD_OK;
 }
 
-/* The engine's own steps along the middle ray, whose labels lists of rays have. */
+/* Records the engine's steps along the middle ray, from its labels. */
 static enum kd_status tell_steps(struct kd_frame_job *j)
 {
     struct kd_told *told = j->frame->told;
@@ -336,7 +336,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     kd_rays_steps_finish(told->steps);
     free(told->steps);
     told->steps = NULL;
-    if (status == KD_EINVAL) /* labels that rounding has put beyond those that light can have */
+    if (status == KD_EINVAL) /* rounding moved the labels outside the range that light can have */
         return say_no_steps(told, error.message);
     if (j->error)
         *j->error = error;

@@ -1,12 +1,12 @@
-/* Renders a tile of a picture, with a margin that is cut off again, and a picture that does not fit in strips
- * of itself (render/plan/tile.h). */
+/* Renders a tile of a picture with a margin that is cropped, or a picture that does not fit in strips of itself
+ * (render/plan/tile.h). */
 #include "render/frame/parts.h"
 
 #include "render/plan/tile.h"
 
 #include <string.h>
 
-/* The rows that are kept move to the front, each before the next is overwritten. */
+/* Moves the kept rows to the front, each before it is overwritten. */
 static void cut_layer(const struct kd_layer *layer, uint32_t width, const struct kd_window *cut)
 {
     const size_t pixel = kd_layer_pixel_bytes(layer), row = cut->width * pixel;
@@ -34,7 +34,7 @@ enum kd_status kd_frame_tile(const struct kd_parted *p, struct kd_frame *out, st
 
 struct share {
     const struct kd_parted *of;
-    double done, part; /* of the whole */
+    double done, part; /* as fractions of the whole */
 };
 
 static bool go_on(void *user, double fraction)
@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-/* What the first strip tells, for all rows, and with rows of none of them. */
+/* Starts the whole frame from the first strip's report, with room for all rows and none filled. */
 static enum kd_status begin(const struct kd_frame *strip, uint32_t height, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_frame frame = *strip;
@@ -105,7 +105,7 @@ enum kd_status kd_frame_strips(const struct kd_parted *p, struct kd_frame *out, 
             KD_TRY(begin(&part, p->plan->height, &frame, error));
         put_rows(&part, rows, &frame);
         rows += part.height;
-        if (part.told) { /* one strip has it */
+        if (part.told) { /* only one strip has it */
             frame.told = part.told;
             part.told = NULL;
         }

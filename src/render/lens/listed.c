@@ -17,10 +17,10 @@
 struct work {
     const struct kd_plan *plan;
     size_t n;
-    double twist; /* of the observer's azimuth */
+    double twist; /* added to the observer's azimuth */
     double *alpha_beta, *energy;
     bool *outward;
-    bool *inwards; /* of each crossing: which way the ray goes there, traced back; NULL: the closed form tells */
+    bool *inwards; /* for each crossing whether the traced ray moves inwards; NULL: the closed form decides */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
 };
@@ -38,7 +38,7 @@ static void finish(struct work *w)
 static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n,
                            struct kd_error *error)
 {
-    uint32_t orders = plan->orders ? plan->orders : 1; /* the engines want one */
+    uint32_t orders = plan->orders ? plan->orders : 1; /* engines need at least one */
     *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
     w->energy = malloc(n * sizeof *w->energy);
@@ -75,7 +75,7 @@ enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene
     return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
 }
 
-/* Fills one plane with the radii of its rays, in turn. */
+/* Fills one plane with the radii of one order. */
 static void fill_radii(const struct work *w, uint32_t order, float *to)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -85,7 +85,7 @@ static void fill_radii(const struct work *w, uint32_t order, float *to)
     }
 }
 
-/* A ray of negative energy goes round the other way (view/camera.h). */
+/* A ray of negative energy rotates the other way (view/camera.h). */
 static void fill_azimuths(const struct work *w, uint32_t order, float *to)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -100,7 +100,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
 }
 
-/* Fills a plane with slopes: what falls needs them, and the angle at which light leaves the plane. */
+/* Fills a plane with slopes, which falling gas and emission angles need. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);
@@ -131,7 +131,7 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
-    float *of[32] = { 0 }; /* by the bit of a quantity; NULL: the map does not hold it */
+    float *of[32] = { 0 }; /* by the bit of a quantity; NULL: not in the map */
     for (uint32_t bit = 0; bit < 32; bit++)
         if (plan->quantities >> bit & 1)
             of[bit] = planes + w->n * kd_lens_plane(plan->quantities, plan->orders, 1u << bit);
@@ -239,7 +239,7 @@ done:
     return status;
 }
 
-#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside are as good as on it */
+#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside count as on it */
 enum { PLACES = 2048 };
 
 static void follow_within(struct work *w, const struct kd_scene *scene, size_t i, struct kd_null_place *places)
@@ -268,7 +268,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
         const struct kd_null_place *p = &places[k];
         const bool inwards = places[k + 1].r < p->r;
         if (p->crossing < 0 || (uint32_t)p->crossing >= orders || (inwards && p->r <= horizon))
-            continue; /* what still leaves may be within the horizon, as the kernel has it */
+            continue; /* as in the kernel, a ray on its way out may be inside the horizon */
         const double twist = p->r > horizon ? kd_kerr_twist(kd_hole(at.spin), p->r) : 0;
         w->crossings[i * orders + (uint32_t)p->crossing] =
             (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };
@@ -281,8 +281,8 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* By the steps of physics/null/null_course.h in ingoing coordinates: of an observer within the horizon, where closed
- * forms end. */
+/* By the steps of physics/null/null_course.h in ingoing coordinates, for an observer inside the horizon, where
+ * closed forms do not apply. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
     const size_t orders = w->plan->orders ? w->plan->orders : 1;

@@ -4,29 +4,34 @@
 #include <math.h>
 #include <string.h>
 
-/* These numbers were chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty
- * ten times as long. */
-static const double OVER = 1.1, FAR_OVER = 1.5,
-                    CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
+/* These constants were chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in
+ * twenty ten times as long. */
+/* OVER, FAR_OVER, CLIMB_BELOW: fractions of the budget. CLIMB_BELOW is far enough below OVER that noise does not
+ * cause a move down and up again. */
+static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8;
 static const double MORE =
-    1.1; /* a target so much larger or smaller is another: parts of a device that is shared waver a little */
-static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
-static const double COOLDOWN_MS = 1000;                   /* before a climb */
-static const double RETRY_MS = 3000;                      /* before one to what was too slow; doubled */
-static const double SETTLE_MS = 50;                       /* from a frame to the next change of a hand that saw it */
-static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;    /* a hand that pauses in a drag; two drags */
-static const double BLIND_MS = 2000;                      /* a guess; doubled */
-static const double NARROWEST = 0.25;                     /* of the asked width, whatever was asked to be kept of it */
-static const double PATIENT_AGAIN = 0.6; /* of the patience: frames as wide as was asked for are tried again */
+    1.1; /* factor by which a target must change to count as another: shares of a device fluctuate a little */
+static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: of the target, of the fixed part */
+static const double COOLDOWN_MS = 1000;                   /* least time on a rung before a climb */
+/* time before climbing again to a rung that was too slow; doubled at each failure */
+static const double RETRY_MS = 3000;
+static const double SETTLE_MS = 50;                    /* reaction time: from a frame to the user's next change */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a pause within a drag; between two drags */
+static const double BLIND_MS = 2000;                   /* initial guess; doubled each time */
+/* fraction of the requested width, whatever kd_governor_least says */
+static const double NARROWEST = 0.25;
+/* fraction of the patience below which frames of the requested width are tried again */
+static const double PATIENT_AGAIN = 0.6;
 enum {
-    MOVING_AUDIT = 4,     /* of frames that are not the last word */
-    DRAGGED_CRITICAL = 2, /* image.critical_factor of a picture that is gone when the eye has found it: 4 rays of 16 */
-    FEW = 4,              /* spikes in a row are load */
-    ENOUGH = 8,           /* two spikes among them are outside the middle half */
-    MISSES = 3,           /* a lens map may be missed once, when the rung changes */
+    MOVING_AUDIT = 4, /* for frames that will be refined */
+    /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
+    DRAGGED_CRITICAL = 2,
+    FEW = 4,    /* this many slow frames in a row are load, not a spike */
+    ENOUGH = 8, /* among this many frames two spikes are outside the middle half */
+    MISSES = 3, /* one lens map may be missing when the rung changes */
 };
 
-/* A pace forgets all that it has measured, and stays on its rung. */
+/* Resets the measurements of a pace, which stays on its rung. */
 static void begin_anew(struct kd_pace *pace)
 {
     *pace =
@@ -43,7 +48,7 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
         begin_anew(&governor->paces[i]);
 }
 
-/* What frames cost */
+/* Costs of frames */
 
 static uint32_t at_most(uint32_t n, uint32_t limit) { return n < limit ? n : limit; }
 
@@ -60,8 +65,7 @@ static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, dou
     sum->total_ms += weight * cost->total_ms;
 }
 
-/* The cheapest of the latest frames tells the cost best while there are few: a kernel that is compiled, and load,
- * only ever make one dearer. */
+/* While there are few frames the cheapest is the best estimate: compiling a kernel and load only increase the cost. */
 static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint32_t n)
 {
     const struct kd_frame_cost *least = latest(pace, 0);
@@ -71,8 +75,8 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
     return *least;
 }
 
-/* The mean is taken over the middle half of the window, by total: neither a spike nor a frame that had nothing to do
- * moves it. Where two kinds of frames take turns it lies between them, and a median would be one or the other. */
+/* Mean over the middle half of the window, sorted by total: neither a spike nor a frame that had nothing to do
+ * affects it. If two kinds of frames alternate it lies between them; a median would be one or the other. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -89,10 +93,10 @@ static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
     return mean;
 }
 
-/* This part of a frame's time may change with its size. */
+/* The part of a frame's time that may change with its size. */
 static double varying(const struct kd_frame_cost *cost) { return cost->total_ms - cost->fixed_ms; }
 
-/* A frame may take its session's share of the time from one frame to the next. */
+/* Time for a frame: the session's share of the time between frames. */
 static double target(const struct kd_governor *g)
 {
     return g->share * fmax(g->params.target_ms, fmin(g->params.target_ms / sqrt(g->share), g->params.sparse_ms));
@@ -104,7 +108,7 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* Predicts the varying time of a frame on another rung. The rest, which is in neither the rays nor the pixels,
+/* Predicts the varying time of a frame on another rung. The rest, which belongs neither to rays nor to pixels,
  * either stays or grows with the pixels. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to,
                       bool rest_stays)
@@ -113,8 +117,8 @@ static double predict(const struct kd_frame_cost *cost, const struct kd_rung *fr
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
-/* Finds the lowest rung that a pace may take. Where nothing moves, and light alone changes, one picture at full size
- * is worth more than many small ones. */
+/* The lowest rung that a pace may take. If only brightness changes, one picture of full size is worth more than many
+ * small ones. */
 static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
 {
     uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
@@ -132,20 +136,20 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
     return to;
 }
 
-/* Up and down */
+/* Moves up and down the ladder */
 
-/* The pace leaves its rung for a lower one, and remembers it if that is because other sessions began. */
+/* Remembers the rung that a pace leaves, if it leaves it because other sessions began. */
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
-        pace->held_target = 0; /* not in time any more */
+        pace->held_target = 0; /* it is no longer in time */
     } else if (narrower && (pace->widest > pace->held_target || pace->rung < pace->held)) {
         pace->held = pace->rung;
         pace->held_target = pace->widest;
     }
 }
 
-/* cost: of frames on the rung that is left, NULL: nobody knows. */
+/* cost: of frames on the rung that is left; NULL: unknown. */
 static void move(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t rung,
                  bool up, double now)
 {
@@ -153,7 +157,7 @@ static void move(const struct kd_governor *g, struct kd_pace *pace, const struct
         pace->other = g->ladder.rungs[pace->rung];
         pace->other_ms = cost->rays_ms;
     }
-    const bool narrower = MORE * target(g) < pace->widest; /* the rung was in time before others began */
+    const bool narrower = MORE * target(g) < pace->widest; /* the rung was in time before other sessions began */
     if (pace->climbed && !up && !narrower)
         pace->retry_ms *= 2;
     if (!up)
@@ -178,7 +182,7 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
-/* Says whether frames that reuse a lens map may take this rung: its lens map has to be traced first, in time. */
+/* Whether frames that reuse a lens map may take this rung: its map must first be traced within the limit. */
 static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
 {
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
@@ -192,7 +196,7 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
            traceable(g, pace, &rungs[to], CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Finds a rung that is known to be in time with so much of the device; the present one if none is. */
+/* A rung known to be in time with the present target; the present one if there is none. */
 static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
 {
     bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
@@ -202,15 +206,14 @@ static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pa
                : pace->rung;
 }
 
-/* Finds the rung that may not be climbed to, as it was too slow with no less of the device. */
+/* The rung that may not be climbed to, because it was too slow with at least the present target. */
 static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pace, double now)
 {
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Finds which part of what rays take on this rung stays at any size: on the line through what they took at another
- * size a moment ago, and take now. A line that falls tells that the machine has other things to do now than then,
- * and nothing else. */
+/* Estimates the fraction of the rays' time on this rung that does not depend on size, from the line through the time
+ * at another size a moment ago and the time now. A falling line means only that the machine's load has changed. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
@@ -223,7 +226,7 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
     pace->other.rays = 0;
 }
 
-/* Says whether one rung up is in time if that part of what rays take stays. */
+/* Whether one rung up is in time if that fraction of the rays' time is constant. */
 static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
                          double part)
 {
@@ -236,8 +239,8 @@ static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace
            traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Climbs as far as is safe, or else one rung on the better assumption: if that is wrong the rung is left again, and
- * not climbed to soon. */
+/* Climbs as far as is safe, or else one rung on a more favourable assumption: if that fails, the rung is left again
+ * and not climbed to soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
@@ -264,7 +267,7 @@ static void spare_a_stall(struct kd_governor *g, double now)
         move(g, pace, NULL, to, false, now);
 }
 
-/* Ladders */
+/* Changes of ladder */
 
 static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
 {
@@ -284,7 +287,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
     g->ladders++;
 }
 
-/* Frames keep to the narrowest width that was asked for, or do not any more since those of this pace are too slow. */
+/* Whether frames of this pace may be narrower than the requested least width, because they were too slow. */
 static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whether)
 {
     g->gave_way = whether;
@@ -295,8 +298,8 @@ static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whe
         change_ladder(g, &g->asked);
 }
 
-/* Frames of this pace are too slow as wide as was asked for: what they take is kept, to be compared with that of the
- * narrower ones that come now. */
+/* Gives up the requested least width for this pace. The cost of its frames is kept, for comparison with the narrower
+ * ones that follow. */
 static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung wide = g->ladder.rungs[pace->rung];
@@ -305,19 +308,19 @@ static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, con
     g->wide = wide;
 }
 
-/* Finds which part of what narrow frames take is the same at any size, once, by the first of them: the machine does
- * then what it did just before. */
+/* Measures, once, the fraction of the time of narrow frames that does not depend on size, from the first of them,
+ * while the machine's load is still the same. */
 static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     if (!(g->wide_ms > 0) || !(varying(cost) > 0) || here->rays >= g->wide.rays)
         return;
     const double more = g->wide.rays / here->rays, dearer = g->wide_ms / varying(cost);
-    g->stays = fmin((more - dearer) / (more - 1), 1); /* below 0 where rays cost more than their rung tells */
+    g->stays = fmin((more - dearer) / (more - 1), 1); /* negative if rays cost more than their rung assumes */
     g->stays_of = here->rays;
     g->wide_ms = 0;
 }
 
-/* Predicts what frames vary by on a rung of the wide ladder. */
+/* Predicts the varying time of frames on a rung of the wide ladder. */
 static double predict_wide(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here,
                            const struct kd_rung *wide)
 {
@@ -326,8 +329,7 @@ static double predict_wide(const struct kd_governor *g, const struct kd_frame_co
                                       : predict(cost, here, wide, false);
 }
 
-/* Says whether frames as wide as was asked for would be well within the patience by now, by what one takes on a
- * narrower rung. */
+/* Whether frames of the requested least width would now be well within the patience, estimated from a narrower one. */
 static bool is_quick_as_asked(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     struct kd_ladder_bounds bounds = g->params.bounds;
@@ -368,7 +370,7 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
         climb(g, pace, &cost, now);
 }
 
-/* Changes */
+/* Changes of the scene */
 
 void kd_governor_share(struct kd_governor *g, double share)
 {
@@ -386,7 +388,7 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->steps == q->steps && p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
-/* Says whether frames of both scenes cost about the same but for their size. */
+/* Whether frames of both scenes cost about the same apart from their size. */
 static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
 {
     const struct kd_disk *d = &a->disk, *e = &b->disk;
@@ -404,23 +406,23 @@ void kd_governor_least(struct kd_governor *g, double scale, double patience_ms)
     give_way(g, &g->paces[1], false);
 }
 
-/* Says whether the scenes differ in their motion alone, of which a single picture knows nothing. */
+/* Whether the scenes differ only in their motion, which does not affect a single picture. */
 static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 {
     struct kd_scene still = *b;
     still.motion = a->motion;
     return !memcmp(a, &still, sizeof still) &&
-           memcmp(a, b, sizeof still); /* equal scenes are equal bytes: kd_scene_defaults */
+           memcmp(a, b, sizeof still); /* equal scenes have equal bytes: kd_scene_defaults */
 }
 
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
-    /* The picture that is shown is right already if only the motion of a scene that does not move was changed: it is
-     * then told once more. */
+    /* If only the motion of a scene that does not move was changed, the picture shown is right already; it is
+     * rendered once more. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
     if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work(&g->asked, asked)))
-        give_way(g, &g->paces[1], false); /* another kind of scene has its own try */
+        give_way(g, &g->paces[1], false); /* another kind of scene gets a new try */
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
     for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)
@@ -430,7 +432,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
         begin_anew(&g->paces[0]);
         g->rings = rings;
         g->paces[0].rung = at_most(g->paces[0].rung, last_rung(g, &g->paces[0]));
-        g->lens_at = -INFINITY; /* who strikes does not drag */
+        g->lens_at = -INFINITY; /* striking the hole is not a drag */
     }
     g->asked = *asked;
     g->revision++;
@@ -441,13 +443,13 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     }
     if (!lens)
         return;
-    /* Changes of the lens that keep coming just after they were forgotten are one long one. */
+    /* A lens change soon after the hold ended belongs to the same drag: the hold is lengthened. */
     double gap = now - g->lens_at;
     g->hold_ms = gap >= HOLD_MAX_MS ? HOLD_MS : fmin(fmax(g->hold_ms, 2 * gap), HOLD_MAX_MS);
     g->lens_at = now;
 }
 
-/* Takes the rung that the expected cost fits, as long as no more frames than `known` have been measured. */
+/* Takes the rung that fits the expected cost, unless more than `known` frames were measured. */
 static void expect(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *of, uint32_t known)
 {
     struct kd_pace *pace = &g->paces[!cost->lens_reused];
@@ -464,7 +466,7 @@ void kd_governor_expect(struct kd_governor *g, const struct kd_frame_cost *cost)
         expect(g, cost, &g->ladder.rungs[0], 0);
 }
 
-/* Turns */
+/* Decisions */
 
 static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn)
 {
@@ -493,15 +495,15 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
         return turn;
     double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at,
            left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
-    if (!g->shown.final && left < 1e-3) /* rounded sums of waits end a little early */
+    if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end them slightly early */
         return next_step(g, turn);
     turn.quality = g->shown;
     turn.wait_ms = g->shown.final ? INFINITY : left;
     return turn;
 }
 
-/* Counts lens maps that should have been there. One may be missing after a change of rung. If none is kept, as where
- * it does not fit, the frames of a scene whose time alone goes on trace all the same. */
+/* Counts lens maps that should have been cached. One may be missing after a change of rung. If none are cached, for
+ * example because they do not fit, frames in which only time advances have to trace. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)

@@ -1,6 +1,6 @@
-/* The governor says what a live session renders next, and how finely: so that frames come in time while the scene
- * changes, and that the picture becomes what was asked when it rests. Pure: no clock, no device, no allocation.
- * Times are milliseconds of any steady clock. One owner at a time.
+/* The governor of a live session: decides what to render next, and at what quality, so that frames come in time while
+ * the scene changes and reach the requested quality when it rests. Pure: no clock, no device, no allocation. Times are
+ * milliseconds of any steady clock. One owner at a time.
  *
  *     struct kd_governor governor;
  *     kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
@@ -8,71 +8,62 @@
  *         kd_governor_changed(&governor, now, &asked, lens);
  *     whenever the renderer is free:
  *         struct kd_turn turn = kd_governor_turn(&governor, now);
- *         if (turn.wait_ms > 0) wait for a change, at most so long, and ask again
+ *         if (turn.wait_ms > 0) wait for a change for at most that long, and ask again
  *         kd_quality_apply(&turn.quality, &asked, &scene); plan, render and encode `scene`; show it
  *         kd_governor_frame(&governor, now, &turn, &cost);
  *
- * One frame is in flight: ask for the next turn when the last has been reported by kd_governor_frame, or was given
- * up. A frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with turn.refining
- * as soon as the scene changes: it may be long, and nobody waits for it any more.
+ * One frame is in flight: ask for the next turn after the last was reported by kd_governor_frame, or was given up. A
+ * frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with turn.refining as soon
+ * as the scene changes: it may take long, and nobody waits for it any more.
  *
- * turn.quality is what to report as in force, also while nothing is rendered: then it is that of the newest frame
- * shown.
+ * turn.quality is the quality to report as in force. While nothing is rendered, it is that of the newest frame shown.
  *
- * A frame costs something whatever its size, something for each ray, something for each pixel. Only what goes with
- * its size can be mended here: that has what the first leaves of the target, at least half the target, and at least
- * a quarter of the first, so that ten million particles cost frames and not the picture too.
+ * The cost of a frame has a fixed part, a part for each ray, and a part for each pixel. Only the parts that depend on
+ * size can be reduced. Their time budget is the target minus the fixed part, but at least half the target, and at least
+ * a quarter of the fixed part: ten million particles then slow the frames down, but do not shrink the picture as well.
  *
  * While the scene changes, a rung of quality.h's ladder is in force:
- * - Frames that trace their rays and frames that find their lens map cached cost different orders of magnitude, so
- * that each kind
- *   has a rung, a ceiling and an average of its own. As long as the camera or the hole was moved lately the first
- *     kind's hold.
- * - Over that by a tenth: down. At once if four frames in a row, or the first two on a rung, are over it by half, as
- * far as the
- *   cheapest of them takes; else by the mean of the middle half of the last 8 to 32, which single spikes do not
- *     reach. As far as it
- *   takes if all of the cost but what is known not to shrank with the picture.
- * - A rung that was left because it was too slow is the ceiling: it and those above are not climbed to again. It is
- * lifted after 3
- *   s, and whenever a climb was in vain that time doubles: of N hours only log N climbs are lost to a machine that
- *     seems faster
- *   than it is.
- * - Up as far as would take at most 80 % of it if all of the cost but what is known not to grew, or by one rung if
- * only what is
- *   known to grow did, or if rays cost what the line through two sizes says that were measured: rays next to the
- *     critical curve and the search
- *   for stars take their time at any size; not within a second of the last change.
- * - A pace that has been on no rung but one, as a session's that began low, is tried on the next one up once if that
- * is in time should all of what rays
- *   take stay: one frame in that size says what does.
- * - After each change of rung averages start again; so do ceilings when the scene is of another kind, such as
- * particles for a
- *   smooth disk.
- * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag
- * ends and time goes
- *   on.
+ * - Frames that trace their rays cost orders of magnitude more than frames that find their lens map cached. So each
+ *   kind has a pace with a rung, a ceiling and an average of its own. The tracing pace is in force while the camera or
+ *   the hole has moved recently.
+ * - A pace moves down if its cost exceeds the budget by a tenth. It does so at once if four frames in a row, or the
+ *   first two on a rung, exceed it by half, judged by the cheapest of them. Otherwise the mean over the middle half of
+ *   the last 8 to 32 frames decides, which single spikes do not affect. It moves as far as needed if everything except
+ *   the fixed part shrank with the picture.
+ * - A rung that was left because it was too slow becomes the ceiling: the pace does not climb to it or above it. The
+ *   ceiling is lifted after 3 s. That time doubles with each climb that failed, so that in N hours only log N climbs
+ *   are lost to a machine that looks faster than it is.
+ * - A pace moves up as far as the cost stays below 80 % of the budget if everything except the fixed part grows. It
+ *   moves up by one rung if only the parts known to depend on size grow, or if the cost of rays follows the line
+ *   through measurements at two sizes: rays next to the critical curve and the star search take the same time at any
+ *   size. It does not move up within a second of the last change of rung.
+ * - A pace that has been on one rung only, as in a session that began low, tries the next one up once, if that is in
+ *   time with the whole cost of rays unchanged: one frame at that size shows how the cost depends on it.
+ * - After each change of rung averages start again. Ceilings start again when the scene changes its kind, such as
+ *   particles for a smooth disk.
+ * - Frames that reuse a lens map take no rung whose map would take longer than stall_ms to trace. That matters when a
+ *   drag ends and time goes on.
  *
- * Frames of a lens that changes, on any rung but the first, have image.critical_factor 2 at most: the rays next to the
- * critical curve are fewer, and its list is as long as the picture is wide, so that what is left goes nearly with the
- * picture's size. Frames of a scene whose time alone goes on have all of them, also where no lens map is kept and each
- * traces: the ring stands still, and by four rays a pixel it is dotted.
+ * While the lens changes, frames on any rung but the first have an image.critical_factor of at most 2. There are then
+ * fewer rays next to the critical curve, whose number is proportional to the picture's width, and the cost is nearly
+ * proportional to the picture's size. Frames in which only time advances keep all of these rays, even if no lens map is
+ * cached and each frame traces: the ring stands still, and four rays a pixel would show as dots.
  *
- * Where other sessions move too, kd_governor_share says which part of the device's time this one may count on. Its
- * target then is that part of the time from one frame to the next, which grows by the root of what the part shrinks,
- * to sparse_ms at most: pace and picture give way alike, and from there on the picture alone does. One that is alone
- * has 33 ms; of two each has 23 every 47, and of eight each has 7.5 every 60. The costs that are compared with it
- * leave out the time that frames wait for others. A ceiling that was met with less of the device than there is now
- * does not hold, and a rung that was left because others began is taken again as soon as they stop.
+ * If other sessions move too, kd_governor_share sets the fraction of the device's time for this one. Its target is then
+ * that fraction of the time between frames. The time between frames grows as the inverse square root of the fraction,
+ * up to sparse_ms, so that frame rate and picture are reduced alike, and beyond that only the picture. A single session
+ * has 33 ms; each of two has 23 ms every 47 ms, each of eight 7.5 ms every 60 ms. The costs compared with the target do
+ * not include waiting for other sessions. A ceiling set with a smaller fraction is ignored, and a rung that was left
+ * because other sessions began is taken again as soon as they stop.
  *
- * Where a hole rings and nothing else goes on, nothing moves: frames keep the size that is asked, however long they
- * take, and give up rays of a pixel alone. A change of motion alone changes no picture: what is shown is rendered
- * once more, as at rest.
+ * If only the ringdown of a hole changes the picture, nothing moves: frames keep the requested size however long they
+ * take, and only reduce the rays a pixel. A change of the scene's motion alone does not change the picture: it is
+ * rendered once more, as at rest.
  *
- * When nothing changed for rest_ms: the steps of the ladder, one frame each, those that are less than what is shown
- * left out. Then nothing, until the next change. Where the device is shared a frame may wait for rest_ms itself, so
- * that the rest counts from when it was shown; and who has waited for a frame longer than that has 50 ms for the
- * next change. A scene that is stepped in time at each frame does not rest. */
+ * After rest_ms without a change: one frame for each step of the ladder upwards, without those that are less than
+ * what is shown; then nothing until the next change. On a shared device a frame may itself wait for rest_ms, so the
+ * rest is counted from when it was shown, and a client that waited longer for a frame has 50 ms for its next change.
+ * A scene whose time advances with each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
@@ -82,54 +73,57 @@
 #include <stdint.h>
 
 struct kd_governor_params {
-    double target_ms; /* of a frame while the scene changes; over 0 */
-    double rest_ms;   /* without a change before the picture is refined */
-    double stall_ms;  /* once, for the lens map that frames are to reuse; a session that shares has its share of it */
-    double sparse_ms; /* from frame to frame, at most, where the device is shared; no matter if below the target */
+    double target_ms; /* limit for a frame while the scene changes; above 0 */
+    double rest_ms;   /* time without a change after which the picture is refined */
+    /* limit for tracing once the lens map that frames will reuse; multiplied by the session's share */
+    double stall_ms;
+    double sparse_ms; /* largest time between frames on a shared device; ignored if below the target */
     struct kd_ladder_bounds bounds;
 };
 #define KD_GOVERNOR_DEFAULTS \
     .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .sparse_ms = 60, .bounds = KD_LADDER_BOUNDS_DEFAULT,
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
-/* Where a frame's time went. total_ms is compared with the target: if stages overlap, the longest; if not, the sum.
- * What the parts leave of it, waiting and submitting, may or may not shrink with the picture; with all parts 0 that
- * is so of everything. */
+/* Where a frame's time went. total_ms is compared with the target: the longest stage if stages overlap, otherwise
+ * their sum. The rest that is in none of the parts (waiting and submitting) may or may not shrink with the picture;
+ * with all parts 0 this holds for the whole. */
 struct kd_frame_cost {
-    double fixed_ms;  /* whatever the picture's size: particles, audit */
+    double fixed_ms;  /* independent of the picture's size: particles, audit */
     double rays_ms;   /* passes over rays: trace, transfer */
-    double pixels_ms; /* over pixels: expose, post, readback, encode */
+    double pixels_ms; /* passes over pixels: expose, post, readback, encode */
     double total_ms;
     bool lens_reused; /* as in kd_frame */
 };
 
 struct kd_turn {
-    struct kd_quality quality; /* in force: of the frame to render now; if there is none, of what is shown */
-    double wait_ms; /* 0: render it. Else there is nothing to render for so long; INFINITY: the session rests */
-    bool refining;  /* the scene rests, and this is a step upwards */
-    uint32_t audit; /* one of so many of the rays that measure the accuracy is enough: 1 or 4. That is done on one core,
-                       and takes a third of a small frame */
-    bool traced;    /* the rung for frames that trace is in force; what follows is for kd_governor_frame alone */
+    struct kd_quality quality; /* quality of the frame to render now; if there is none, of the picture shown */
+    double wait_ms; /* 0: render now. Otherwise there is nothing to render for this long; INFINITY: the session rests */
+    bool refining;  /* the scene rests, and this frame is a step upwards */
+    /* 1 or 4: audit one of this many of the sampled rays. The audit runs on one core and takes a third of a small
+     * frame */
+    uint32_t audit;
+    bool traced; /* the tracing pace is in force; this and the rest are for kd_governor_frame only */
     uint32_t ladder, rung, revision;
     double rays;
 };
 
 enum { KD_PACE_FRAMES = 32 };
 
-/* A pace is what is known of frames of one kind: those that trace a lens map, or those that reuse one. */
+/* Measurements and rung of one kind of frames: those that trace a lens map, or those that reuse one. */
 struct kd_pace {
-    uint32_t rung, ceiling; /* indices: 0 is what was asked; never climb below `ceiling` */
+    uint32_t rung, ceiling; /* indices of rungs: 0 is the requested quality; never climb above `ceiling` */
     uint32_t count;         /* frames since the last change of rung */
     struct kd_frame_cost costs[KD_PACE_FRAMES];
-    double changed_at, failed_at, retry_ms; /* changed_at: -INFINITY until the first change of a kind of scene */
-    double widest, failed_target;           /* the target: at most, since the last change; when it failed */
-    bool climbed;                           /* the last change was upwards */
-    uint32_t held;                          /* the rung that was left because others began to share; */
-    double held_target;                     /* at which it was in time; 0: none */
-    struct kd_rung other;                   /* the rung before; no rays: nobody knows, or it was made use of; */
-    double other_ms;                        /* what its rays took */
-    double stays; /* which part of what rays take is the same at any size, as far as is known */
-    bool tried;   /* it need not be tried on another rung to know that */
+    /* changed_at: -INFINITY until the first change of rung for a kind of scene */
+    double changed_at, failed_at, retry_ms;
+    double widest, failed_target; /* largest target since the last change; target when failed_at was set */
+    bool climbed;                 /* the last change was upwards */
+    uint32_t held;                /* rung that was left because other sessions began */
+    double held_target;           /* target at which it was in time; 0: none */
+    struct kd_rung other;         /* the rung before; no rays: unknown, or already used */
+    double other_ms;              /* time of its rays */
+    double stays;                 /* estimated fraction of the rays' time that does not depend on size */
+    bool tried;                   /* that fraction is measured; no trial of another rung is needed */
 };
 
 /* All members are private. */
@@ -139,54 +133,57 @@ struct kd_governor {
     struct kd_scene asked;
     struct kd_ladder ladder;
     uint32_t ladders, revision;
-    struct kd_pace paces[2];             /* frames that reuse their lens map; that trace it */
-    double changed_at, lens_at, hold_ms; /* last change; last one of the lens; how long that counts as lately */
-    struct kd_frame_cost traced;         /* the newest average of frames that trace, */
-    struct kd_rung traced_on;            /* and their rung; no rays: none yet */
-    double blind_until, blind_ms;        /* lens maps are not kept, whatever the changes are */
-    uint32_t missed;                     /* frames in a row that traced though the lens was the same */
-    bool rings;                          /* nothing moves, light alone changes */
-    double least, patience_ms;           /* kd_governor_least; */
-    bool gave_way, slow;                 /* frames may be narrower than that; index of the pace that took too long, */
-    double wide_ms;                      /* what it varied by on its rung, 0: nobody knows any more; */
-    struct kd_rung wide;                 /* that rung; */
-    double stays, stays_of; /* and the part of what narrow frames take that is the same at any size, on a rung of so
-                               many rays; 0: not known yet */
+    struct kd_pace paces[2]; /* for frames that reuse their lens map; for frames that trace it */
+    /* last change; last change of the lens; how long the latter counts as recent */
+    double changed_at, lens_at, hold_ms;
+    struct kd_frame_cost traced;  /* latest average of frames that trace, */
+    struct kd_rung traced_on;     /* and their rung; no rays: none yet */
+    double blind_until, blind_ms; /* until then lens maps are taken as not cached, whatever changes */
+    uint32_t missed;              /* successive frames that traced although the lens was unchanged */
+    bool rings;                   /* only brightness changes, nothing moves */
+    double least, patience_ms;    /* arguments of kd_governor_least */
+    bool gave_way, slow;          /* frames may be narrower than `least`; index of the pace that was too slow */
+    double wide_ms;               /* varying time of frames on that pace's rung; 0: unknown */
+    struct kd_rung wide;          /* that rung */
+    /* fraction of the time of narrow frames that does not depend on size, measured on a rung with this many rays; 0:
+     * unknown */
+    double stays, stays_of;
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
-    double shown_at;         /* the newest frame that was no step of refinement */
+    double shown_at;         /* when the newest frame was shown that was not a step of refinement */
     double shown_rays;
 };
 
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params);
 
-/* The part of the device's time that this session may count on, over 0 and at most 1, which is what it begins with.
- * Others that stop or begin change it: tell it before what is expected and before each frame that is reported. */
+/* Sets the fraction of the device's time for this session: above 0 and at most 1, the initial value. It changes as
+ * other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
 void kd_governor_share(struct kd_governor *governor, double share);
 
-/* While the scene changes a frame has at least this part of the asked width, 1/4 to 1, instead of bounds.scale: a
- * smaller target gives up what else there is, and then time, up to patience_ms from frame to frame (INFINITY:
- * however long they take). Where the narrowest frames were measured to take longer than that, frames become narrower
- * all the same, to a quarter, until the scene is of another kind or what they take says that wide ones would be well
- * within it: by the line through what wide ones took when they were given up and the first narrow ones right after,
- * since a part of what a frame takes is the same at any size. */
+/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place
+ * of bounds.scale. A smaller target then reduces everything else, and after that the frame rate, down to one frame
+ * every patience_ms (INFINITY: no limit). If the narrowest frames were measured to take longer than that, frames
+ * become narrower after all, down to a quarter, until the scene changes its kind or wide frames are estimated to be
+ * well within it. The estimate is the line through the times of the last wide frames and the first narrow ones right
+ * after them, since part of a frame's time does not depend on its size. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
-/* The scene is now *asked, valid. lens: its lens map is another, as it is when the plans of both, as asked, differ
- * in lens_key; the first of a session is. A change of image.* or accuracy.* makes a new ladder and starts on the
- * rung that old averages suggest; one of what is drawn begins averages and waits anew. */
+/* The scene is now *asked, which must be valid. lens: its lens map changed, that is, lens_key differs between the
+ * plans of both scenes as requested; true for a session's first scene. A change of image.* or accuracy.* makes a new
+ * ladder, and starts on the rung that old averages suggest. A change of what is drawn starts averages and waits
+ * again. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *asked, bool lens);
 
-/* Says what a frame as asked is believed to cost, by its plan for instance, before any of this kind was measured. It
- * sets the rung to begin with; without it that is the first, or the one in force. Later it is ignored, so that each
- * change may be followed by it. A frame that traced while few of its kind are known, as a step of refinement does,
- * says the same better. */
+/* Sets the expected cost of a frame at the requested quality, for example from its plan. It chooses the first rung,
+ * which is otherwise the top one or the one in force. It is ignored once frames of this kind were measured, so it
+ * may be called after each change. A frame that traced while few of its kind were measured, as a step of refinement
+ * does, has the same effect with better data. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
-/* Says what to do now. To be called after kd_governor_changed. */
+/* Decides what to do now. Call after kd_governor_changed. */
 struct kd_turn kd_governor_turn(const struct kd_governor *governor, double now);
 
-/* The frame of that turn was shown. */
+/* Reports that the frame of that turn was shown. */
 void kd_governor_frame(struct kd_governor *governor, double now, const struct kd_turn *turn,
                        const struct kd_frame_cost *cost);
 

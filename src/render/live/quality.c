@@ -21,14 +21,14 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     out->accuracy.steps = 0;
 }
 
-/* Says whether the profile alone decides how rays are followed. */
+/* Whether the profile alone determines how rays are traced. */
 static bool by_profile(const struct kd_accuracy *a)
 {
     return !isfinite(a->tolerance) && !a->steps && a->precision == KD_PRECISION_WORD_AUTO;
 }
 
-/* Estimates what a ray costs: the steps that a profile means, and one turn of the transfer pass for each order. Only
- * ratios matter, and where they are wrong the governor measures and moves on. reference is double precision. */
+/* Estimated cost of a ray: the profile's steps, plus the transfer pass for each order. Only ratios matter, and the
+ * governor corrects wrong ones by measuring. The profile reference uses double precision. */
 static double ray_cost(const struct kd_quality *quality, const struct kd_scene *asked)
 {
     static const double profile[] = { 0.6, 0.7, 1, 1.6, 12 };
@@ -37,7 +37,7 @@ static double ray_cost(const struct kd_quality *quality, const struct kd_scene *
     return (named ? profile[p] : 2) * (2 + quality->orders);
 }
 
-#define ADAPTIVE_RAYS 2.5 /* of a pixel, about, where each has as many as it needs */
+#define ADAPTIVE_RAYS 2.5 /* approximate mean rays a pixel if each has as many as it needs */
 
 static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders,
                                 int32_t profile)
@@ -51,9 +51,10 @@ static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int3
     return r;
 }
 
-#define SKETCHED 0.6 /* of the time of the march at the coarsest profile, about: 66 ms of 100 at 160 x 90 */
+/* approximate time relative to the march at the coarsest profile: 66 ms instead of 100 at 160 x 90 */
+#define SKETCHED 0.6
 
-/* The same with its volumes sketched. */
+/* The same rung with sketched volumes. */
 static struct kd_rung sketched(struct kd_rung r)
 {
     r.quality.sketch = true;
@@ -62,7 +63,7 @@ static struct kd_rung sketched(struct kd_rung r)
     return r;
 }
 
-/* A rung is kept only if it is less work than the one before. */
+/* Adds a rung if it is less work than the one before. */
 static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
 {
     if (ladder->n_rungs == KD_LADDER_RUNGS || rung.rays >= ladder->rungs[ladder->n_rungs - 1].rays)
@@ -88,7 +89,7 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
         if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
             add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
             scale = scales[i];
-    /* Of photon rings, one above the other, higher orders are what is looked at. */
+    /* In stacked photon rings the higher orders are the subject, so they are kept. */
     const int32_t least = asked->camera.projection == KD_PROJECTION_RING ? orders : bounds->orders;
     while (orders > least) {
         orders = (orders + 1) / 2 > least ? (orders + 1) / 2 : least;
@@ -111,7 +112,8 @@ static void make_steps(const struct kd_scene *asked, struct kd_ladder *out)
     for (int32_t samples = 1; samples < most; samples *= 2)
         out->steps[out->n_steps++] = make_rung(asked, 1, samples, a->orders, profile);
     struct kd_rung last = make_rung(asked, 1, asked->image.samples, a->orders, -1);
-    while (out->n_steps && out->steps[out->n_steps - 1].rays >= last.rays) /* named steps may be few */
+    /* a request may name fewer steps than the profile */
+    while (out->n_steps && out->steps[out->n_steps - 1].rays >= last.rays)
         out->n_steps--;
     out->steps[out->n_steps++] = last;
 }

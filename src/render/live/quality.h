@@ -1,5 +1,5 @@
-/* Quality of a live frame: how much of the scene it renders, and the ladder of qualities from all of it downwards.
- * Plain values, pure functions; any thread. The governor (governor.h) chooses the rung. */
+/* Quality of a live frame: how much of the scene is rendered, and the ladder of qualities below the requested one.
+ * The governor (governor.h) chooses the rung. Plain values, pure functions; any thread. */
 #ifndef KD_RENDER_LIVE_QUALITY_H
 #define KD_RENDER_LIVE_QUALITY_H
 
@@ -11,43 +11,44 @@
 
 struct kd_quality {
     uint32_t width, height; /* pixels to render */
-    double scale;           /* of the asked width and height: 1, 3/4, 5/8, 1/2, 3/8 or 1/4 */
+    double scale;           /* fraction of the requested width and height: 1, 3/4, 5/8, 1/2, 3/8 or 1/4 */
     int32_t samples;        /* rays along each side of a pixel */
-    int32_t orders;         /* crossings kept a ray */
-    int32_t critical;       /* image.critical_factor at most; 0: as asked */
-    int32_t profile;        /* enum kd_profile in place of all of accuracy.* but engine; -1: accuracy.* as asked */
-    bool sketch;            /* volumes are followed more coarsely than any profile has them: render/plan/march.h */
-    bool bright;            /* of stars only bright images: plan.bright of render/plan/plan.h */
-    bool final;             /* everything is as asked */
+    int32_t orders;         /* recorded crossings a ray */
+    int32_t critical;       /* limit for image.critical_factor; 0: as requested */
+    /* enum kd_profile in place of all of accuracy.* except engine; -1: accuracy.* as requested */
+    int32_t profile;
+    bool sketch; /* volumes are marched more coarsely than with any profile: render/plan/march.h */
+    bool bright; /* only bright images of stars: plan.bright of render/plan/plan.h */
+    bool final;  /* everything is as requested */
 };
 
-/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it is *asked
- * itself, byte for byte. */
+/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it equals *asked,
+ * byte for byte. */
 void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out);
 
 struct kd_rung {
     struct kd_quality quality;
-    double rays, pixels; /* work: rays, weighted by what one costs; pixels */
+    double rays, pixels; /* work: rays weighted by the cost of one; pixels */
 };
 
-/* These bounds say how far down a ladder may go. */
+/* Limits for the lowest rung. */
 struct kd_ladder_bounds {
-    double scale;                     /* 1/4 is the least there is */
-    uint32_t width;                   /* no rung but the first is narrower than this, in pixels */
-    int32_t samples, orders, profile; /* never more than what is asked */
+    double scale;                     /* at least 1/4 */
+    uint32_t width;                   /* least width in pixels of all rungs but the first */
+    int32_t samples, orders, profile; /* lower limits, which never exceed the requested values */
 };
 #define KD_LADDER_BOUNDS_DEFAULT { .scale = 0.25, .width = 160, .samples = 1, .orders = 2, .profile = KD_PROFILE_DRAFT }
 
 enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
-    /* Makes the ladder downwards from what is asked. It gives up samples first, for what moves needs its pixels more
-     * than smooth edges, then resolution, then orders (of the projection "ring" none), then the steps along a ray,
-     * and last, where there are volumes, the steps through them. Each is less work than the one before. */
+    /* The ladder downwards from the requested quality. It reduces samples first, because a moving picture needs its
+     * pixels more than smooth edges; then resolution; then orders (not for the projection "ring"); then the steps
+     * along a ray; and last, for volumes, the steps through them. Each rung is less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
-    /* Makes the ladder upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at
-     * most the profile "balanced"; last, what is asked. Each is more work than the one before. */
+    /* The ladder upwards for a scene at rest: full resolution with one ray a pixel, then more rays, all with at most
+     * the profile "balanced"; last, the requested quality. Each step is more work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

@@ -6,7 +6,7 @@
 void kd_fall_clock_json(const struct kd_fall_clock *clock, struct kd_json *json, const char *name)
 {
     kd_json_object(json, name);
-    kd_json_number(json, "proper_time_to_horizon", clock->to_horizon); /* NAN: null */
+    kd_json_number(json, "proper_time_to_horizon", clock->to_horizon); /* NAN becomes null */
     kd_json_number(json, "proper_time_to_end", clock->to_end);
     kd_json_number(json, "proper_time_to_horizon_s", clock->second * clock->to_horizon);
     kd_json_number(json, "proper_time_to_end_s", clock->second * clock->to_end);

@@ -1,4 +1,4 @@
-/* The clock of a falling observer, in answers. Any thread. */
+/* The proper time of a falling observer, in answers. Any thread. */
 #ifndef KD_RENDER_OUTPUT_CLOCK_H
 #define KD_RENDER_OUTPUT_CLOCK_H
 
@@ -6,11 +6,11 @@
 #include "scene/scene.h"
 
 /* Writes {"proper_time_to_horizon", "proper_time_to_end", "proper_time_to_horizon_s", "proper_time_to_end_s"}, in M
- * and in seconds; to the horizon null within. */
+ * and in seconds. Inside the horizon the time to the horizon is null. */
 void kd_fall_clock_json(const struct kd_fall_clock *clock, struct kd_json *json, const char *name);
 
 /* One line: "r=6 azimuth_deg=0 proper_time_to_end=... proper_time_to_end_s=... proper_time_to_horizon=...
- * proper_time_to_horizon_s=...", without those to the horizon within; "" where kd_scene_clock has none. */
+ * proper_time_to_horizon_s=..."; without the last two inside the horizon; "" if kd_scene_clock has no clock. */
 #define KD_CLOCK_TEXT 240
 void kd_fall_clock_text(const struct kd_scene *scene, char out[KD_CLOCK_TEXT]);
 

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* What a scene does not take if its lens map is there already. */
+/* Time that a scene saves if its lens map is cached. */
 static double trace_ms(const struct kd_plan *plan)
 {
     double ms = 0;
@@ -14,7 +14,7 @@ static double trace_ms(const struct kd_plan *plan)
     return ms;
 }
 
-/* Of the numbers of its layers, 4 bytes each. */
+/* Bytes of the numbers of its layers, 4 each. */
 static double file_bytes(const struct kd_series *series, const struct kd_scene *scene, const struct kd_plan *plan)
 {
     const struct kd_words *layers = &scene->image.layers;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEAD_MOST (1u << 20) /* bytes of a header: a scene's has some 20000 */
+#define HEAD_MOST (1u << 20) /* bytes of a header; a scene takes about 20000 */
 #define AT_ONCE 32           /* scenes, some milliseconds */
 
 _Static_assert(KD_CUBE_ACCURACY >= KD_ACCURACY_TEXT, "all of it");
@@ -90,7 +90,7 @@ void kd_cube_finish(struct kd_cube *cube)
     *cube = (struct kd_cube) { 0 };
 }
 
-/* The header of a unit at a place of a scene's file. */
+/* Reads the header of the HDU at an offset of a scene's file. */
 static enum kd_status read_head(struct kd_cube *cube, unsigned scene, uint64_t at, struct kd_buffer *head, size_t *size,
                                 struct kd_error *error)
 {
@@ -112,13 +112,13 @@ static enum kd_status read_head(struct kd_cube *cube, unsigned scene, uint64_t a
     return KD_OK;
 }
 
-/* A text of a card, "" where it is not there. */
+/* Text value of a card; "" if the card is missing. */
 static void text_of(const struct kd_buffer *head, size_t size, const char *key, char *out, size_t room)
 {
     struct kd_buffer text = { 0 };
     bool there = !kd_fits_find(head->data, size, key, &text) && text.size < room;
     snprintf(out, room, "%.*s", there ? (int)text.size : 0, there ? (const char *)text.data : "");
-    for (size_t n = strlen(out); n && out[n - 1] == ' ';) /* the standard's own */
+    for (size_t n = strlen(out); n && out[n - 1] == ' ';) /* trailing spaces are padding by the standard */
         out[--n] = 0;
     kd_buffer_finish(&text);
 }
@@ -145,7 +145,7 @@ static bool read_unit(const struct kd_buffer *head, size_t size, struct unit *ou
            channels > 0 && channels <= 4;
 }
 
-/* The first scene says what all have. */
+/* The first scene sets what all must have. */
 static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene,
                             struct kd_error *error)
 {
@@ -164,16 +164,16 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
     return KD_OK;
 }
 
-/* Keeps the text of a card if it is not known yet. *there: there is one. */
+/* Adds the text of a card unless it is known already. *there: whether the card exists. */
 static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key,
                                 bool *there, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_fits_find(head->data, size, key, &text);
-    while (!status && text.size && text.data[text.size - 1] == ' ') /* the standard's own */
+    while (!status && text.size && text.data[text.size - 1] == ' ') /* trailing spaces are padding by the standard */
         text.size--;
     *there = !status && text.size;
-    if (status == KD_ENOMEM || (*there && kd_buffer_append(&text, "", 1))) /* with the NUL */
+    if (status == KD_ENOMEM || (*there && kd_buffer_append(&text, "", 1))) /* including the NUL */
         KD_TRY(no_memory(error));
     status = KD_OK;
     for (size_t i = 0; i < texts->n && *there; i++)
@@ -245,7 +245,7 @@ static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const 
     const double flux = kd_fits_find_real(head->data, size, KD_FITS_FLUX);
     text_of(head, size, "KDHASH", hash, sizeof hash);
     text_of(head, size, "KDACCUR", accuracy, sizeof accuracy);
-    memcpy(row, hash, strlen(hash)); /* NULs are behind */
+    memcpy(row, hash, strlen(hash)); /* the rest is NULs */
     memcpy(row + KD_CUBE_HASH, accuracy, strlen(accuracy));
     kd_cube_put_double((uint8_t *)row + KD_CUBE_TEXT, flux);
     cube->flux = cube->flux || !isnan(flux);

@@ -1,9 +1,10 @@
-/* A cube is an array of each layer with all scenes of a sweep, made of the FITS files of the scenes: what
- * cube_fits.c and cube_npz.c share. It is looked through before anything is written, since sums and sentences stand
- * before the numbers.
+/* A cube: an array of each layer over all scenes of a sweep, made from the scenes' FITS files; shared by cube_fits.c
+ * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences precede the
+ * numbers.
  *
- * In FITS an image of each layer has the picture's axes, of "rgb" the three colours, then the axes of the sweep from
- * the last to the first; in NumPy the shape is (axes of the sweep, height, width[, 3]). Internal to render/output. */
+ * In FITS each layer is an image with the picture's axes, for "rgb" the three colours, then the axes of the sweep
+ * from the last to the first. In NumPy its shape is (axes of the sweep, height, width[, 3]). Internal to
+ * render/output. */
 #ifndef KD_RENDER_OUTPUT_CUBE_H
 #define KD_RENDER_OUTPUT_CUBE_H
 
@@ -13,8 +14,8 @@
 #include "scene/sweep.h"
 
 #define KD_CUBE_TEXTS 128
-/* Bytes told of each scene: hash and accuracy, with NULs behind each, and the flux, a double with its first byte
- * first; NAN: the picture has none. */
+/* Bytes stored for each scene: hash and accuracy, padded with NULs, and the flux, a big-endian double; NAN if the
+ * picture has none. */
 enum {
     KD_CUBE_HASH = 64,
     KD_CUBE_ACCURACY = 384,
@@ -34,32 +35,31 @@ struct kd_cube {
     unsigned width, height;
     struct kd_cube_layer layers[KD_WORDS_MOST];
     size_t n_layers;
-    unsigned seen;     /* scenes that it has been through */
-    uint64_t *places;  /* of the numbers in the files: n_layers a scene */
-    struct kd_wcs wcs; /* of the first; */
-    bool wcs_differ;   /* not of all */
+    unsigned seen;     /* scenes scanned so far */
+    uint64_t *places;  /* offsets of the numbers in the files: n_layers a scene */
+    struct kd_wcs wcs; /* of the first scene */
+    bool wcs_differ;   /* whether any scene has another one */
     struct kd_cube_texts {
         char *at[KD_CUBE_TEXTS];
         size_t n;
-    } sentences, credits, devices;  /* approximations that are in force in some scene, whose work is in
-                                     * some, and what made them: each once */
-    char *rows;                     /* of all scenes: KD_CUBE_ROW each */
-    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of their hashes and accuracies, and of their fluxes */
-    bool flux;                      /* some scene has one: then files have them */
-    uint8_t *piece;                 /* KD_GATHER_PIECE bytes and more: a row of numbers fits */
+    } sentences, credits, devices;  /* each text once: approximations, credits and devices of all scenes */
+    char *rows;                     /* KD_CUBE_ROW bytes for each scene */
+    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; of their fluxes */
+    bool flux;                      /* some scene has a flux: the file then has fluxes */
+    uint8_t *piece;                 /* at least KD_GATHER_PIECE bytes, and room for a row of numbers */
     size_t piece_bytes;
 };
 
 enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error);
 void kd_cube_finish(struct kd_cube *cube);
-/* Looks through some more scenes. *over: through all. */
+/* Scans some more scenes. *over: all are done. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
-/* What is told of a scene: its hash, its picture's accuracy, and its flux. */
+/* What is stored for a scene: hash, accuracy of its picture, and flux. */
 static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene)
 {
     return cube->rows + (size_t)scene * KD_CUBE_ROW;
 }
-/* All of these, one after the other: "a; b". */
+/* Joins all texts: "a; b". */
 enum kd_status kd_cube_join(const struct kd_cube_texts *texts, struct kd_buffer *out);
 /* Bytes of a layer's numbers in one scene. */
 static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)
@@ -68,10 +68,10 @@ static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)
 }
 enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, uint64_t at, void *to, size_t size,
                             struct kd_error *error);
-/* Writes a double as FITS has it, its first byte first; and reads one. */
+/* Write and read a big-endian double, as FITS stores it. */
 void kd_cube_put_double(uint8_t to[8], double value);
 double kd_cube_get_double(const uint8_t from[8]);
-/* The longest text of an axis' values, in bytes; at least 1. */
+/* Size of the longest text among an axis' values, in bytes; at least 1. */
 size_t kd_cube_longest(const struct kd_sweep_axis *axis);
 
 #endif

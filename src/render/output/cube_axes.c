@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define FREQUENCY "volume.frequency_ghz"
-#define SECOND "F" /* the letter of the second description */
+#define SECOND "F" /* letter of the alternate description */
 #define TABLE "FREQ"
 #define COLUMN "hz"
 
@@ -26,7 +26,7 @@ static double world_of(const struct kd_sweep_axis *axis, size_t i)
     return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1);
 }
 
-/* As the standard spells it (section 4.3); M = G m/c^2 and stops are none that it knows. */
+/* As the standard spells it (section 4.3), which has no unit for M = G m/c^2 and for stops. */
 static const char *unit_of(const struct kd_sweep_axis *axis)
 {
     return !strcmp(axis->unit, "degrees")        ? "deg"
@@ -61,7 +61,7 @@ static enum kd_status put_text(struct kd_buffer *cards, const char *name, unsign
     return kd_fits_text(cards, key, value, comment);
 }
 
-/* The second description: the sky's axes as in the first one, and the frequencies of the table. */
+/* The alternate description: the sky's axes as in the primary one, and the frequencies by the table. */
 static enum kd_status put_second(struct kd_buffer *cards, unsigned number, const struct kd_wcs *wcs)
 {
     enum kd_status status;
@@ -101,7 +101,7 @@ done:
     return status;
 }
 
-/* A table of one column; its data are whole words, whose sum zeros behind do not change. */
+/* A table of one column; its data are whole words, so zero padding does not change the checksum. */
 static enum kd_status put_table(const char *name, const char *comment, const char *column, const char *form,
                                 const char *unit, uint64_t row, uint64_t rows, const struct kd_buffer *more,
                                 struct kd_buffer *data, struct kd_buffer *out)
@@ -155,7 +155,7 @@ enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_bu
     return status;
 }
 
-/* One row: an array of the shape (1, n), as section 6 of the paper wants coordinates of one axis. */
+/* One row: an array of the shape (1, n), as section 6 of the paper requires for coordinates of one axis. */
 enum kd_status kd_cube_put_frequencies(const struct kd_sweep_axis *axis, struct kd_buffer *out)
 {
     struct kd_buffer values = { 0 }, shape = { 0 };

@@ -1,11 +1,11 @@
-/* Tells the axes of a sweep in a FITS cube: world coordinates in the header of each layer, and a table of each
- * axis' values. Each function appends to a buffer. Any thread; KD_ENOMEM alone. Internal to render/output.
+/* The axes of a sweep in a FITS cube: world coordinates in the header of each layer, and a table of each axis' values.
+ * Each function appends to a buffer. Any thread; the only error is KD_ENOMEM. Internal to render/output.
  *
- * An axis of evenly spaced numbers is a linear axis of world coordinates with its field's name; any other is counted
- * from 1. Frequencies are named as the standard names them (Greisen et al. 2006, A&A 446, 747, table 1): FREQ, in
- * Hz. Where they are not evenly spaced they are counted from 1 as well, and a second description of the same axes,
- * F, has them by a table (FREQ-TAB, section 6 there): readers such as astropy refuse a header with such a table
- * unless they are handed the whole file, so that it cannot be the first description. */
+ * An axis of evenly spaced numbers is a linear world coordinate with its field's name; any other axis is numbered
+ * from 1. A frequency has its standard name (Greisen et al. 2006, A&A 446, 747, table 1): FREQ, in Hz. Frequencies
+ * that are not evenly spaced are numbered from 1 as well; an alternate description F of the same axes gives them by
+ * a table (FREQ-TAB, section 6 there). It is not the primary description, because readers such as astropy refuse a
+ * header with such a table unless they are given the whole file. */
 #ifndef KD_RENDER_OUTPUT_CUBE_AXES_H
 #define KD_RENDER_OUTPUT_CUBE_AXES_H
 
@@ -13,16 +13,16 @@
 #include "render/output/wcs.h"
 #include "scene/sweep.h"
 
-/* CRPIX, CRVAL and CDELT of an axis, counted from 1 in the file, whose first pixel is at `first`. alternate: "" or
- * one letter. */
+/* CRPIX, CRVAL and CDELT of an axis that is numbered from 1 in the file; the value of its first pixel is `first`.
+ * alternate: "" or one letter. */
 enum kd_status kd_cube_put_line(struct kd_buffer *cards, unsigned number, const char *alternate, double first,
                                 double step);
-/* The cards of an axis of the sweep. wcs: of the pictures; NULL: they have different ones. */
+/* The cards of an axis of the sweep. wcs: world coordinates of the pictures; NULL if they differ. */
 enum kd_status kd_cube_put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number,
                                 const struct kd_wcs *wcs);
-/* A whole unit: the axis' values, a row each. */
+/* Appends a complete HDU: the axis' values, one row each. */
 enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_buffer *out);
-/* Says whether the axis needs a second table, FREQ, of one row that holds all frequencies, and appends that. */
+/* Whether the axis needs a second table, FREQ, of one row with all frequencies; appends that table. */
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis);
 enum kd_status kd_cube_put_frequencies(const struct kd_sweep_axis *axis, struct kd_buffer *out);
 

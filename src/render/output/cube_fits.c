@@ -1,7 +1,7 @@
-/* Writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of
- * all; a table for each axis, named by its field, with its values in the column "value"; and the table SCENES with
- * the hash, the accuracy and, where pictures have one, the flux of each scene, in their order. An axis is one of
- * world coordinates too (cube_axes.h). */
+/* Writes a cube as FITS: kd_gather_fits. Each layer is an image with the layer's name; the first one has the common
+ * metadata. Each axis has a table named by its field, with its values in the column "value". The table SCENES has
+ * the hash, the accuracy and, if pictures have one, the flux of each scene in order. Axes are world coordinates as
+ * well (cube_axes.h). */
 #include "render/output/cube.h"
 
 #include "image/fits.h"
@@ -14,9 +14,9 @@
 
 struct writer {
     struct kd_cube cube;
-    size_t unit;    /* layers, axes, scenes: one after the other */
-    bool begun;     /* its head is written */
-    unsigned scene; /* what comes next of it */
+    size_t unit;    /* current HDU: layers, then axes, then scenes */
+    bool begun;     /* its header is written */
+    unsigned scene; /* next scene of it */
     uint64_t at, written;
 };
 
@@ -118,7 +118,7 @@ static enum kd_status end_unit(struct writer *w, struct kd_buffer *out)
     return status;
 }
 
-/* The numbers of a scene's file are as they are in the cube. */
+/* The numbers in a scene's file are in the cube's byte order and can be copied. */
 static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, struct kd_error *error)
 {
     uint64_t slice = kd_cube_slice(&w->cube, w->unit);
@@ -137,7 +137,7 @@ static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, 
     return KD_OK;
 }
 
-/* Bytes of a scene's row: the flux is left out where none has one. */
+/* Bytes of a scene's row; without the flux if no scene has one. */
 static size_t row_bytes(const struct kd_cube *cube) { return cube->flux ? KD_CUBE_ROW : KD_CUBE_TEXT; }
 
 static enum kd_status put_column(struct kd_buffer *cards, unsigned number, const char *name, unsigned count,

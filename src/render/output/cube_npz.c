@@ -1,6 +1,6 @@
-/* Writes a cube as numpy.savez does: kd_gather_npz. An array for each axis of the sweep, by the name of its
- * field, float64 or text; an array of each layer, float32, of the shape (axes..., height, width[, 3]); scene_hash,
- * scene_accuracy and, where pictures have a flux, scene_flux_jy, of the shape (axes...); and notes.json. */
+/* Writes a cube as numpy.savez does: kd_gather_npz. It has an array for each axis of the sweep, named by its field,
+ * float64 or text; an array of each layer, float32, of the shape (axes..., height, width[, 3]); scene_hash,
+ * scene_accuracy and, if pictures have a flux, scene_flux_jy, of the shape (axes...); and notes.json. */
 #include "render/output/cube.h"
 
 #include "image/npy.h"
@@ -12,12 +12,12 @@
 
 struct writer {
     struct kd_cube cube;
-    struct kd_zip *zip;     /* NULL: not begun */
-    struct kd_buffer bytes; /* that it has made */
-    size_t member; /* axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json: one after the other */
+    struct kd_zip *zip;     /* NULL: not started */
+    struct kd_buffer bytes; /* its output so far */
+    size_t member;          /* current member: axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json */
     bool begun;
     unsigned scene, row; /* what comes next of it; rows from the top */
-    float *rows;         /* as many as fit a piece */
+    float *rows;         /* room for the rows of a piece */
 };
 
 static enum kd_status no_memory(struct kd_error *error)
@@ -42,7 +42,7 @@ static void close_cube(void *state)
     free(w);
 }
 
-/* An array of plain elements, the first axes of which are those of the sweep. */
+/* An array of plain elements whose first axes are those of the sweep. */
 static struct kd_npy array_of(const struct writer *w, enum kd_npy_type type, uint32_t count)
 {
     const struct kd_sweep *sweep = w->cube.source->sweep;
@@ -79,7 +79,7 @@ static void end_member(struct writer *w)
     w->scene = w->row = 0;
 }
 
-/* ASCII as UTF-32. */
+/* Writes ASCII as UTF-32. */
 static enum kd_status put_text(struct writer *w, const char *text, size_t room)
 {
     enum kd_status status = KD_OK;
@@ -105,8 +105,8 @@ static enum kd_status put_axis(struct writer *w, const struct kd_sweep_axis *axi
     return status;
 }
 
-/* Some rows of a scene: FITS has them from the lowest one, each number the other way round, and each channel by
- * itself. */
+/* Reads some rows of a scene, and converts from FITS, which has the lowest row first, big-endian numbers, and each
+ * channel separately. */
 static enum kd_status read_rows(struct writer *w, size_t layer, unsigned rows, struct kd_error *error)
 {
     struct kd_cube *cube = &w->cube;
@@ -158,7 +158,7 @@ static enum kd_status put_flux(struct writer *w, const char *row)
     return kd_zip_append(w->zip, &flux, sizeof flux);
 }
 
-/* Some of what is told of each scene. size: of a text; 0: the flux. */
+/* Writes an item stored for each scene. size: of a text; 0: the flux. */
 static enum kd_status put_scenes(struct writer *w, const char *name, size_t from, uint32_t size)
 {
     const struct kd_npy array = array_of(w, size ? KD_NPY_BYTES : KD_NPY_F8, size);

@@ -8,7 +8,7 @@ struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scen
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
     const bool linear = frame->light.polarized, circular = frame->light.circular,
-               apart = linear && !circular; /* nothing but a volume shines there */
+               apart = linear && !circular; /* then only a volume emits light */
     return (struct kd_curve_row) {
         .frame = number,
         .t = scene->top.time,
@@ -44,8 +44,7 @@ enum {
 };
 _Static_assert(sizeof(struct kd_curve_row) == COLUMNS * sizeof(double), "a row is its columns");
 
-/* Which columns a table has: those of polarised light by the first of their group, which is a number in each row
- * that has the group. */
+/* The columns of a table. A group for polarised light is present if its first column is a number in any row. */
 struct columns { bool has[COLUMNS]; };
 static struct columns columns_of(const double *rows, size_t n)
 {
@@ -59,7 +58,7 @@ static struct columns columns_of(const double *rows, size_t n)
     return out;
 }
 
-/* A field of CSV (RFC 4180). */
+/* Writes a field of CSV (RFC 4180). */
 static enum kd_status put_field(const char *text, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -73,7 +72,7 @@ done:
     return status;
 }
 
-/* The values that the axes have in a row. */
+/* Writes the values of the axes in a row. */
 static enum kd_status write_values(const struct kd_sweep *sweep, unsigned scene, bool csv, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
@@ -98,7 +97,7 @@ static enum kd_status write_row(const double *values, const struct columns *colu
             continue;
         char number[KD_NUMBER_SIZE] = "";
         if (!isnan(values[i]))
-            kd_number_format(number, values[i] == 0 ? 0 : values[i]); /* no -0 */
+            kd_number_format(number, values[i] == 0 ? 0 : values[i]); /* avoids -0 */
         KD_TRY(csv ? kd_buffer_printf(out, "%s%s", i ? "," : "", number)
                    : kd_buffer_printf(out, "%s\"%s\":%s", i ? "," : "{", names[i], *number ? number : "null"));
         if (!i)

@@ -4,15 +4,15 @@
 
 #include "render/output/series.h"
 
-/* COLUMN(name); NAN where there is no centroid. Plain numbers: a file may hold rows. */
+/* COLUMN(name); NAN if there is no centroid. A row is plain data, so files may hold rows. */
 /* clang-format off */
 #define KD_CURVE_COLUMNS_(COLUMN) \
     COLUMN(frame) COLUMN(t) COLUMN(flux) COLUMN(centroid_x) COLUMN(centroid_y) COLUMN(spots_flux) \
     COLUMN(spots_centroid_x) \
     COLUMN(spots_centroid_y) COLUMN(width) COLUMN(height)
 /* clang-format on */
-/* Of polarised light, in three groups: of all light, of all where it is polarised circularly too, and of the spots'.
- * NAN where there is none. */
+/* Columns of polarised light, in three groups: for all light; for all light if it is circularly polarised too; for
+ * the spots' light. NAN if undefined. */
 #define KD_CURVE_STOKES_(COLUMN) COLUMN(stokes_q) COLUMN(stokes_u) COLUMN(polarization_fraction) COLUMN(evpa)
 #define KD_CURVE_CIRCULAR_(COLUMN) COLUMN(stokes_v)
 /* clang-format off */
@@ -26,10 +26,10 @@ struct kd_curve_row {
 };
 #undef KD_CURVE_MEMBER
 
-/* This series takes frames that carry light, whether the scene has spots or not. "csv" has a line of names, "json"
- * is {"frames": [{name: value, ...}, ...]}: what is not there is empty, or null; a group of columns of polarised
- * light that no row has is left out. Of a sweep the values of its axes stand behind the frame's number, by their
- * fields. */
+/* The series of light curves: its frames must carry light, whether the scene has spots or not. "csv" has a line of
+ * names, "json" is {"frames": [{name: value, ...}, ...]}. Undefined values are empty, or null; a group of
+ * polarisation columns that no row has is left out. For a sweep the values of its axes follow the frame's number,
+ * named by their fields. */
 extern const struct kd_series kd_light_curve;
 
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame);

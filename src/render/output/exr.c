@@ -1,6 +1,6 @@
-/* Writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B. Any other word
- * is a channel of the EXR layer "kerrd", such as kerrd.g: OpenImageIO orders names without case and takes a bare g
- * for green. All are 32-bit numbers. Attributes tell what the text of a PNG tells, and units. */
+/* Writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" becomes the channels R, G and B. Any other word
+ * is a channel of the EXR layer "kerrd", such as kerrd.g, because OpenImageIO ignores case in names and takes a
+ * plain g for green. All are 32-bit numbers. Attributes hold the same metadata as the text of a PNG, and units. */
 #include "render/output/format.h"
 
 #include "image/exr.h"

@@ -1,6 +1,6 @@
-/* The program ffmpeg encodes the pictures of all frames as a film: H.264 in an MP4 file, or VP9 in a WebM file. It
- * writes a file without a name, since the index of an MP4 belongs before its pictures, and what is in it is given
- * when it is done. */
+/* Encodes the pictures of all frames as a film with the program ffmpeg: H.264 in an MP4 file, or VP9 in a WebM file.
+ * ffmpeg writes to an unlinked file, because the index of an MP4 precedes its pictures; its contents are produced
+ * when ffmpeg is done. */
 #include "base/clock.h"
 #include "base/program.h"
 #include "image/png.h"
@@ -14,28 +14,28 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define PICTURE_MAX (32u << 20) /* bytes of one frame's file: of 4K twice over */
-#define MORE (1u << 20)         /* bytes that a film may have beyond those of its pictures: its head */
-#define SCENE_MAX 100000        /* bytes of its text: an argument of a program may be 128 KiB */
-#define IDLE_MS 30e3            /* after which a program that does nothing is given up */
-#define HEAD 24                 /* bytes of a PNG file until its width and height have been told */
+#define PICTURE_MAX (32u << 20) /* bytes of one frame's file: twice a 4K picture */
+#define MORE (1u << 20)         /* bytes that a film may have beyond its pictures: its header */
+#define SCENE_MAX 100000        /* bytes of the scene's text: an argument of a program may have 128 KiB */
+#define IDLE_MS 30e3            /* ffmpeg is killed if it makes no progress for this long */
+#define HEAD 24                 /* bytes of a PNG file up to the end of its width and height */
 
 struct film {
     const struct kd_gather_source *source;
-    const char *const *codec; /* its options, NULL at the end */
+    const char *const *codec; /* options of the codec, NULL at the end */
     const char *container;
     struct kd_program program;
-    int fd; /* of what it writes, -1: it has not begun */
+    int fd; /* output file; -1: not started */
     bool done;
-    struct kd_buffer picture; /* of frame `next`, from `at` on to be handed over; at == size: none is */
+    struct kd_buffer picture; /* of frame `next`, to be written from `at` on; at == size: none */
     size_t at;
     unsigned next;
-    uint8_t size[8]; /* of frame 0: width and height as a PNG file has them */
-    uint64_t given;  /* bytes of the film */
-    off_t written;   /* that its file had at the last look */
+    uint8_t size[8]; /* of frame 0: width and height as in a PNG file */
+    uint64_t given;  /* bytes of the film produced so far */
+    off_t written;   /* size of its file when last checked */
 };
 
-/* Quality that is not told from the pictures by eye: a black sky shows bands before anything else. */
+/* Quality at which films look like the pictures: banding in a black sky is visible first. */
 static const char *const h264[] = { "-c:v", "libx264",   "-preset",    "medium", "-crf",
                                     "17",   "-movflags", "+faststart", NULL };
 static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-crf", "24",        "-b:v", "0", "-row-mt",
@@ -69,7 +69,7 @@ static uint32_t be32(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* The next frame's file, whole: a picture is some hundred kilobytes. */
+/* Loads the next frame's whole file; a picture is some hundred kilobytes. */
 static enum kd_status load(struct film *f, struct kd_error *error)
 {
     const struct kd_gather_source *source = f->source;
@@ -99,7 +99,7 @@ static enum kd_status load(struct film *f, struct kd_error *error)
     return KD_OK;
 }
 
-/* A file that goes with its descriptor. */
+/* Creates a file that vanishes when its descriptor is closed. */
 static int nameless(void)
 {
     const char *folder = getenv("TMPDIR");
@@ -122,10 +122,10 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
     return all;
 }
 
-/* The scene of frame 0, as the picture has it, goes into the film. Colours: of the picture sRGB, which players show
- * alike where BT.709 is named; the conversion to Y'CbCr is BT.709's, in the range of video. Since ffmpeg 7 an
- * encoder takes the tags of its frames, and of a PNG they are sRGB's, whatever its options say: so the filter
- * setparams sets them as well. Two pixels share a colour, so odd sides are filled up. */
+/* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the picture's are
+ * sRGB, which players display alike if BT.709 is named; the conversion to Y'CbCr is BT.709's, in video range. Since
+ * ffmpeg 7 an encoder takes the colour tags of its frames, for a PNG sRGB's, whatever its options are, so the filter
+ * setparams sets them as well. Two pixels share a chroma sample, so odd sides are padded. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {
     static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/"
@@ -190,7 +190,7 @@ done:
     return status;
 }
 
-/* Whether its file has grown since the last look. */
+/* Whether its file has grown since the last check. */
 static bool has_written(struct film *f)
 {
     struct stat about;
@@ -199,7 +199,7 @@ static bool has_written(struct film *f)
     return f->written > before;
 }
 
-/* Hands over as much as ffmpeg takes now, and finds out whether it has ended. */
+/* Writes as much as ffmpeg accepts now, and checks whether it has ended. */
 static enum kd_status feed(struct film *f, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -272,7 +272,7 @@ static void close_film(void *state)
 static size_t holds(const struct kd_gather_source *source)
 {
     (void)source;
-    return 2 * PICTURE_MAX; /* a picture's file, and once its pixels */
+    return 2 * PICTURE_MAX; /* a picture's file, and its decoded pixels */
 }
 
 const struct kd_gather_format kd_gather_mp4 = {

@@ -1,6 +1,6 @@
-/* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array,
- * each more an IMAGE extension of that name; "rgb" has a third axis. The primary header tells the scene, the hole,
- * the observer, accuracy, and each approximation in force; all have world coordinates. */
+/* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array, each
+ * further one an IMAGE extension of that name; "rgb" has a third axis. The primary header has the scene, the hole,
+ * the observer, the accuracy, and each approximation in force; all have world coordinates. */
 #include "render/output/format.h"
 
 #include "image/fits.h"
@@ -54,9 +54,9 @@ static bool has(const struct kd_scene *scene, int kind)
     return false;
 }
 
-/* Of a radio source whose picture alone is asked for, the file holds the flux of each pixel instead, and Stokes Q, U
- * and V where its light is polarised. Programs of radio astronomy take the primary array to be the former (ehtim, CASA,
- * DS9), and ehtim 1.3.2 reads no file in which any array is a picture of three colours. */
+/* If only the picture of a radio source is requested, the file holds the flux of each pixel instead, and Stokes Q, U
+ * and V if its light is polarised. Radio astronomy programs (ehtim, CASA, DS9) expect the flux as the primary array,
+ * and ehtim 1.3.2 reads no file in which any array is a picture of three colours. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     struct kd_words *layers = &scene->image.layers;
@@ -73,8 +73,8 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Stokes Q, U and V beside the layer jy_per_pixel are in its unit: programs that read both take them to be. Sets *out
- * to numbers that the caller frees, or to NULL where they stay as they are. */
+/* Beside the layer jy_per_pixel, Stokes Q, U and V are converted to its unit, as programs that read them together
+ * expect. Sets *out to numbers that the caller frees, or to NULL if nothing is converted. */
 static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
                                 float **out)
 {
@@ -90,7 +90,7 @@ static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, c
     return KD_OK;
 }
 
-/* word: which of image.layers. */
+/* word: index in image.layers. */
 static enum kd_status put_unit(struct kd_buffer *out, const struct kd_picture *picture, size_t word,
                                const struct kd_number_layer *layer, const struct kd_notes *notes)
 {

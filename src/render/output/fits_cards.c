@@ -1,4 +1,4 @@
-/* This file has the cards of FITS headers that several files have. */
+/* Cards of FITS headers shared by several files. */
 #include "render/output/fits_cards.h"
 
 #include "image/fits.h"
@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* Which Stokes parameter of all the light it is; NULL: none. */
+/* Which Stokes parameter of all light a layer is; NULL: none. */
 static const char *stokes_of(const char *name)
 {
     static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },
@@ -105,8 +105,8 @@ static bool varies(const struct kd_sweep *sweep, const char *path)
     return false;
 }
 
-/* FITS 4.0, section 9.5: DATE-OBS is MJD-OBS in words; MJD is what ehtim reads. mjd: at least 0, at most 1e6, which is
- * the year 4596. 40587: 1 January 1970. */
+/* FITS 4.0, section 9.5: DATE-OBS is MJD-OBS in words; ehtim reads MJD. mjd: 0 to 1e6, which is the year 4596. 40587
+ * is 1 January 1970. */
 static enum kd_status put_date(struct kd_buffer *cards, double mjd)
 {
     const time_t seconds = (time_t)llround((mjd - 40587) * 86400);
@@ -146,7 +146,7 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
     enum kd_status status;
     static const char *const objects[] = { [KD_SOURCE_NONE] = "Kerr black hole",
                                            [KD_SOURCE_M87] = "M87",
-                                           [KD_SOURCE_SGRA] = "SGRA" }; /* as ehtim calls them */
+                                           [KD_SOURCE_SGRA] = "SGRA" }; /* ehtim's names */
     if (!varies(sweep, "source.name"))
         KD_TRY(kd_fits_text(cards, "OBJECT", objects[s->source.name], NULL));
     KD_TRY(kd_fits_text(cards, "TELESCOP", "kerrd", "a model, and no observation"));

@@ -4,12 +4,12 @@
 
 #include "render/frame/frame.h"
 
-/* Gives the flux of the whole picture in Jy, for spacetime.mass_msun and spacetime.distance_pc; NAN where it has
- * none: kd_scene_is_radio_alone. */
+/* Flux of the whole picture in Jy, for spacetime.mass_msun and spacetime.distance_pc; NAN unless
+ * kd_scene_is_radio_alone. */
 double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame);
 
-/* One line: "jy=2.0412 ghz=230 kelvin=1e+10"; "" where there is no flux. kelvin: brightness temperature of light 1.
- * With volume.normalise_to_jy " density_scale=0.79" behind it: what the density was multiplied by. */
+/* One line: "jy=2.0412 ghz=230 kelvin=1e+10"; "" if there is no flux. kelvin: brightness temperature of light 1.
+ * With volume.normalise_to_jy it ends with " density_scale=0.79", the factor applied to the density. */
 #define KD_FLUX_TEXT 128
 void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, char out[KD_FLUX_TEXT]);
 

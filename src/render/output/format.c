@@ -29,7 +29,7 @@ const struct kd_format *kd_format_live(void)
     return kd_formats[i];
 }
 
-/* A picture is one thing: itself, or one map. */
+/* A picture has a single layer: the picture itself, or one map. */
 static enum kd_status check_layers(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->image.layers.count <= 1 || format->carries & KD_CARRIES_LAYERS)
@@ -44,7 +44,7 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    const bool told = format->carries & shows && format->scene; /* in the file, as it was asked for */
+    const bool told = format->carries & shows && format->scene; /* stored in the file as requested */
     if (!(format->carries & KD_CARRIES_PICTURE) && !told && isinf(scene->style.exposure))
         scene->style.exposure = 0;
     if (!(format->carries & shows))
@@ -61,7 +61,7 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }
 
-/* The refusal names the formats that hold a scene. */
+/* Names the formats that hold a scene. */
 static enum kd_status refuse_file(struct kd_error *error)
 {
     char names[64] = "";

@@ -1,5 +1,5 @@
-/* A format is what a frame can become: bytes of a media type. One table, from which renders, jobs, sessions and the
- * command line pick: by the name of a format, by what a client accepts. Any thread.
+/* Formats of a frame: bytes of one media type each. Renders, jobs, sessions and the command line choose from one table,
+ * by the format's name or by what a client accepts. Any thread.
  *
  * A format is one C file that defines kd_format_NAME, and its name in KD_FORMATS. */
 #ifndef KD_RENDER_OUTPUT_FORMAT_H
@@ -8,47 +8,46 @@
 #include "base/buffer.h"
 #include "render/frame/frame.h"
 
-/* A frame and how it came about. */
+/* A frame and how it was made. */
 struct kd_picture {
     const struct kd_frame *frame;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const char *device; /* as kd_renderer_device_name */
-    unsigned number;    /* in a series, from 0 on */
-    unsigned lossy;     /* the quality of a format that loses some, 1 to 100 */
-    const char *hash;   /* of the scene, as kd_scene_hash has it; NULL or "": whoever writes it makes it */
+    unsigned number;    /* in a series, from 0 */
+    unsigned lossy;     /* quality for a lossy format, 1 to 100 */
+    const char *hash;   /* hash of the scene, as kd_scene_hash; NULL or "": computed when needed */
 };
 
 enum kd_effort {
-    KD_EFFORT_LIVE,  /* one of many a second, of 8 bits a channel: as fast as can be, and without what is told of it
-                        elsewhere */
-    KD_EFFORT_QUICK, /* somebody waits for it */
-    KD_EFFORT_KEEP,  /* a file that stays: smaller */
+    KD_EFFORT_LIVE,  /* one of many frames a second, 8 bits a channel: as fast as possible, without metadata */
+    KD_EFFORT_QUICK, /* a client waits for it */
+    KD_EFFORT_KEEP,  /* a file that is kept: smaller */
 };
 
-/* What a frame must carry for a format, bits. */
+/* Bits: what a frame must carry for a format. */
 enum {
     KD_CARRIES_PICTURE = 1 /* layer "rgb" */,
     KD_CARRIES_LIGHT = 2 /* frame->light */,
-    KD_CARRIES_LAYERS = 4 /* whatever image.layers names, as numbers: of the picture its linear light */
+    KD_CARRIES_LAYERS = 4 /* the layers named by image.layers, as numbers: linear light for the picture */
 };
 
 struct kd_format {
-    const char *name;       /* "png": of `format=`, and the end of a file's name; lower case */
+    const char *name;       /* "png": value of `format=` and file name extension; lower case */
     const char *media_type; /* "image/png" */
-    const char *magic;      /* with which every file begins; "": none has a beginning of its own */
-    const char *end;        /* with which every file ends; NULL: none has an end of its own */
+    const char *magic;      /* first bytes of each file; "": they vary */
+    const char *end;        /* last bytes of each file; NULL: they vary */
     unsigned carries;
-    bool live; /* KD_EFFORT_LIVE is for it */
-    /* Makes a scene one of which a frame carries what the format needs; NULL: any is. KD_EINVAL at a field of one
-     * that has nothing to tell. */
+    bool live; /* it supports KD_EFFORT_LIVE */
+    /* Adapts a scene so that its frame carries what the format needs; NULL: no change is necessary. KD_EINVAL at a
+     * field if the scene has nothing to write. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
-    /* Append a file to *out. *memory: of this thread's earlier calls, NULL at first; `forget` frees it. Errors:
-     * KD_ENOMEM, or KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
+    /* Appends a file to *out. *memory: state kept by this thread between calls, NULL at first; `forget` frees it.
+     * Errors: KD_ENOMEM, or KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
     enum kd_status (*encode)(const struct kd_picture *picture, enum kd_effort effort, void **memory,
                              struct kd_buffer *out, struct kd_error *error);
-    void (*forget)(void *memory); /* NULL: it keeps none */
-    /* The scene inside a file of this format, *out as it was on error; NULL: it carries none. */
+    void (*forget)(void *memory); /* NULL: it keeps no state */
+    /* Reads the scene in a file of this format; *out is unchanged on error. NULL: files carry no scene. */
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
 
@@ -57,36 +56,36 @@ struct kd_format {
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
-/* Moving frames of those who take them, of the quality that the picture says; in no table. jpeg.c */
+/* JPEG frames of live views, of the quality given in kd_picture; not in the table. jpeg.c */
 extern const struct kd_format kd_format_jpeg;
 
-/* FITS files of the scenes of a cube, in no table: with the layers that image.layers names, and no others, so that all
- * scenes have the same. fits.c */
+/* FITS files of the scenes of a cube; not in the table. They have exactly the layers that image.layers names, so
+ * that all scenes have the same. fits.c */
 extern const struct kd_format kd_format_cubed;
 
-/* The first is what is made where nobody says otherwise. formats.c */
+/* The first is the default. formats.c */
 extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats;
 
 const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
-const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by its beginning; NULL: none */
-const struct kd_format *kd_format_live(void);                              /* what live views are made of */
+const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by its first bytes; NULL: none */
+const struct kd_format *kd_format_live(void);                              /* the format of live views */
 
-/* The plan of a frame that carries what the format needs. What would show in none of it, and is in no scene that the
- * file carries, auto exposure and layers, is taken from the scene. Errors as kd_plan_make and the format's `draws`,
- * and KD_EINVAL at /image/layers for more of them than the format holds. */
+/* Plans a frame that carries what the format needs. Settings that neither show in the file nor are recorded in it
+ * (auto exposure and layers) are removed from the scene. Errors as kd_plan_make and the format's `draws`, and
+ * KD_EINVAL at /image/layers if there are more layers than the format holds. */
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* The scene inside a picture, of whatever format; KD_EINVAL if there is none. */
+/* Reads the scene in a picture of any format; KD_EINVAL if there is none. */
 enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 
-/* What a thread that encodes keeps from one file to the next; { 0 } to begin with. */
+/* State that an encoding thread keeps between files; initialise with { 0 }. */
 struct kd_encoder {
     const struct kd_format *of;
     void *memory;
 };
-/* As the format's encode. encoder: NULL for a single file. */
+/* Calls the format's encode. encoder: NULL for a single file. */
 enum kd_status kd_encode(const struct kd_format *format, const struct kd_picture *picture, enum kd_effort effort,
                          struct kd_encoder *encoder, struct kd_buffer *out, struct kd_error *error);
 void kd_encoder_finish(struct kd_encoder *encoder);

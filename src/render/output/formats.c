@@ -1,4 +1,4 @@
-/* This file has the table of format.h alone: a test may bring its own. */
+/* The table of format.h, in a file of its own so that a test may bring another. */
 #include "render/output/format.h"
 
 #define ENTRY(name) &kd_format_##name,

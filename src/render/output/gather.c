@@ -1,4 +1,4 @@
-/* Writes the files of frames into a ZIP; and what all gathered files share. */
+/* Writes the files of frames into a ZIP; also what all gathered formats share. */
 #include "render/output/gather.h"
 
 #include "image/zip.h"
@@ -28,9 +28,9 @@ void kd_gather_close(struct kd_gather *gather)
 struct files {
     const struct kd_gather_source *source;
     struct kd_zip *zip;     /* NULL: nothing is written yet */
-    struct kd_buffer bytes; /* that it has made */
+    struct kd_buffer bytes; /* its output so far */
     unsigned next;
-    uint64_t at, size; /* of the file under way; at == size: none is */
+    uint64_t at, size; /* of the current file; at == size: none */
     uint8_t piece[KD_GATHER_PIECE];
 };
 
@@ -87,7 +87,7 @@ static enum kd_status open_files(const struct kd_gather_source *source, void **s
     return KD_OK;
 }
 
-/* Stored: what frames become is compressed already, or does not compress. */
+/* Stored without compression: the frames' files are compressed already, or incompressible. */
 static enum kd_status begin(struct files *f)
 {
     enum kd_status status = kd_zip_create(&f->bytes, false, &f->zip);

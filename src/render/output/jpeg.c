@@ -1,5 +1,4 @@
-/* Moving frames as JPEG, for those who take them: no file that stays, and none that carries its scene, so that the
- * table of formats has it not. */
+/* JPEG frames of live views. They are not kept and carry no scene, so JPEG is not in the table of formats. */
 #include "image/jpeg.h"
 #include "render/output/format.h"
 

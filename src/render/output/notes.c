@@ -65,17 +65,17 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
     }
 }
 
-/* One sentence a line, as a reader of the file's properties sees them. */
+/* One sentence a line, for readers of the file's properties. */
 static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_append(out, "", 0); /* a plan without any still gives a string */
+    enum kd_status status = kd_buffer_append(out, "", 0); /* gives a string even without approximations */
     for (size_t i = 0; i < plan->n_approximations && !status; i++)
         status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i].text);
     return status;
 }
 
-/* The canonical scene, and its hash; of a picture that shows a playground it is no scene that can be read again, and
- * says of what state it was made. */
+/* The canonical scene, and its hash. For a picture of a playground the document also identifies the state that is
+ * shown, and cannot be read back as a scene. */
 static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
     const struct kd_crowd *crowd = picture->scene->crowd.at;
@@ -89,7 +89,7 @@ static enum kd_status put_scene(const struct kd_picture *picture, struct kd_note
         kd_sha256(out->data, out->size, notes->hash);
     if (!crowd)
         return KD_OK;
-    out->size--; /* the last brace */
+    out->size--; /* removes the last brace */
     return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}",
                             crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
 }
@@ -125,8 +125,8 @@ enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *
                             "the picture shows a playground, which its scene does not hold: make it again of the "
                             "playground's snapshot, by "
                             "kerrd playground SNAPSHOT.json --picture FILE");
-    struct kd_scene scene;   /* *out stays as it was when the document is refused */
-    kd_scene_smooth(&scene); /* the document is whole: what it lacks was not there when it was written */
+    struct kd_scene scene;   /* *out must not change if the document is refused */
+    kd_scene_smooth(&scene); /* fields missing from this complete document did not exist when it was written */
     enum kd_status status = kd_scene_from_json(&scene, text, length, error);
     if (!status)
         *out = scene;

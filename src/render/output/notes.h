@@ -1,5 +1,5 @@
-/* Metadata of a picture in its file, whatever the format: enough to render it again, and how it was made. Any thread.
- */
+/* Metadata of a picture in its file, for all formats: what is needed to render it again, and how it was made. Any
+ * thread. */
 #ifndef KD_RENDER_OUTPUT_NOTES_H
 #define KD_RENDER_OUTPUT_NOTES_H
 
@@ -9,15 +9,15 @@
 #include "render/output/format.h"
 
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0
- * median=1.6e-07 worst=2.0e-05"; without the last four where nothing was sampled. */
+ * median=1.6e-07 worst=2.0e-05"; without the last four if nothing was sampled. */
 #define KD_ACCURACY_TEXT 384
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
-/* Writes the same as members of an object, but for the rays and what traced them. The names of the two errors of
- * radii are the caller's. */
+/* Writes the same as members of a JSON object, without rays, engine, precision and steps. median, worst: names for
+ * the two errors of radii. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
                          const char *worst);
 
-/* "samples=16 shutter=0.5": the light is the mean of 16 pictures, at equal steps of time within half of a frame's
+/* "samples=16 shutter=0.5": the light is the mean of 16 pictures at equal time steps within half of a frame's time
  * (render/frame/blur.h). */
 #define KD_BLUR_TEXT 48
 
@@ -26,15 +26,15 @@ struct kd_notes {
     char hash[65];
     struct kd_buffer approximations; /* one a line */
     char accuracy[KD_ACCURACY_TEXT];
-    char clock[KD_CLOCK_TEXT]; /* of one who falls, else "" */
-    char flux[KD_FLUX_TEXT];   /* at a radio frequency, else "" */
-    char blur[KD_BLUR_TEXT];   /* of a mean of pictures, else "" */
+    char clock[KD_CLOCK_TEXT]; /* for a falling observer, otherwise "" */
+    char flux[KD_FLUX_TEXT];   /* at a radio frequency, otherwise "" */
+    char blur[KD_BLUR_TEXT];   /* for a mean of pictures, otherwise "" */
 };
-/* KD_ENOMEM. Finish it in any case. */
+/* KD_ENOMEM. Call kd_notes_finish in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 
-/* The scene of a file's notes, *out as it was on error. */
+/* Parses the scene in a file's notes; *out is unchanged on error. */
 enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error);
 
 #endif

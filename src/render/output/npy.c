@@ -1,6 +1,6 @@
-/* Writes a frame's layers as numbers: kd_format_npy. One NumPy array of the shape (height, width) whose
- * elements are records with a field for each word of image.layers, in its order, float32: a number, NaN where there
- * is none, or of "rgb" three, linear sRGB in units of the brightest surface brightness of the disk at g = 1. */
+/* Writes a frame's layers as numbers: kd_format_npy. One NumPy array of the shape (height, width), whose elements
+ * are records with a field for each word of image.layers, in its order, float32. A field is one number, NaN if
+ * undefined; for "rgb" it is three, linear sRGB in units of the disk's largest surface brightness at g = 1. */
 #include "render/output/format.h"
 
 #include "image/npy.h"
@@ -21,7 +21,7 @@ static struct kd_npy array_of(const struct kd_frame *frame, const struct kd_numb
     return array;
 }
 
-/* A row of pixels, each the numbers of all layers. */
+/* Writes a row of pixels, each with the numbers of all layers. */
 static void interleave(const struct kd_numbers *numbers, size_t first, size_t width, float *to)
 {
     for (size_t x = first; x < first + width; x++)

@@ -1,4 +1,4 @@
-/* Lists particles of a disk as numbers: a row a particle, 32-bit floats, in the order of the columns asked for.
+/* Lists the particles of a disk as numbers: one row each, 32-bit floats, in the order of the requested columns.
  *
  *     struct kd_particle_list list;
  *     kd_particle_list_init(&list, &scene, &error)                    a valid scene
@@ -7,8 +7,8 @@
  *     for (size_t i = 0; i < list.n; i += n)
  *         kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
  *
- * Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with sin(phi), z = r
- * sin(latitude), the ellipsoidal coordinates that BL's become for M -> 0. Any thread but for _fill. */
+ * Coordinates are Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with
+ * sin(phi), z = r sin(latitude): the ellipsoidal coordinates that they become for M -> 0. Any thread, except _fill. */
 #ifndef KD_RENDER_OUTPUT_PARTICLE_LIST_H
 #define KD_RENDER_OUTPUT_PARTICLE_LIST_H
 
@@ -38,37 +38,37 @@ enum kd_particle_column {
 };
 const char *kd_particle_column_name(enum kd_particle_column column);
 
-#define KD_PARTICLE_LIST_SLICE 131072u /* rows of one fill: some 20 ms of the render thread */
+#define KD_PARTICLE_LIST_SLICE 131072u /* rows of one fill: about 20 ms of the render thread */
 
 struct kd_particle_list {
-    struct kd_scene scene; /* at the time asked for */
+    struct kd_scene scene; /* at the requested time */
     struct kd_particle_grid grid;
     uint32_t first, stride;
-    size_t n; /* rows; 0 before settle: as many as there are */
+    size_t n; /* rows; 0 before settle: all */
     enum kd_particle_column columns[KD_PARTICLE_N_COLUMNS];
     size_t n_columns;
-    bool orbits;             /* some column needs them */
-    struct kd_plunge plunge; /* then: what falls, falls along it */
+    bool orbits;             /* some column needs the orbits */
+    struct kd_plunge plunge; /* set if `orbits`: the curve of falling particles */
 };
 
-/* KD_EINVAL at /disk/model: the scene has no particles. */
+/* KD_EINVAL at /disk/model if the scene has no particles. */
 enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene,
                                      struct kd_error *error);
-/* KD_EINVAL with "/name", the value and what is allowed. */
+/* KD_EINVAL with "/name", the value and its valid range. */
 enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text,
                                     struct kd_error *error);
-/* KD_EINVAL for more rows than there are, and for more bytes than `most` (0: any). */
+/* KD_EINVAL for more rows than exist, or for more than `most` bytes (0: no limit). */
 enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t most, struct kd_error *error);
 
-size_t kd_particle_list_row(const struct kd_particle_list *list); /* its bytes */
+size_t kd_particle_list_row(const struct kd_particle_list *list); /* bytes of a row */
 /* "x,y,z" */
 enum { KD_PARTICLE_NAMES = 120 };
 void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PARTICLE_NAMES]);
 
-/* Render thread only: n <= KD_PARTICLE_LIST_SLICE rows from row `from` on. */
+/* Computes n <= KD_PARTICLE_LIST_SLICE rows, from row `from` on. Render thread only. */
 enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from,
                                      size_t n, float *rows, struct kd_error *error);
-/* Asks for the kernel that it takes, for kd_kernels_note. */
+/* Requests the kernel that it needs, for kd_kernels_note. */
 enum kd_status kd_particle_list_ask(struct kd_renderer *renderer, const struct kd_particle_list *list);
 
 #endif

@@ -64,7 +64,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
 {
     if (effort == KD_EFFORT_LIVE)
         return encode_live(picture->frame, memory, out, error);
-    /* Who waits would rather have 10 ms than 20 %; of what stays nobody waits for the encoder. */
+    /* A waiting client prefers 10 ms less to 20 % less; for a stored file time does not matter. */
     return kd_png_of_picture(picture, effort == KD_EFFORT_QUICK ? 1 : 5, out, error);
 }
 

@@ -1,14 +1,14 @@
 /* kd_format_png: a PNG file that holds its scene, so that it can be rendered again. Any thread.
  *
  * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations" (one a line),
- * "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" where others' work is in it.
- * None with KD_EFFORT_LIVE. */
+ * "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" if it contains others' work.
+ * No chunks with KD_EFFORT_LIVE. */
 #ifndef KD_RENDER_OUTPUT_PNG_H
 #define KD_RENDER_OUTPUT_PNG_H
 
 #include "render/output/format.h"
 
-/* The same with a compression of one's own, as kd_png_params has it. */
+/* The same with a given compression, as in kd_png_params. */
 enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out,
                                  struct kd_error *error);
 

@@ -7,29 +7,29 @@
 
 #include "render/output/gather.h"
 
-/* A document that holds the rows of all frames. */
+/* A document of the rows of all frames. */
 struct kd_table_format {
-    const char *name, *media_type; /* "csv", "text/csv": as those of kd_format */
-    const char *file;              /* name to save it under; NULL: it is shown */
-    /* rows: n of them, each as the series' frames are; sweep: whose scenes they are, NULL: of none. Fails with
-     * KD_ENOMEM alone. */
+    const char *name, *media_type; /* "csv", "text/csv": as in kd_format */
+    const char *file;              /* name for saving it; NULL: it is displayed */
+    /* rows: n of them, each a frame of the series; sweep: the sweep of their scenes, NULL: none. The only error is
+     * KD_ENOMEM. */
     enum kd_status (*write)(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out);
 };
 
 struct kd_series {
-    const char *name;              /* "light-curve": a job's "output" */
-    const char *noun;              /* "light curve": in sentences */
-    const char *each;              /* "the rows of a light curve": what its frames are, in sentences */
-    const struct kd_format *frame; /* what each frame becomes; of a table a row, which is not offered by itself */
-    size_t row_bytes;              /* of a row; 0: the frames are files */
-    const struct kd_table_format *tables; /* of rows; the first where nobody says otherwise */
+    const char *name;              /* "light-curve": value of a job's "output" */
+    const char *noun;              /* "light curve": for sentences */
+    const char *each;              /* "the rows of a light curve": its frames, for sentences */
+    const struct kd_format *frame; /* format of each frame; for a table it is a row, which is not offered by itself */
+    size_t row_bytes;              /* size of a row; 0: the frames are files */
+    const struct kd_table_format *tables; /* formats of the table; the first is the default */
     size_t n_tables;
-    const struct kd_gather_format *const *wholes; /* of frames that are files: what all of them become, the first where
-                                                     nobody says otherwise; NULL at the end */
-    bool swept;                                   /* they are of a sweep alone */
+    /* formats for gathering files, the first is the default; ends with NULL */
+    const struct kd_gather_format *const *wholes;
+    bool swept; /* only for sweeps */
 };
 
-extern const struct kd_series *const kd_series_all[]; /* the first: where nobody says otherwise */
+extern const struct kd_series *const kd_series_all[]; /* the first is the default */
 extern const size_t kd_n_series;
 
 const struct kd_series *kd_series_named(const char *name); /* NULL: there is none */

@@ -1,7 +1,7 @@
-/* Writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have
- * names, the one that gives its pixels most light first (docs/physics/sky.md). They are sought between the rays of
- * the lens map, one a pixel, and in the rim of the shadow; their places are those of the rays that end at stars;
- * brightness is of one star's image alone. */
+/* Lists the stars in a picture and their places: kd_format_stars, a JSON document of the images of stars with names,
+ * sorted by the light that they give to a pixel (docs/physics/sky.md). They are searched between the rays of the
+ * lens map, one a pixel, and in the rim of the shadow. Their places are those of the rays that end at stars;
+ * brightness is that of one star's image. */
 #include "render/output/format.h"
 
 #include "base/json.h"
@@ -16,13 +16,14 @@
 #include <stdlib.h>
 
 #define COARSE \
-    0.15 /* rad: neighbouring rays of the picture that lead further apart, next to the critical curve, tell nothing */
-#define INNER 0.9  /* of the rim's width: what is nearer to the curve is the rim's alone */
-#define APART 0.05 /* in pixels: an image of both grids is there once */
+    0.15 /* rad: next to the critical curve, neighbouring rays of the picture that end further apart than this are not \
+            used */
+#define INNER 0.9  /* fraction of the rim's width: nearer to the curve only the rim's images count */
+#define APART 0.05 /* pixels: images of the two grids nearer than this are the same */
 
-enum { MOST = 400 }; /* images in a file: those beyond give less light */
+enum { MOST = 400 }; /* images in a file, the brightest ones */
 
-/* How the picture sees one. light: the mean radiance that it gives a pixel, in units of kd_star_flux. */
+/* An image in the picture. light: the mean radiance that it gives to a pixel, in units of kd_star_flux. */
 struct image {
     struct kd_star_image at;
     double magnification, g, through, light;
@@ -32,15 +33,14 @@ struct list {
     const struct kd_picture *picture;
     struct kd_sky_rays rays;
     struct kd_star_name names[KD_STAR_NAMES];
-    double most[KD_STAR_NAMES]; /* of the sky that a pixel may be, sr, for them to be seen */
-    struct kd_vec
-        places[KD_STAR_NAMES]; /* directions from which their light comes to the hole, in the frame of the lens map */
+    double most[KD_STAR_NAMES];          /* the largest solid angle of a pixel, sr, at which each is visible */
+    struct kd_vec places[KD_STAR_NAMES]; /* directions of the stars in the frame of the lens map */
     size_t n_stars;
     struct image *images;
     size_t n, room, n_rim; /* images; those of the rim come first */
 };
 
-/* Wants the places in the sky where rays end, and how deep the disk is before them. */
+/* Requests the directions in which rays end, and the optical depth of the disk before them. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     const bool disk = scene->disk.model != KD_DISK_NONE;
@@ -71,7 +71,7 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Stars in the frame of the rays: their rotation's transpose leads there. */
+/* Stars in the frame of the rays, by the transpose of the rays' rotation. */
 static void name_stars(struct list *list)
 {
     const struct kd_scene *scene = list->picture->scene;
@@ -93,8 +93,8 @@ static void name_stars(struct list *list)
     }
 }
 
-/* The solid angle of the square of four rays in the picture, by the stencil by which that of the sky is known: the
- * projection then drops out of their ratio. NAN at infinity, where parallel rays have none. */
+/* Solid angle of the square of four rays in the picture, by the stencil that measured that of the sky: the
+ * projection then cancels in their ratio. NAN at infinity, where parallel rays have no solid angle. */
 static double pixel_angle(const struct kd_camera_exact *camera, const struct kd_star_stencil *by)
 {
     const double h = 1e-3, x0 = by->x, y0 = by->y;
@@ -114,7 +114,7 @@ static double pixel_angle(const struct kd_camera_exact *camera, const struct kd_
     return there ? area / (4 * h * h) : area;
 }
 
-/* The part of light from behind that the disk lets through there, at all crossings of the nearest ray. */
+/* Transmission of the disk, over all crossings of the nearest ray. */
 static double through(const struct kd_picture *picture, size_t pixel)
 {
     double depth = 0;
@@ -138,8 +138,8 @@ static bool is_there(const struct list *list, const struct kd_star_image *image)
     return false;
 }
 
-/* Takes a place of the map to one of the picture; false: it is outside. The map of a picture of all directions has one
- * column and two rows more (find()): an image beyond a pole is in the picture at its other place. */
+/* Converts a place of the map to one of the picture; false if it is outside. The map of a picture of all directions
+ * has one column and two rows more (find()): an image beyond a pole is in the picture at its equivalent place. */
 static bool place_of(const struct list *list, struct kd_star_image *image)
 {
     const double width = list->picture->frame->width, height = list->picture->frame->height, edge = 0.5;
@@ -148,7 +148,7 @@ static bool place_of(const struct list *list, struct kd_star_image *image)
     return image->x >= -edge && image->x < width - edge && image->y >= -edge && image->y < height - edge;
 }
 
-/* Adds an image, but for those that pictures leave out. */
+/* Adds an image, except those that pictures leave out. */
 static enum kd_status add(void *user, const struct kd_star_image *found)
 {
     struct list *list = user;
@@ -159,7 +159,7 @@ static enum kd_status add(void *user, const struct kd_star_image *found)
     if (!place_of(list, &at))
         return KD_OK;
     const double shown = pixel_angle(&list->rays.camera, &(struct kd_star_stencil) { .x = at.x, .y = at.y });
-    at.solid_angle = isnan(magnification) ? at.solid_angle : shown / magnification; /* at the place itself */
+    at.solid_angle = isnan(magnification) ? at.solid_angle : shown / magnification; /* measured at the place itself */
     if (at.solid_angle > list->most[at.star] || is_there(list, &at))
         return KD_OK;
     const uint32_t x = (uint32_t)(at.x + edge), y = (uint32_t)(at.y + edge);
@@ -191,9 +191,9 @@ static int brighter(const void *a, const void *b)
     return (p < q) - (p > q);
 }
 
-/* The rays of the picture, one a pixel. around: of all directions; then the first column comes once more behind the
- * last, and a row beyond each pole, which is the one beside it half a turn on. An odd number of columns has no such
- * rows. */
+/* The rays of the picture, one a pixel. around: the picture shows all directions. Then the first column is repeated
+ * after the last, and a row is added beyond each pole: the adjacent row shifted by half a turn. With an odd number
+ * of columns there are no such rows. */
 struct picture_map {
     const float *theta, *phi;
     double azimuth;
@@ -237,7 +237,7 @@ static bool exact(const void *of, double x, double y, struct kd_vec *out)
     return true;
 }
 
-/* From the map's rows to the picture's. */
+/* Converts from the map's rows to the picture's. */
 static enum kd_status add_around(void *user, const struct kd_star_image *found)
 {
     struct kd_star_image image = *found;
@@ -277,7 +277,7 @@ done:
     return status;
 }
 
-/* To four digits. */
+/* Writes four digits. */
 static void write_number(struct kd_json *json, const char *name, double value)
 {
     char text[32];

@@ -10,8 +10,8 @@
 #define MICROARCSECOND (1 / 3.6e9) /* degrees */
 
 /* A place x pixels right of the middle and y above it has alpha - centre_alpha = step (cos x + sin y) and beta -
- * centre_beta = step (cos y - sin x), the cosine and the sine being those of the camera's clockwise roll. The pixel
- * of reference is where alpha and beta are 0. */
+ * centre_beta = step (cos y - sin x), with cosine and sine of the camera's clockwise roll. The reference pixel is
+ * where alpha and beta are 0. */
 static struct kd_wcs plane(const struct kd_scene *scene)
 {
     const struct kd_camera *c = &scene->camera;
@@ -31,7 +31,7 @@ static struct kd_wcs plane(const struct kd_scene *scene)
     };
 }
 
-/* Of a tile pixels are counted from its own corner, rows from below. */
+/* In a tile pixels count from its own corner, rows from below. */
 static struct kd_wcs in_tile(struct kd_wcs wcs, const struct kd_scene *scene)
 {
     const struct kd_window tile = kd_scene_window(scene);
@@ -49,7 +49,7 @@ struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
     const double width = scene->image.width, height = scene->image.height;
     const uint32_t sight = kd_camera_sight(scene);
     if (scene->camera.projection == KD_PROJECTION_RING ||
-        scene->camera.stereo == KD_STEREO_PAIR) /* two pictures have two */
+        scene->camera.stereo == KD_STEREO_PAIR) /* a pair of pictures has two of them */
         return (struct kd_wcs) { 0 };
     if (sight == KD_SIGHT_PLANE)
         return in_tile(plane(scene), scene);

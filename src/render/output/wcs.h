@@ -1,5 +1,5 @@
-/* World coordinates of a picture, as FITS has them (Greisen & Calabretta 2002, A&A 395, 1061; Calabretta & Greisen
- * 2002, A&A 395, 1077): what a place in it is on the sky of an observer far away, or around a near one. Pure. */
+/* World coordinates of a picture as in FITS (Greisen & Calabretta 2002, A&A 395, 1061; Calabretta & Greisen 2002,
+ * A&A 395, 1077): position on the sky for a distant observer, direction for a near one. Pure. */
 #ifndef KD_RENDER_OUTPUT_WCS_H
 #define KD_RENDER_OUTPUT_WCS_H
 
@@ -8,19 +8,18 @@
 #include <stdbool.h>
 
 struct kd_wcs_axis {
-    const char *type, *unit;   /* "RA---SIN", "deg" */
-    double pixel, value, step; /* the pixel of reference, counted from 1, from the left or from the lowest row; what is
-                                  there; how much a pixel more is */
+    const char *type, *unit; /* "RA---SIN", "deg" */
+    /* reference pixel, counted from 1, from the left or from the lowest row; value there; increment a pixel */
+    double pixel, value, step;
 };
 
 struct kd_wcs {
-    bool known; /* false: the projection has no linear axes, or the file has two pictures side by side, or there are two
-                   pictures */
-    struct kd_wcs_axis at[2]; /* far away, east to the left, by mass and distance of the hole; near, right of and above
-                                 the camera's axis */
-    bool far;                 /* then the same places are */
-    struct kd_wcs_axis impact[2]; /* impact parameters alpha and beta, M */
-    double turn[2][2];            /* PCi_j of both: how steps of the axes are made of pixels, where the camera rolls */
+    bool known; /* false: the projection has no linear axes, or the picture is a pair for two eyes */
+    /* far away: east to the left, from the hole's mass and distance; near: right of the camera's axis and above it */
+    struct kd_wcs_axis at[2];
+    bool far;                     /* a distant observer; `impact` is then valid as well */
+    struct kd_wcs_axis impact[2]; /* the same places as impact parameters alpha and beta, M */
+    double turn[2][2];            /* PCi_j of both: from pixels to steps of the axes when the camera is rolled */
 };
 
 /* The scene must be valid. */

@@ -2,9 +2,10 @@
 
 #include <math.h>
 
-#define FWHM 2.3548200450309493 /* of a Gaussian over its standard deviation, 2 sqrt(2 ln 2) */
-#define LEAST 0.1               /* pixels: the next pixel has exp(-50) of the weight */
-#define SPLINES 0.5             /* variance of both, in cells */
+/* full width at half maximum of a Gaussian over its standard deviation, 2 sqrt(2 ln 2) */
+#define FWHM 2.3548200450309493
+#define LEAST 0.1   /* pixels: for a narrower beam the next pixel has less than exp(-50) of the weight */
+#define SPLINES 0.5 /* variance of both splines, in cells */
 
 static uint32_t cells(uint32_t pixels, uint32_t cell) { return cell > 1 ? (pixels + cell - 1) / cell + 2 : pixels; }
 

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* Cells along a side that the coarsest grid divides, at least one of its own. */
+/* Cells along a side: a multiple of the coarsest grid's unit, at least one unit. */
 static uint32_t cells(double wanted, uint32_t unit) { return unit * (uint32_t)fmax(round(wanted / unit), 1); }
 
-/* So many cells begin here, behind those before. */
+/* Reserves n cells of the buffer and returns their offset. */
 static uint64_t reserve(struct kd_bloom *bloom, uint64_t n)
 {
     const uint64_t at = bloom->bytes;
@@ -13,9 +13,8 @@ static uint64_t reserve(struct kd_bloom *bloom, uint64_t n)
     return at;
 }
 
-/* Blocks of pixels are seven tenths as wide as cells at most: what gives evenly then arrives evenly, to 1e-3, and
- * what a point of light gives is displaced by a third of a cell at most. Kernels take 1, 2 or a multiple of 4
- * pixels. */
+/* Blocks of pixels are at most seven tenths as wide as cells: uniform light then stays uniform, to 1e-3, and a point
+ * of light is displaced by at most a third of a cell. Kernels handle 1, 2 or a multiple of 4 pixels. */
 static uint32_t block_of(double pixels_a_cell)
 {
     const double most = 0.715 * pixels_a_cell;
@@ -28,7 +27,7 @@ struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength, bo
     const double side = fmax(height, width / 4.0);
     if (strength <= 0)
         return bloom;
-    /* The finest grid whose cells are no smaller than pixels; of the smallest pictures there is none. */
+    /* The finest grid whose cells are not smaller than pixels; the smallest pictures have no grid. */
     for (bloom.levels = KD_BLOOM_LEVELS; bloom.levels; bloom.levels--) {
         const double rows = KD_BLOOM_ROWS >> (KD_BLOOM_LEVELS - bloom.levels);
         bloom.rows = cells(rows * (height / side), 1u << (bloom.levels - 1));
@@ -49,6 +48,6 @@ struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength, bo
     bloom.blocks = reserve(&bloom, kd_bloom_blocks(&bloom));
     bloom.share = 1.0 / bloom.levels;
     bloom.strength *=
-        (double)bloom.levels / KD_BLOOM_LEVELS; /* light that stays within a pixel or so stays where it is */
+        (double)bloom.levels / KD_BLOOM_LEVELS; /* light that would stay within about a pixel is not spread */
     return bloom;
 }

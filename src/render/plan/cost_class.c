@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Fields that do not count, of a name NULL all of the section's, and those of which only the power of two does. "" is
- * the document itself. */
+/* Fields that are not part of the class (all fields of a section if the name is NULL), and fields that enter by
+ * their power of two. "" is the document itself. */
 struct named { const char *section, *name; };
 static const struct named left_out[] = {
     { "image", NULL },           { "image.tile", NULL },
@@ -56,7 +56,7 @@ uint64_t kd_cost_class(const struct kd_plan *plan, const struct kd_scene *scene)
             for (size_t i = 0; i < kd_sections[s].count; i++)
                 hash = add_field(hash, scene, &kd_fields[kd_sections[s].first + i], k);
     }
-    return hash ? hash : 1; /* 0 is a class that is not there */
+    return hash ? hash : 1; /* 0 means no class */
 }
 
 double kd_cost_known(const struct kd_capacity *capacity, uint64_t class, enum kd_pass_id pass)
@@ -67,7 +67,7 @@ double kd_cost_known(const struct kd_capacity *capacity, uint64_t class, enum kd
     return 0;
 }
 
-/* Finds the place of a class, which is that of the class learned from longest ago where it has none yet. */
+/* Entry of a class; if it has none, that of the class updated longest ago. */
 static struct kd_class_cost *place_of(struct kd_capacity *capacity, uint64_t class)
 {
     struct kd_class_cost *oldest = capacity->classes;

@@ -1,3 +1,4 @@
+/* Writes a plan as JSON. */
 #include "render/plan/plan.h"
 
 #include "base/json.h"

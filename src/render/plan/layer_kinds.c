@@ -18,7 +18,7 @@ static const char *const fates[] = { "sky", "hole", "?" };
 #define RAY_(number, called, what, value) \
     [number] = { .name = #called, .of = KD_OF_RAY, .needs = what, SHOWN_##called },
 
-/* Unit, and how a PNG shows it. */
+/* Unit and display of each layer in a PNG. */
 #define SHOWN_intensity .unit = "", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_brightness_temperature .unit = "K", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_specific_intensity .unit = "Jy/sr", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
@@ -63,11 +63,11 @@ size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WO
 uint32_t kd_layers_needs(const struct kd_scene *scene)
 {
     struct kd_plan_layer layers[KD_WORDS_MOST];
-    bool rgb, ring = scene->camera.projection == KD_PROJECTION_RING; /* where Carter's Q is known by the slope alone */
+    bool rgb, ring = scene->camera.projection == KD_PROJECTION_RING; /* there Carter's Q follows only from the slope */
     uint32_t needs = 0;
     for (size_t n = kd_layers_of(scene, layers, &rgb); n; n--) {
         if (kd_layer_is_polarized(layers[n - 1].kind) && scene->polarization.model == KD_POLARIZATION_TRANSFER)
-            continue; /* of the march, and of no crossing */
+            continue; /* belongs to the march and has no crossing */
         needs |= kd_layer_kinds[layers[n - 1].kind].needs |
                  (layers[n - 1].kind == KD_LAYER_emission_angle && ring ? KD_LENS_SLOPE : 0);
     }

@@ -1,5 +1,5 @@
-/* The table of layers that a frame may have besides the picture: the C side of shaders/shared/layers.h, with units,
- * colours and words. To add one: its line there, its row in layer_kinds.c, its word in the row image.layers of the
+/* Table of the layers that a frame may have besides the picture: the C side of shaders/shared/layers.h, with units,
+ * colours and names. To add one: its line there, its row in layer_kinds.c, its word in the row image.layers of the
  * field table, its section in docs/layers.md. Constant data and pure functions of valid scenes, any thread. */
 #ifndef KD_RENDER_PLAN_LAYER_KINDS_H
 #define KD_RENDER_PLAN_LAYER_KINDS_H
@@ -21,34 +21,34 @@ enum kd_layer_number {
 
 struct kd_layer_kind {
     const char *name;
-    const char *unit; /* "": a pure number */
+    const char *unit; /* "": dimensionless */
     enum kd_layer_of { KD_OF_PICTURE, KD_OF_LIGHT, KD_OF_CROSSING, KD_OF_RAY } of;
-    uint32_t needs; /* KD_LENS_...: what the lens map must hold for it */
+    uint32_t needs; /* KD_LENS_... quantities of the lens map that it reads */
     enum kd_colour_map map;
-    struct kd_map_scale scale;  /* an end that is NAN: the least or the largest value of the picture */
-    const char *const *classes; /* of CATEGORICAL: what its values 0, 1, ... are called; NULL: numbers */
-    uint32_t n_classes;         /* 0: as many as the largest value says */
+    struct kd_map_scale scale;  /* an end that is NAN: the least or largest value of the picture */
+    const char *const *classes; /* for CATEGORICAL: names of the values 0, 1, ...; NULL: their numbers */
+    uint32_t n_classes;         /* 0: given by the largest value */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
-/* Says whether it is of the polarisation of light. */
+/* Whether it is a quantity of polarised light. */
 static inline bool kd_layer_is_polarized(int kind)
 {
     return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa ||
            kind == KD_LAYER_polarization_fraction || kind == KD_LAYER_stokes_v;
 }
 
-/* One that a plan has. order: its image order, -1: that of the first crossing on the disk. */
+/* A layer of a plan. order: its image order; -1: that of the first crossing on the disk. */
 struct kd_plan_layer { int16_t kind, order; };
 
-/* Those of image.layers but for "rgb", in their order; returns how many. *rgb: whether that is among them. */
+/* The layers of image.layers except "rgb", in their order; returns their number. *rgb: whether "rgb" is among them. */
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
-/* What the lens map must hold for all of them: KD_LENS_... */
+/* KD_LENS_... quantities that all of them need. */
 uint32_t kd_layers_needs(const struct kd_scene *scene);
-/* Whether jy_per_pixel is known: nothing but a volume at a radio frequency shines, and each pixel is the same part of
- * the sky. */
+/* Whether jy_per_pixel is defined: only a volume at a radio frequency emits light, and all pixels cover the same
+ * part of the sky. */
 bool kd_layers_have_flux(const struct kd_scene *scene);
-/* KD_EINVAL at a field for what cannot be: a layer of the disk's where there is none, of a place that the projection
- * does not know, of an order that is not followed; ends of a scale that are none. */
+/* KD_EINVAL at a field for an impossible request: a layer of the disk without a disk, of coordinates that the
+ * projection does not have, of an order that is not traced; or invalid ends of a scale. */
 enum kd_status kd_layers_check(const struct kd_scene *scene, struct kd_error *error);
 
 /* "g" or "g_1". */

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes what a camera sees of a hole, as far as the lens map depends on it: the tile, and all of the camera but its
- * azimuth, which adds a constant to all azimuths and is added where light is made. */
+/* Writes the parts of a camera that the lens map depends on: the tile, and all fields except the azimuth, which is
+ * added to all azimuths when light is computed. */
 static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer *text)
 {
     const struct kd_section *camera = kd_section_find("camera");
@@ -23,8 +23,7 @@ done:
     return status;
 }
 
-/* The key is a hash of what the lens map depends on: the hole, the camera, the rays, how they are followed, and the
- * quantities that it holds. */
+/* The key hashes the hole, the camera, the rays, how they are traced, and the quantities of the map. */
 enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *scene)
 {
     struct kd_buffer text = { 0 };
@@ -48,7 +47,7 @@ enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
     char hash[65];
     enum kd_status status;
     const bool marches =
-        kd_emit_along(scene) || kd_emit_met(scene); /* of which pixels at the curve have rays, whatever the map holds */
+        kd_emit_along(scene) || kd_emit_met(scene); /* which pixels at the curve have rays, whatever the map holds */
     KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d %d, ", kd_needs_of(scene).quantities, scene->image.width,
                             scene->image.height, (int)kd_scene_side(scene), scene->image.critical_factor, marches));
     for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)

@@ -5,12 +5,12 @@
 
 #include <math.h>
 
-#define BODIES 0.5 /* what it takes to look for them, over a ray of a smooth volume */
+#define BODIES 0.5 /* cost of looking for bodies, relative to a ray of a smooth volume */
 
 enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 
-#define UNSEEN 0.05        /* octaves: what is less than this has no part in light to 1e-4 */
-#define SKETCH_UNSEEN 0.15 /* and those of which a ray's footprint leaves little anyway */
+#define UNSEEN 0.05        /* octaves of less than this amplitude contribute less than 1e-4 to the light */
+#define SKETCH_UNSEEN 0.15 /* the same for a sketch: includes octaves that a ray's footprint mostly averages out */
 
 static bool is_stirred(const struct kd_scene *scene)
 {
@@ -25,22 +25,22 @@ static double error_of(const struct kd_scene *scene)
 }
 
 #define PIXEL \
-    0.36 /* M between rays, over disk.gas.scale, from which on more of the noise is seen the closer they are */
-#define CLOSER 0.08 /* of the exponent, each time that they are half as far apart */
-#define CLOSEST 3   /* so often: then all octaves are seen */
+    0.36 /* distance of rays, M over disk.gas.scale: below it, more and more of the fine noise is resolved as the rays \
+            get closer */
+#define CLOSER 0.08 /* change of the exponent each time the distance halves */
+#define CLOSEST 3   /* number of halvings after which all octaves are resolved */
 
-/* Says how often rays are half as far apart as those of a picture 320 wide of the preset thick-disk. */
+/* Number of times that the distance of rays is halved compared with a picture 320 wide of the preset thick-disk. */
 static double closeness(const struct kd_scene *scene)
 {
     const double distance = isfinite(scene->camera.r) ? scene->camera.r : 1, side = fmax(scene->image.samples, 1);
     return fmin(fmax(log2(PIXEL * scene->gas.scale * side / (kd_camera_pixel(scene) * distance)), 0), CLOSEST);
 }
 
-/* Measured in the preset thick-disk at 320 x 180: nine of ten rays are within 8e-3 of 16 times as many stretches at
- * four quarters, and within 1.6e-3 at eight, 5e-4 at twelve: noise is smooth to the second derivative only. The
- * closer rays are the finer is the noise that they see, much finer than stretches, and the error falls more slowly:
- * at nine quarters it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720, and at three 1.3e-2, 1.5e-2
- * and 1.8e-2. */
+/* Measured in the preset thick-disk at 320 x 180 against 16 times as many stretches: nine of ten rays are within
+ * 8e-3 at four quarters, 1.6e-3 at eight and 5e-4 at twelve, because noise is smooth to the second derivative only.
+ * Closer rays resolve noise much finer than stretches, and the error falls more slowly: at nine quarters it is 8e-4
+ * at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720; at three quarters 1.3e-2, 1.5e-2 and 1.8e-2. */
 static uint32_t fine_of(double error, const struct kd_scene *scene)
 {
     double fine = BALANCED * sqrt(sqrt(1e-4 / error));
@@ -49,7 +49,7 @@ static uint32_t fine_of(double error, const struct kd_scene *scene)
     return (uint32_t)fmin(fmax(ceil(fine - 1e-9), LEAST), MOST);
 }
 
-/* The sixth order leaves an error of 1e-7 with sixteen steps a half period, and 1e-5 with eight. */
+/* The method of order six has an error of 1e-7 with sixteen steps a half period, and of 1e-5 with eight. */
 static uint32_t steps_of(double error, const struct kd_setting *rays)
 {
     uint32_t least = error > 5e-4 ? 8 : 16;
@@ -57,9 +57,9 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
     return mino && rays->steps > least ? rays->steps : least;
 }
 
-/* A ray through matter at a radio frequency takes so many times as long as one through a volume that is the same
- * everywhere: seconds of a core for pictures of two sizes by lavapipe, test 3 of Gold et al., ipole's flow, the
- * torus, and a grid of it of 192 x 96 nodes. */
+/* Cost of a ray through matter at a radio frequency, relative to one through a uniform volume: core seconds of
+ * pictures of two sizes by lavapipe, for test 3 of Gold et al., ipole's flow, the torus, and a grid of it with 192 x
+ * 96 nodes. */
 static double of_matter(const struct kd_scene *scene)
 {
     static const double of[] = { [KD_VOLUME_NONE] = 1,   [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7,
@@ -67,7 +67,7 @@ static double of_matter(const struct kd_scene *scene)
     return of[scene->volume.model];
 }
 
-/* By lavapipe: an octave of noise in three dimensions takes a quarter of what all else of a place does. */
+/* By lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a sample. */
 static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t fine)
 {
     const double bodies = kd_emit_met(scene) ? BODIES * steps / 16 : 0;
@@ -77,13 +77,14 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
                         (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
-/* One pixel in 144, of which what is followed for the error takes a thirtieth of what the picture does; of small
- * pictures more, of large ones less. */
+/* One pixel in 144: measuring the error then takes a thirtieth of the picture's time; more for small pictures, less
+ * for large ones. */
 static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
 {
     *n = (uint32_t)fmin(fmin(fmax(size / 12, 4), most), size);
     *every = size / *n;
-    *first = (uint32_t)(0.382 * (size - (*n - 1) * *every)); /* not symmetrical about the middle, as pictures may be */
+    /* not symmetric about the middle, because pictures may be */
+    *first = (uint32_t)(0.382 * (size - (*n - 1) * *every));
 }
 
 static struct kd_march_sample sample_of(uint32_t width, uint32_t height)

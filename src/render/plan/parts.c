@@ -1,5 +1,4 @@
-/* Plans of pictures that are made of parts: of a pair of eyes, of a tile, and of strips where all of a picture does
- * not fit. */
+/* Plans of pictures that are made of parts: two eyes, a tile, or strips of a picture that does not fit. */
 #include "render/plan/parts.h"
 
 #include "render/plan/lens_key.h"
@@ -9,7 +8,7 @@
 
 #define STRIPS_MOST 1024u
 
-/* Adds what another picture takes that is made after this one. */
+/* Adds the resources of another picture that is made after this one. */
 static void add(struct kd_plan *plan, const struct kd_plan *next)
 {
     for (size_t i = 0; i < next->n_passes; i++) {
@@ -46,7 +45,7 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
-    plan.host_bytes = 2 * (plan.host_bytes + next.host_bytes); /* of each, and of both together */
+    plan.host_bytes = 2 * (plan.host_bytes + next.host_bytes); /* of each picture, and of both together */
     plan.eyes = 2;
     kd_plan_say(&plan, scene);
     KD_TRY(name_lens(&plan, scene, error));
@@ -55,7 +54,7 @@ done:
     return status;
 }
 
-/* Flux and centroid would be those of the margin too, and are left out. */
+/* A tile has no flux and centroid, because they would include its margin. */
 static struct kd_needs of_tile(const struct kd_needs *needs)
 {
     struct kd_needs own = *needs;
@@ -75,8 +74,8 @@ static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_ne
     return status;
 }
 
-/* What of the memory is not for the whole picture on the host, which is there twice: as pixels and as the file that
- * they become. False: there is none. */
+/* Memory left beside the whole picture on the host, which exists twice there: as pixels and as the encoded file.
+ * False: none is left. */
 static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_capacity *rest)
 {
     const uint64_t whole = 2 * host_bytes;
@@ -88,7 +87,7 @@ static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_
     return (c->host_memory ? rest->memory_bytes : !c->host_bytes || rest->host_bytes) > 0;
 }
 
-/* All of n strips, the last of which may be lower. */
+/* Plans all n strips; the last may be lower. */
 static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                   const struct kd_capacity *c, uint32_t n, struct kd_plan *out, struct kd_error *error)
 {
@@ -127,7 +126,8 @@ static enum kd_status refuse_strips(struct kd_error *error, const struct kd_erro
     return kd_error_set(error, KD_ETOOBIG, "%.250s; in strips it may fit, but %.200s", whole.message, why->message);
 }
 
-/* As few strips as fit. What no tile can have is too large, then: `error` stays as it is. */
+/* Uses as few strips as fit. If the scene needs what no tile can have, the picture is too large: `error` is left
+ * unchanged. */
 static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                   const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
@@ -148,8 +148,8 @@ static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_
     return KD_ETOOBIG;
 }
 
-/* Whether some number of strips may fit: without a list of pixels at the critical curve, and by the first strip,
- * which is as high as any. */
+/* Whether some number of strips may fit, judged without the list of pixels at the critical curve, and by the first
+ * strip, which is as high as any. */
 static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                    const struct kd_capacity *capacity, struct kd_error *error)
 {

@@ -1,11 +1,10 @@
-/* These are the passes of a frame and what they cost, each written once. Plan, capacity, what frames teach, the
- * device's JSON, what is kept of it from start to start, and sessions fold over these two lists. Constant data and
- * pure functions, any thread.
+/* The passes of a frame and their costs, as two lists. Plan, capacity, cost measurement, the device's JSON, its cached
+ * costs and sessions iterate over them. Constant data and pure functions, any thread.
  *
- * To add a pass: its line here, in pass.c how many invocations a plan has of it, its file in src/render/frame/, and
- * its call in frame.c, where it goes by kd_passes[KD_PASS_...].name. A pass that an emitter has of its own stands in
- * the emitter's files alone (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h), and in its place among
- * the others here. */
+ * To add a pass: its line here, its number of invocations in pass.c, its file in src/render/frame/, and its call in
+ * frame.c, where it is named by kd_passes[KD_PASS_...].name. A pass that belongs to an emitter is defined in the
+ * emitter's files only (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h); it appears below as
+ * KD_EMIT_PASSES. */
 #ifndef KD_RENDER_PLAN_PASS_H
 #define KD_RENDER_PLAN_PASS_H
 
@@ -19,17 +18,17 @@ struct kd_capacity;
 struct kd_plan;
 struct kd_scene;
 
-/* Figures: nanoseconds an item, which frames measure. F(id, word, guess): the word is that of GET /v1/device and of
- * what is kept; the guess is lavapipe's, until something has been measured. */
+/* Figures: nanoseconds an item, measured on frames. F(id, word, guess): the word is used by GET /v1/device and in
+ * the cache; the guess is lavapipe's, used until something has been measured. */
 #define KD_FIGURES(F) \
-    F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii alone, in closed form */ \
-    F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */ \
-    F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */ \
+    F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii only, in closed form */ \
+    F(RAY_FULL, "ray_full", 150)              /* any other ray that a kernel traces */ \
+    F(SAMPLE_TRANSFER, "sample_transfer", 20) /* light of a ray */ \
     F(PIXEL_POST, "pixel_post", 30) \
-    F(RAY_MARCH, "ray_march", 4000)     /* the light of a ray through volumes */ \
-    F(RAY_REFINED, "ray_refined", 400)  /* a ray that refining plans for, and what choosing it takes */ \
-    F(RAY_STARS, "ray_stars", 220)      /* a ray where stars are looked for, and their images */ \
-    F(SAMPLE_STARS, "sample_stars", 90) /* a ray's light under a sky of stars */
+    F(RAY_MARCH, "ray_march", 4000)     /* light of a ray through volumes */ \
+    F(RAY_REFINED, "ray_refined", 400)  /* a ray planned for refinement, including its selection */ \
+    F(RAY_STARS, "ray_stars", 220)      /* a ray where stars are searched, and their images */ \
+    F(SAMPLE_STARS, "sample_stars", 90) /* light of a ray under a sky of stars */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
 #define KD_P(emitter, id, word, guess) KD_NS_##id,
@@ -43,14 +42,14 @@ extern const struct kd_figure {
 /* Passes, in the order in which a plan names them. P(id, name, invocations, cost, scale, when):
  *
  *   name         in Server-Timing and in plans
- *   invocations  a function of pass.c: how many a plan has, 0: it has not this pass
- *   cost         WHOLE(kernel, figure): an invocation takes what the figure says, and its time is what the figure
- *                is learned from; PART(kernel, figure, share): it takes a share of it; BY(function): a function of
- *                pass.c says all that
- *   scale        its time grows with the RAYS or the PIXELS, or is FIXED whatever the picture's size
- *   when         it runs for each FRAME, or only for one whose lens MAP is made
+ *   invocations  a function of pass.c: number of invocations in a plan; 0: the plan does not have this pass
+ *   cost         WHOLE(kernel, figure): an invocation costs what the figure says, and the figure is measured by it;
+ *                PART(kernel, figure, share): it costs a fraction of the figure; BY(function): a function of pass.c
+ *                computes all of this
+ *   scale        its time grows with the number of RAYS or PIXELS, or is FIXED whatever the picture's size
+ *   when         it runs for each FRAME, or only when a lens MAP is made
  *
- * A kernel is a file under shaders/comp, "" for a copy and for the CPU. */
+ * A kernel is a file under shaders/comp; "" is a copy or work on the CPU. */
 #define KD_PASSES(P) \
     P(TRACE, "trace", traced, BY(trace), RAYS, MAP) \
     P(INTERPOLATE, "interpolate", interpolated, BY(interpolate), RAYS, MAP) \
@@ -75,18 +74,17 @@ extern const struct kd_figure {
 enum kd_pass_id { KD_PASSES(KD_PASS_ID_) KD_PASS_COUNT };
 #undef KD_P
 
-/* This is the cost of one invocation. */
 struct kd_pass_cost {
     const char *kernel;
     double ns;
-    enum kd_figure_id figure; /* that the pass's time is learned as, KD_NS_NONE: none */
+    enum kd_figure_id figure; /* the figure that the pass's time is a measurement of; KD_NS_NONE: of none */
 };
 
 struct kd_pass {
     const char *name;
     uint64_t (*invocations)(const struct kd_plan *plan, const struct kd_scene *scene);
     struct kd_pass_cost (*by)(const struct kd_plan *plan,
-                              const struct kd_capacity *capacity); /* NULL: as the next ones say */
+                              const struct kd_capacity *capacity); /* NULL: cost as given by the next members */
     const char *kernel;
     enum kd_figure_id figure;
     double share;
@@ -96,9 +94,9 @@ struct kd_pass {
 };
 extern const struct kd_pass kd_passes[KD_PASS_COUNT];
 
-/* Finds a pass by its name; NULL: there is none. */
+/* Finds a pass by its name; NULL if there is none. */
 const struct kd_pass *kd_pass_find(const char *name);
-/* Estimates what an invocation takes on a device, in a plan whose path, setting and quantities are known. */
+/* Estimates the cost of an invocation on a device. The plan's path, setting and quantities must be set. */
 struct kd_pass_cost kd_pass_cost(const struct kd_pass *pass, const struct kd_plan *plan,
                                  const struct kd_capacity *capacity);
 

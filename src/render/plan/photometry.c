@@ -20,7 +20,7 @@ uint64_t kd_light_bytes(const struct kd_plan *plan)
 }
 
 struct sums {
-    double solid, weight, x, y; /* photometry.comp's four */
+    double solid, weight, x, y; /* the four sums of photometry.comp */
     double q, u, v;
 };
 
@@ -41,7 +41,7 @@ static void add_stokes(struct sums *s, const float *part)
 
 static struct kd_light centred(const struct kd_camera_exact *c, double side, double area, const struct sums *s)
 {
-    double x = s->x * side, y = s->y * side, w = s->weight; /* steps of rays */
+    double x = s->x * side, y = s->y * side, w = s->weight; /* in steps of rays */
     double k0 = c->c0x * w + c->cxx * x + c->cyx * y, k1 = c->c0y * w + c->cxy * x + c->cyy * y;
     if (!(w > 0))
         return (struct kd_light) { .x = NAN, .y = NAN };

@@ -21,7 +21,7 @@
 
 _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 
-/* These approximations are no emitter's. */
+/* Approximations that belong to no emitter. */
 #define WHEN(name, condition) \
     static bool name(const struct kd_plan *plan, const struct kd_scene *scene) \
     { \
@@ -162,7 +162,7 @@ struct kd_approximation kd_plan_sentence(size_t index)
 static void say(void *user, struct kd_approximation approximation)
 {
     struct kd_plan *plan = user;
-    if (plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS) /* there are fewer: tests/unit/emitters.c */
+    if (plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS) /* never exceeded: tests/unit/emitters.c */
         plan->approximations[plan->n_approximations++] = approximation;
 }
 
@@ -197,7 +197,7 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops)
     return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
 }
 
-/* A lens map keeps w = 1/r in 32 bits. */
+/* relative precision of a lens map, which keeps w = 1/r in 32 bits */
 #define KEPT 6e-8
 
 static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, struct kd_error *error)
@@ -218,8 +218,8 @@ static double ergosphere(const struct kd_scene *scene)
     return kd_kerr_ergosphere(kd_scene_hole(scene), kd_cos_deg(scene->camera.inclination_deg));
 }
 
-/* Says whether E is positive for each ray of the camera, as the device's engines take it to be where rays are
- * listed. The closed form needs no more than L/E and Q/E^2. */
+/* Whether E is positive for each ray of the camera, as the device's engines assume for listed rays. The closed form
+ * needs only L/E and Q/E^2. */
 static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
 
 static enum kd_status may_list(const struct kd_scene *scene, const struct kd_setting *by, struct kd_error *error)
@@ -234,9 +234,9 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
                           ergosphere(scene));
 }
 
-/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless an engine or
- * steps are named, the closed form: it needs no device, and holds each tolerance that a picture may ask for. The
- * table's rows are judged by other rays. */
+/* Rays of a ring pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve. Unless an engine or
+ * steps are named, the closed form is used: it needs no device and meets each tolerance that a picture may ask for.
+ * The table's rows were measured on other rays. */
 static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
 {
     if (wish->precision == KD_PRECISION_F32)
@@ -251,8 +251,8 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
     return KD_OK;
 }
 
-/* The least radius from which the closed form in f32 follows rays: outside all orbits of light, where none that sets
- * out outwards comes back. */
+/* The least radius from which the closed form in f32 traces rays: outside all photon orbits, where no ray that
+ * starts outwards comes back. */
 static double beyond_orbits(const struct kd_scene *scene)
 {
     return 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(scene->spacetime.spin)));
@@ -260,9 +260,9 @@ static double beyond_orbits(const struct kd_scene *scene)
 
 static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }
 
-/* Within the horizon light is followed by lens_map.comp alone. The steps are those of a half turn, which takes the
- * longer the nearer the middle the observer is: w'' = 3K w^2 is quicker there by sqrt(6w) than where they were
- * chosen, at 1/2. */
+/* Inside the horizon only lens_map.comp traces light. Its steps are per half turn, which takes longer the nearer the
+ * observer is to the centre: w'' = 3K w^2 is faster there by sqrt(6w) than at w = 1/2, for which the steps were
+ * chosen. */
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_wish *wish,
                                   struct kd_error *error)
 {
@@ -285,14 +285,13 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
     return KD_OK;
 }
 
-/* Chooses the kernel and the engine. */
 static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool closed_form =
-        scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY); /* lens_closed.comp can do it */
+    /* lens_closed.comp can trace it */
+    bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY);
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
@@ -326,7 +325,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     }
     bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) &&
                by->precision == KD_PRECISION_F32 &&
-               !kd_plan_holds(plan, KD_LENS_DELAY); /* which only listed rays know */
+               !kd_plan_holds(plan, KD_LENS_DELAY); /* delay is available for listed rays only */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
     plan->ingoing = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(scene->camera.r);
     if (within_horizon(scene))
@@ -342,7 +341,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     return map ? KD_OK : may_list(scene, by, error);
 }
 
-/* Counts what is kept of polarised light behind the radiance of a pixel. */
+/* Words of polarisation stored after the radiance of a pixel. */
 static uint32_t stokes_words(const struct kd_plan *plan)
 {
     const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
@@ -361,7 +360,7 @@ bool kd_plan_is_spread(const struct kd_plan *plan)
     return all & KD_TRAIT_SPREAD;
 }
 
-/* Plans all but what depends on the pixels at the critical curve. */
+/* Plans everything except what depends on the pixels at the critical curve. */
 static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs,
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
@@ -384,7 +383,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.bright = plan.points && needs->bright;
     plan.quantities = needs->quantities;
     plan.quantities |= plan.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
-    plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0; /* differences of which */
+    plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0; /* footprints are differences of these */
     plan.quantities |= plan.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
@@ -392,7 +391,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
     plan.n_layers = needs->unseen ? 0 : plan.n_layers;
     if (plan.bright && !plan.n_layers &&
-        !kd_plan_is_spread(&plan)) /* bright images do with the differences that they are sought by */
+        !kd_plan_is_spread(&plan)) /* for bright images the differences used in their search are enough */
         plan.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
     plan.radiance = needs->radiance && plan.picture && !needs->unseen;
     if (!needs->unseen && !kd_plan_is_map(&plan))
@@ -439,13 +438,14 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
 {
     struct kd_plan plan;
     enum kd_status status;
-    KD_TRY(outline(scene, needs, capacity, &plan, error)); /* limits first: a list of what is too large takes long */
+    /* limits first: listing the pixels of a picture that is too large takes long */
+    KD_TRY(outline(scene, needs, capacity, &plan, error));
     KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
     if (plan.critical)
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
     plan.audit = plan.cacheable && plan.orders && !within_horizon(scene)
                      ? KD_AUDIT_RAYS
-                     : 0; /* which the closed form judges by, outside */
+                     : 0; /* used outside by the closed form's test */
     passes(&plan, scene, capacity);
     kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))

@@ -10,8 +10,8 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* The limits are the device's, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize)
- * where the capacity names none. */
+/* Limits of the device; if the capacity has none, those that Vulkan 1.2 guarantees (maxComputeWorkGroupCount,
+ * maxMemoryAllocationSize). */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
 static uint64_t buffer_bytes(const struct kd_capacity *c)
@@ -29,16 +29,16 @@ uint64_t kd_plan_open_most(const struct kd_plan *plan)
     return least(band > part ? band : part, KD_GIVEN_MOST);
 }
 
-/* Counts the rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays;
- * the others go through the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few
- * hundred groups, is far from it. */
+/* Rows of pixels that each pass can process in one dispatch. trace has a row of groups for each row of rays; the
+ * others take the pixels of a band in one line, light 64 and post 4 an invocation. expose is far below the limit,
+ * with a few hundred groups. */
 static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
     return least(rows, in_line * KD_POST_PIXELS / plan->width);
 }
 
-/* Checks that all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
+/* Checks that everything fits. On the host a picture exists twice, as pixels and as the encoded file. */
 static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c,
                            struct kd_error *error)
 {
@@ -63,7 +63,7 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
         (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
 }
 
-/* Counts the bytes of a beam, which goes through rows of cells and grids of them. */
+/* Bytes of a beam: its rows of cells and its grids. */
 static uint64_t beam_bytes(const struct kd_plan *plan)
 {
     if (!plan->beam.cell)
@@ -90,7 +90,8 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
     uint64_t row_light = (kd_plan_pixel_bytes(plan) + (plan->march.steps ? 4 : 0)) * plan->width,
              row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
-    uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out; /* pixels are chosen by 16 bits */
+    /* refinement chooses pixels by values of 16 bits */
+    uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out;
     uint64_t row_layers = 4ull * plan->n_layers * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     widest = row_layers > widest ? row_layers : widest;
@@ -133,7 +134,7 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     const uint64_t side = least(plan->side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     if (plan->ring || side <= plan->side ||
-        !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is nowhere thin */
+        !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is not thin anywhere */
         return KD_OK;
     enum kd_status status = kd_critical_kept(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
@@ -158,6 +159,6 @@ void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const str
     plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
     plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES),
                                buffer_bytes(c) - 64);
-    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* not one pixel */
+    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* not even one pixel */
         plan->listed_bytes = 4ull * (plan->planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
 }

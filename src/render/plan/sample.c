@@ -12,13 +12,12 @@ enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
 #define RAYS_AT_ONCE \
-    KD_GIVEN_MOST /* all of which may be open; and a dispatch has a quarter of 65535 workgroups then \
-                   */
+    KD_GIVEN_MOST /* all of them may be open; one dispatch then has a quarter of the 65535 workgroups of any device */
 
-/* Bytes that every device binds as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
+/* Bytes that every device can bind as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
 #define BOUND_EVERYWHERE (UINT64_C(1) << 27)
 
-/* The first of the block that a place lies in. */
+/* First place of the block that contains a place. */
 static int64_t block_of(int64_t place) { return place / KD_CELL_BLOCK * KD_CELL_BLOCK; }
 
 static uint64_t least_of(uint64_t a, uint64_t b) { return a < b ? a : b; }
@@ -61,7 +60,7 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->width * plan->side * plan->side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
-    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* by the words of places */
+    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* limit of the bits of a place */
     plan->sample_rows = (uint32_t)least_of(least_of(rows, held), plan->band_rows);
     while (plan->sample_rows > 1 && !fits(plan, plan->sample_rows, bytes))
         plan->sample_rows /= 2;
@@ -77,7 +76,7 @@ uint64_t kd_sample_bytes(const struct kd_plan *plan)
     return most.list_bytes + most.index_bytes + most.node_bytes;
 }
 
-/* What interpolation holds: below it a tolerance means that each ray is followed. */
+/* Error that interpolation meets: for a smaller tolerance each ray is traced. */
 #define HOLDS 1e-5
 
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene)

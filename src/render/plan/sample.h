@@ -1,34 +1,36 @@
-/* The size of a sampled lens map (render/frame/sample.h): its blocks of cells, and bytes. Pure, any thread. */
+/* Size of a sampled lens map (render/frame/sample.h): its blocks of cells, and bytes. Pure, any thread. */
 #ifndef KD_RENDER_PLAN_SAMPLE_H
 #define KD_RENDER_PLAN_SAMPLE_H
 
 #include "render/plan/plan.h"
 
-/* The blocks that some rows of rays lie in. They begin where those of the whole picture do. */
+/* The blocks that cover some rows of rays. They are aligned to the whole picture. */
 struct kd_sample_grid {
-    int32_t origin_x, origin_y; /* of the first block, in rays from the picture's, or the tile's, first one */
+    int32_t origin_x, origin_y; /* of the first block, in rays from the first ray of the picture or tile */
     uint32_t blocks_x, blocks_y;
-    uint32_t room;                                /* for nodes, */
-    uint32_t places, alone;                       /* where their places begin in the lists, and those of rays alone */
+    uint32_t room; /* capacity for nodes */
+    /* offsets in the lists of the nodes' places, and of those of single rays */
+    uint32_t places, alone;
     uint64_t list_bytes, index_bytes, node_bytes; /* of the three buffers */
 };
 
-/* left, top: of the picture at hand in the whole one, in rays; row0, rows: those that are wanted. */
+/* left, top: offset of this picture in the whole one, in rays; row0, rows: the requested rows. */
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows);
 
-/* Sets plan->sample_rows, such that no buffer takes more than the given bytes, which the device binds. A picture so
- * wide that some device could not bind one row of pixels has every ray followed, on every device, so that its bytes are
- * the same. plan: its band_rows are known. */
+/* Sets plan->sample_rows such that no buffer exceeds `bytes`, the limit of a binding. If a picture is so wide that
+ * some device could not bind one row of pixels, every ray is traced on all devices, so that its bytes are the same
+ * everywhere. plan->band_rows must be set. */
 void kd_sample_fit(struct kd_plan *plan, uint64_t bytes);
-/* The bytes of all three buffers for sample_rows; 0 of a plan all of whose rays are followed. */
+/* Bytes of all three buffers for sample_rows; 0 if every ray is traced. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);
 
-/* The relative error of what is interpolated that a scene's accuracy allows (docs/decisions/0017);
- * 0: every ray is followed. plan: its path and setting are known. */
+/* Tolerated relative error of interpolation for a scene's accuracy (docs/decisions/0017); 0: every ray is traced.
+ * The plan's path and setting must be set. */
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene);
 
-/* Makes every ray of a plan be followed after all: by another map, and what its passes take is not learned from. */
+/* Makes a plan trace every ray after all. It has another lens map, and the times of its passes are not measurements
+ * of figures. */
 void kd_plan_follow_all(struct kd_plan *plan);
 
 #endif

@@ -7,7 +7,7 @@
 
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms)
 {
-    if (!(order->n & (order->n - 1))) { /* room for twice as many */
+    if (!(order->n & (order->n - 1))) { /* doubles the room at powers of two */
         struct kd_sweep_order_item *more = realloc(order->items, (order->n ? 2 * (size_t)order->n : 1) * sizeof *more);
         if (!more)
             return KD_ENOMEM;
@@ -66,7 +66,7 @@ enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct k
     for (unsigned i = 1; order->n < sweep->scenes && (i % AT_LEAST || kd_clock_ms() < until_ms); i++) {
         struct kd_scene scene;
         uint64_t group = 0;
-        if (!kd_sweep_scene(sweep, order->n, &scene, NULL)) /* one that is none fails when its turn comes */
+        if (!kd_sweep_scene(sweep, order->n, &scene, NULL)) /* an invalid scene fails when it is rendered */
             KD_TRY(kd_plan_lens_group(&scene, &group));
         KD_TRY(kd_sweep_order_add(order, group, 0));
     }

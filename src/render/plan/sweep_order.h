@@ -1,5 +1,5 @@
-/* The frames of a sweep are rendered so that those that share a lens map follow one another, whatever the order of
- * its axes; the maps in the order of their first frames. Pure. */
+/* Rendering order of a sweep's frames: frames that share a lens map follow one another, whatever the order of the
+ * axes. Lens maps are in the order of their first frames. Pure. */
 #ifndef KD_RENDER_PLAN_SWEEP_ORDER_H
 #define KD_RENDER_PLAN_SWEEP_ORDER_H
 
@@ -10,18 +10,19 @@ struct kd_sweep_order {
         uint64_t group;
         unsigned frame, first;
         double trace_ms;
-    } *items; /* while it is being made */
+    } *items; /* used until the order is complete */
     unsigned n;
-    unsigned groups;  /* lens maps that are not shared with a scene before, once all are there */
-    unsigned *frames; /* the frame of each place; NULL: they are rendered as they are numbered */
+    unsigned groups; /* number of distinct lens maps, once all frames are added */
+    /* frame number for each place in the order; NULL: frames are rendered in the order of their numbers */
+    unsigned *frames;
 };
 
-/* One more frame, the n-th. group: kd_plan_lens_group; trace_ms: what its lens map takes. KD_ENOMEM. */
+/* Adds the n-th frame. group: kd_plan_lens_group; trace_ms: time of its lens map. KD_ENOMEM. */
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms);
-/* All are there. *shared_ms: what is not spent because lens maps are shared. KD_ENOMEM. */
+/* Completes the order. *shared_ms: time saved by sharing lens maps. KD_ENOMEM. */
 enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_ms);
-/* All of that, from where the order is, until it is time (kd_clock_ms), for a few more scenes at least; it is made
- * once order->frames is there. KD_ENOMEM. */
+/* Does all of the above incrementally, until until_ms (kd_clock_ms), but for a few scenes at least; the order is
+ * complete once order->frames is set. KD_ENOMEM. */
 enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms);
 void kd_sweep_order_finish(struct kd_sweep_order *order);
 

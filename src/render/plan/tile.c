@@ -6,9 +6,8 @@
 
 #include <math.h>
 
-/* In pixels: a footprint is a difference of rays two apart. Points of light are sought in tiles of KD_STAR_TILE
- * rays, which lie where they lie in the whole picture, by rays up to three beyond them, and light two pixels round
- * their images. */
+/* Pixels. A footprint is a difference between rays two apart. Points of light are searched in tiles of KD_STAR_TILE
+ * rays, aligned to the whole picture, with rays up to three beyond them; they light two pixels round their images. */
 #define MARGIN 4u
 #define MARGIN_OF_POINTS (KD_STAR_TILE + 7u)
 
@@ -69,7 +68,8 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
     return needs->radiance ? KD_OK : picture(scene, n == 1 && !shown, error);
 }
 
-/* From the first row or column to behind the last, of so many: further out by a margin, up to a multiple of `by`. */
+/* From the first row or column up to but not including `to`, of `all`: widened by a margin, then up to a multiple of
+ * `by`. */
 struct range { uint32_t from, to; };
 static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t margin, uint32_t by)
 {
@@ -77,8 +77,8 @@ static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t marg
     return (struct range) { from > margin ? (from - margin) / by * by : 0, end < (uint32_t)all ? end : (uint32_t)all };
 }
 
-/* A picture of all directions goes on beyond its edges at the other one (shaders/ray/around.glsl), and so does the
- * light of points. */
+/* A picture of all directions continues beyond each edge at the opposite one (shaders/ray/around.glsl), and so does
+ * the light of points. */
 static bool needs_all_round(const struct kd_scene *scene, const struct range *x, const struct range *y)
 {
     return scene->camera.projection == KD_PROJECTION_EQUIRECTANGULAR &&

@@ -134,7 +134,7 @@ bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, st
     return false;
 }
 
-/* The observer's motion and its numbers, but for those that stand at a word. */
+/* The observer's motion and its parameters, except those that are at their word for INFINITY. */
 static enum kd_status json_motion(const struct kd_rays_params *p, struct kd_buffer *out)
 {
     const int of = p->observer - 1;
@@ -236,7 +236,7 @@ size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
     return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)p->orders + (p->observer ? 1 : 0)));
 }
 
-/* Writes the next ray, or what closes the list, to stream->row. False at the end. */
+/* Writes the next ray, or the end of the list, to stream->row. False at the end. */
 static bool refill(struct kd_rays_stream *stream)
 {
     static const char tail[] = "]}\n";

@@ -1,4 +1,4 @@
-/* Checks whether a request for rays can be answered. Any thread. */
+/* Checks whether a request for rays is valid. Any thread. */
 #ifndef KD_RENDER_RAYS_CHECK_H
 #define KD_RENDER_RAYS_CHECK_H
 
@@ -6,7 +6,7 @@
 
 #define KD_RAYS_FAR 1e7 /* largest radius and image coordinate, M */
 
-/* KD_EINVAL naming the field, its value and what is allowed. The list is looked at ray by ray. */
+/* KD_EINVAL naming the field, its value and its valid range. Each ray of the list is checked. */
 enum kd_status kd_rays_check(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
                              struct kd_error *error);
 

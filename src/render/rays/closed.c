@@ -11,7 +11,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#define SLICE 1024 /* rays: some milliseconds, and small beside what is worth another thread */
+#define SLICE 1024 /* rays: some milliseconds of work, and small compared with what is worth another thread */
 #define THREADS_MAX 16
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
@@ -28,7 +28,7 @@ static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *a
                                   .orders = (int)p->orders };
 }
 
-/* The redshift factor at a crossing. outwards: whether the real photon moves outwards as it leaves the gas. */
+/* The redshift factor at a crossing. outwards: whether the real photon moves outwards when it leaves the gas. */
 static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
 {
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
@@ -55,7 +55,7 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
     };
     if (end->fate == KD_RAY_ESCAPED) {
         end->theta = acos(fmax(-1, fmin(1, path.sky_u)));
-        end->phi = remainder(path.sky_phi, 2 * M_PI); /* a direction: turns do not count */
+        end->phi = remainder(path.sky_phi, 2 * M_PI); /* a direction, so whole turns are dropped */
         end->error = path.crossings || !errors ? NAN : path.sky_error;
     }
     for (uint32_t k = 0; k < p->orders; k++) {
@@ -67,7 +67,7 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
         if (!errors)
             continue;
         crossings[k].g = redshift(p, alpha_beta, c->r, c->sense > 0);
-        end->error = fmax(end->error, fmin(c->error_r, 1)); /* fmax passes over NaN; infinite: it may not be there */
+        end->error = fmax(end->error, fmin(c->error_r, 1)); /* fmax ignores NaN; infinite: the crossing may not exist */
     }
     if (path.doubtful)
         end->error = 1;
@@ -83,7 +83,7 @@ struct share {
     _Atomic bool stop;
 };
 
-/* Traces the next slice; false when there is no more to do. */
+/* Traces the next slice; false if none is left. */
 static bool trace_slice(struct share *share)
 {
     const struct kd_ray_labels *rays = share->rays;
@@ -103,7 +103,7 @@ static void *work(void *user)
     return NULL;
 }
 
-/* How many threads beside the calling one are worth their start. */
+/* Number of additional threads that are worth creating. */
 static size_t helpers(size_t n)
 {
     size_t cores = kd_cores(), most = n / (8 * SLICE) + 1;
@@ -119,7 +119,7 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     size_t n = rays->n;
     pthread_t threads[THREADS_MAX];
     size_t begun = 0, wanted = helpers(n);
-    while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* fewer will do as well */
+    while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* fewer threads work as well */
         begun++;
     while (trace_slice(&share)) {
         size_t taken = atomic_load(&share.next);
@@ -131,8 +131,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* The closed form says which way the photon moves inside the ISCO; a ray that set out inwards and falls in has never
- * turned. */
+/* Inside the ISCO the closed form gives the photon's radial direction; a ray that starts inwards and is captured
+ * never turns. */
 static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                             const struct kd_ray_end *end, uint32_t crossing)
 {
@@ -157,7 +157,7 @@ void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_l
         }
 }
 
-/* w'^2 = W^2 - D K w^2, as in shaders/ray/radial_step.glsl, which keeps its digits next to the horizon. */
+/* w'^2 = W^2 - D K w^2 as in shaders/ray/radial_step.glsl, a form that keeps its precision next to the horizon. */
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r)
 {

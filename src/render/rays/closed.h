@@ -1,21 +1,22 @@
-/* The closed engine follows rays in closed form; the redshift of any engine's crossings is found here, too. Private
- * to src/render; any thread. */
+/* The closed engine, which traces rays in closed form; also computes the redshift at crossings for all engines.
+ * Private to src/render; any thread. */
 #ifndef KD_RENDER_RAYS_CLOSED_H
 #define KD_RENDER_RAYS_CLOSED_H
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for KD_ENGINE_CLOSED, params checked. Many rays are shared out among the cores; progress is called
- * on the calling thread. Without errors, which are NaN then, and without g it takes a third of the time. */
+/* kd_rays_trace for KD_ENGINE_CLOSED, with checked params. Long lists are divided among the cores; progress is
+ * called on the calling thread. With errors = false no errors (NaN) and no g are computed, which takes a third of
+ * the time. */
 enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
                               struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error);
 
-/* Fill in g where an engine gave positions alone. */
+/* Fills in g for an engine that returned positions only. */
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
 
-/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, which any engine found to be at r.
+/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, at the r found by any engine.
  * outward: as in kd_ray_labels. */
 double kd_rays_slope(const struct kd_rays_params *params, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r);

@@ -1,4 +1,4 @@
-/* The device follows listed rays: upload, trace in slices, read back. */
+/* Traces listed rays on the device: upload, trace in slices, read back. */
 #include "render/rays/device.h"
 
 #include "interface.h"
@@ -13,26 +13,27 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rays a slice, after which others may have their turn: few at first, then as many as take TARGET_MS. From the
- * fastest engine to Tao's with its most steps, from a GPU to one core, a ray's cost varies by a factor of a million.
- * A slice is handed over in parts of CHUNK rays at most, of which the device follows one while the host unpacks the
+/* Rays a slice, after which other work may use the device: few at first, then as many as take TARGET_MS. A ray's
+ * cost varies by a factor of a million, from the fastest engine to Tao's with its most steps, and from a GPU to one
+ * core. A slice is submitted in parts of at most CHUNK rays; the device traces one part while the host unpacks the
  * one before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
 #define TARGET_MS 40.0
-#define HEADER 7u /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
+#define HEADER 7u /* numbers before the list in rays.comp; rays_kerr_schild.comp has four */
 
 struct work {
     struct kd_renderer *r;
     const struct kd_rays_params *params;
     bool wide;        /* double precision */
-    bool kerr_schild; /* the engine's coordinates */
+    bool kerr_schild; /* the engine uses Kerr-Schild coordinates */
     uint32_t per_ray;
-    double least;                                                    /* radius: the next above the horizon's */
-    struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* parts take turns at them */
-    struct kd_vk_buffer *told;                                       /* NULL, or room for the records of trace.glsl */
-    uint32_t steps;                                                  /* of a half period */
+    /* least radius: the float next above the horizon's */
+    double least;
+    struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* used alternately by the parts */
+    struct kd_vk_buffer *told;                                       /* buffer for the records of trace.glsl, or NULL */
+    uint32_t steps;                                                  /* per half period */
     const struct kd_vk_pipeline *pipeline;
     struct kd_error *error;
 };
@@ -50,15 +51,15 @@ static void put(const struct work *w, void *at, size_t i, double value)
         ((float *)at)[i] = (float)value;
 }
 
-/* Makes alpha and beta as the device is given them. The ratio of two tiny ones is kept to rounding, since the
- * azimuth depends on it. */
+/* Converts alpha and beta for the device. The ratio of two tiny ones is kept to rounding, since the azimuth depends
+ * on it. */
 static void label(const struct work *w, const double *alpha_beta, double out[2])
 {
     double larger = fmax(fabs(alpha_beta[0]), fabs(alpha_beta[1])), least = 1e8 * KD_LEAST_FLOAT;
     bool small = !w->wide && larger > 0 && larger < least;
     for (int k = 0; k < 2; k++) {
         out[k] =
-            small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* a quotient first: 1/larger may be infinite */
+            small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* divides first, as 1/larger may be infinite */
         if (!w->wide)
             out[k] = kd_lifted(out[k]);
     }
@@ -69,12 +70,12 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Where a Cartesian ray from infinity starts: far positions cost digits of b, and Tao's method phase. A nearer start
- * would be more exact still, but by leaving the work to Mino time (start.c): at 100 M single precision loses a sixth
- * of what it does here. */
+/* Where a Cartesian ray from infinity starts: distant positions lose digits of b, and phase in Tao's method. A
+ * nearer start would be more accurate only because Mino time (start.c) would do the work: at 100 M single precision
+ * has a sixth of the error that it has here. */
 #define FAR 1e3
-/* The radius at which a ray counts as escaped: its momentum has come to its limit within M b/r^2. Single precision
- * knows the direction no better further out, where the copies of Tao's method part. */
+/* The radius at which a ray counts as escaped: its momentum has reached its limit within M b/r^2. Further out single
+ * precision gains no accuracy of the direction, and the copies of Tao's method diverge. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const struct set *set, const struct kd_ray_labels *rays)
@@ -125,7 +126,6 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
     }
 }
 
-/* Hand over a part. */
 static enum kd_status send(const struct work *w, const struct set *set, const struct kd_ray_labels *rays,
                            uint64_t *ticket)
 {
@@ -160,7 +160,7 @@ static void unpack(const struct work *w, const void *from, size_t i, struct kd_r
         crossings[n] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
         if (!(x > 0))
             continue;
-        crossings[n].r = fmax(1 / x, w->least); /* outside the horizon, of which a float knows only the neighbourhood */
+        crossings[n].r = fmax(1 / x, w->least); /* outside the horizon, whose radius a float only approximates */
         crossings[n].phi = get(w, from, at + 1);
         if (!w->kerr_schild)
             crossings[n].delay = get(w, from, at + 2);
@@ -178,7 +178,7 @@ static void unpack(const struct work *w, const void *from, size_t i, struct kd_r
     }
 }
 
-/* Wait for a part and take its numbers. */
+/* Waits for a part and reads its results. */
 static enum kd_status receive(const struct work *w, const struct set *set, uint64_t ticket, size_t n,
                               struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
@@ -195,7 +195,7 @@ static struct kd_ray_labels part_of(const struct kd_ray_labels *rays, size_t fir
     return (struct kd_ray_labels) { rays->alpha_beta + 2 * first, rays->outward ? rays->outward + first : NULL, n };
 }
 
-/* One of the renderer's buffers for lists of rays, which stay for the next one and only grow. */
+/* One of the renderer's buffers for lists of rays, which are reused for the next list and only grow. */
 static enum kd_status hold(struct kd_renderer *r, struct kd_vk_buffer **kept, uint64_t size, enum kd_vk_memory memory,
                            const char *name, struct kd_vk_buffer **out, struct kd_error *error)
 {
@@ -209,7 +209,7 @@ static enum kd_status hold(struct kd_renderer *r, struct kd_vk_buffer **kept, ui
     return status;
 }
 
-/* Buffers for parts of so many rays. */
+/* Buffers for parts of `room` rays. */
 static enum kd_status hold_set(struct work *w, int k, uint64_t room)
 {
     struct kd_renderer *r = w->r;
@@ -243,7 +243,7 @@ enum kd_status kd_rays_device_ask(struct kd_renderer *r, const struct kd_rays_pa
     return none ? KD_OK : kernel_of(r, params, told, &later, NULL);
 }
 
-/* Prepares what a slice needs of the renderer, which may have been used for other rays since the last one. */
+/* Prepares the renderer for a slice; it may have been used for other rays since the last one. */
 static enum kd_status prepare(struct work *w, size_t n)
 {
     enum kd_status status = kernel_of(w->r, w->params, w->told != NULL, &w->pipeline, w->error);
@@ -252,8 +252,7 @@ static enum kd_status prepare(struct work *w, size_t n)
     return status;
 }
 
-/* Traces one slice. Nothing is under way when it returns, unless it failed: what is called between slices may use
- * the device. */
+/* Traces one slice. Unless it failed, no work is in progress on return: callbacks between slices may use the device. */
 static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                                   struct kd_ray_end *ends)
 {
@@ -272,9 +271,9 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* The size of the next slice, after one of m rays that took so long. least_ms: what the smallest slices took. Where
- * one ray alone is slower than TARGET_MS, more of them take a GPU no longer: slices double while that holds, and
- * reach half as long again. */
+/* Size of the next slice after one of m rays that took `ms`. least_ms: time of the smallest slices. If even one ray
+ * takes longer than TARGET_MS, a GPU takes no longer for several: slices double as long as that is so, and may take
+ * up to half as long again. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),
@@ -282,7 +281,7 @@ static uint32_t next_size(uint32_t m, double ms, double least_ms)
     return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
 }
 
-/* The size of a list's first slice. A list like the last one begins with half the slice that one ended with. */
+/* Size of a list's first slice. A list with the settings of the last one starts with half of its last slice. */
 static uint32_t first_size(const struct work *w)
 {
     const struct kd_rays_params *p = w->params;
@@ -310,9 +309,9 @@ static enum kd_status trace(struct work *w, const struct kd_ray_labels *rays, st
         if (status)
             return status;
         double ms = kd_clock_ms() - begun;
-        if (slice.n <= LEAST || ms < least_ms) /* the first one may have had to wait for the kernel to be made */
+        if (slice.n <= LEAST || ms < least_ms) /* the first slice may have waited for the kernel to be compiled */
             least_ms = ms;
-        if (slice.n == size) { /* the last one of a list is short */
+        if (slice.n == size) { /* the last slice of a list is short and tells nothing */
             size = next_size(size, ms, least_ms);
             keep_size(w, size);
         }
@@ -347,7 +346,7 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
     if (!status)
         return KD_OK;
     kd_vk_discard(vk);
-    if (status != KD_EDEVICE) /* a part may be under way */
+    if (status != KD_EDEVICE) /* a part may still be in progress */
         kd_vk_wait(vk, 0, NULL);
     return status;
 }

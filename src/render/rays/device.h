@@ -1,19 +1,19 @@
-/* These engines follow rays on the device. Private to src/render; render thread only. */
+/* Engines that trace rays on the device. Private to src/render; render thread only. */
 #ifndef KD_RENDER_RAYS_DEVICE_H
 #define KD_RENDER_RAYS_DEVICE_H
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for any engine but KD_ENGINE_CLOSED, params checked; g is left NaN, and the Kerr-Schild engines'
- * errors. */
+/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g is left NaN, and so are the errors of
+ * the Kerr-Schild engines. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
-/* Asks for the kernel that either of these takes, for kd_kernels_note. */
+/* Requests the kernel of kd_rays_device or, if `told`, of kd_rays_device_told, for kd_kernels_note. */
 enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told);
 
-/* One ray, and the records that trace.glsl describes, as doubles: room for `numbers` of them. */
+/* Traces one ray and returns the records that trace.glsl describes, as doubles: room for `numbers` of them. */
 enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params,
                                    const struct kd_ray_labels *ray, struct kd_ray_crossing *crossings,
                                    struct kd_ray_end *end, double *told, size_t numbers, struct kd_error *error);

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE ((size_t)16384) /* rays that are followed again together: a tenth of a second */
-/* The least number of rays for which the device is asked once more: the closed form follows fewer of them in less
- * time than a kernel takes to be compiled. */
+#define SLICE ((size_t)16384) /* rays that are traced again together: a tenth of a second */
+/* The least number of rays for which the device is used again: the closed form traces fewer in less time than it
+ * takes to compile a kernel. */
 #define WORTH_A_KERNEL 8192
-#define MORE_STEPS 4 /* times as many: order 6 then loses 4096 times less */
+#define MORE_STEPS 4 /* factor of the steps: at order 6 the error falls by 4096 */
 
-/* The rays of one slice that are followed again. */
+/* The rays of one slice that are traced again. */
 struct batch {
     size_t n, *which;
     double *alpha_beta;
@@ -43,7 +43,7 @@ static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays that are followed again", n);
 }
 
-/* Gathers, from *at on, as many rays as fit; *at moves on. */
+/* Gathers as many rays as fit, starting at *at, and advances *at. */
 static void gather(struct batch *b, const struct kd_ray_labels *rays, const struct kd_ray_end *ends, double tolerance,
                    size_t *at)
 {
@@ -56,7 +56,7 @@ static void gather(struct batch *b, const struct kd_ray_labels *rays, const stru
     }
 }
 
-/* Adopts the results of a finer setting, unless it leaves open what the coarser one has decided. */
+/* Replaces results by those of a finer setting, unless that leaves a decided ray undecided. */
 static void adopt(const struct batch *b, uint32_t orders, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
     for (size_t i = 0; i < b->n; i++) {
@@ -100,11 +100,11 @@ static size_t beyond(const struct kd_ray_end *ends, size_t n, double tolerance)
     return count;
 }
 
-/* Finds a finer setting of the device; false: there is none. */
+/* Finds a finer setting for the device; false if there is none. */
 static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params,
                             struct kd_rays_params *out)
 {
-    enum { FINEST = 128 }; /* beyond them rounding takes over */
+    enum { FINEST = 128 }; /* with more steps rounding dominates */
     uint32_t steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     bool mino = params->engine == KD_ENGINE_MINO_RKN6;
     if (!kd_vk_info(renderer->vk)->float64 ||

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NUMBER_MAX 60 /* characters, as elsewhere in a document */
+#define NUMBER_MAX 60 /* characters, the limit for numbers anywhere in a document */
 
 enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double beta, struct kd_error *error)
 {
@@ -40,11 +40,11 @@ static size_t skip_string(const char *text, size_t at, size_t length)
     return at < length ? at + 1 : length;
 }
 
-/* Nothing is judged here; the reader of the rest of the document does that. */
+/* Reports no errors; the parser of the rest of the document does. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start)
 {
     int depth = 0;
-    bool key = false; /* a string here would name a member */
+    bool key = false; /* a string here would be a member's name */
     for (size_t at = 0; at < length;) {
         char c = text[at];
         if (c == '"') {
@@ -93,7 +93,7 @@ static bool take(struct reader *r, char c)
     return true;
 }
 
-/* Describes what stands where a number was wanted; NULL if it is no JSON at all. */
+/* Describes the value found in place of a number; NULL if it is not JSON. */
 static const char *describe(const struct reader *r)
 {
     static const char *const words[] = { "null", "true", "false" };
@@ -109,7 +109,7 @@ static const char *describe(const struct reader *r)
     return kd_number_span(p, r->length - r->at) ? "a number" : NULL;
 }
 
-/* component: 0 or 1, -1 for the ray itself. */
+/* component: 0 or 1, or -1 for the ray itself. */
 static enum kd_status wrong(struct reader *r, int component, const char *given)
 {
     char pointer[64];

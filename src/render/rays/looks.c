@@ -42,7 +42,7 @@ void kd_rays_looks_label(const struct kd_rays_params *p, const double *direction
     for (size_t i = 0; i < n; i++) {
         double cy = kd_cos_deg(directions[2 * i]), sy = kd_sin_deg(directions[2 * i]),
                cp = kd_cos_deg(directions[2 * i + 1]), sp = kd_sin_deg(directions[2 * i + 1]);
-        /* It looks inwards along -e_r, to the right along e_phi and up along -e_theta; light flies the other way. */
+        /* The camera looks along -e_r, with e_phi to the right and -e_theta up; light travels the other way. */
         const struct kd_covector p_i = kd_tetrad_covector(&frame, (double[4]) { 1, cp * cy, sp, -cp * sy });
         struct kd_camera_label label;
         kd_camera_label_of(p_i.energy, p_i.momentum, p_i.polar, p_i.radial < 0, &label);
@@ -61,7 +61,7 @@ void kd_rays_looks_see(const struct kd_rays_params *p, const double *energy, siz
         for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
             struct kd_ray_crossing *c = &crossings[i * p->orders + k];
             c->phi *= sense, c->delay *= sense;
-            c->g /= energy[i]; /* of light whose energy at infinity is below 0 both are */
+            c->g /= energy[i]; /* for light of negative energy at infinity both are negative */
         }
     }
 }

@@ -32,7 +32,7 @@ static double angle(const struct kd_ray_end *a, const struct kd_ray_end *b)
     return 2 * asin(fmin(1, sqrt(s * s + sin(a->theta) * sin(b->theta) * t * t)));
 }
 
-/* How far a ray is from its truth, which has an error of its own. */
+/* Error of a ray against the true result, including the latter's own error. */
 static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_end *end,
                        const struct kd_ray_crossing *truth, const struct kd_ray_end *true_end)
 {
@@ -43,12 +43,12 @@ static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_
     for (uint32_t k = 0; k < end->n_crossings && k < true_end->n_crossings; k++)
         worst = fmax(worst, fabs(found[k].r / truth[k].r - 1));
     return worst + (1 + worst) * (fmax(true_end->error, 0) +
-                                  2 * DBL_EPSILON); /* fmax passes over NaN: a captured ray without crossings */
+                                  2 * DBL_EPSILON); /* fmax ignores NaN: a captured ray without crossings */
 }
 
 #define SLICE ((size_t)16384) /* rays: a tenth of a second */
 
-/* The Kerr-Schild engines have no estimate of their own. They are there to be compared, and so they are: with the
+/* The Kerr-Schild engines have no error estimate. They exist for comparison, so their rays are compared with the
  * closed form, which takes less time than they do. */
 static enum kd_status compare(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                               const struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
@@ -99,8 +99,8 @@ done:
     return status;
 }
 
-/* One rule for all engines: a ray without a crossing that does not escape tells no number, so there is none to be
- * wrong, unless a crossing may be missing. */
+/* For all engines: a ray without a crossing that does not escape has no number that could be wrong, hence no error,
+ * unless a crossing may be missing. */
 static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
 {
     for (size_t i = 0; i < n; i++)

@@ -43,7 +43,7 @@ static bool store_word(int *at, const struct kd_rays_field *field, const struct 
         return false;
     *at = field->kind == KD_RAYS_PROFILE        ? index
           : field->kind == KD_RAYS_WORD_OR_NONE ? index + 1
-                                                : index - 1; /* "auto" comes first */
+                                                : index - 1; /* "auto" is the first word */
     return true;
 }
 
@@ -118,11 +118,11 @@ enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha
 
 struct document {
     struct kd_rays_request *request;
-    unsigned seen; /* a bit a field, then one a section and one for the rays */
+    unsigned seen; /* bits: one a field, then one a section, and one for the rays */
     struct kd_error *error;
 };
 
-/* Refuses a field that is given twice: the second would silently win. */
+/* Rejects a field that is given twice: the second would silently win. */
 static enum kd_status once(struct document *d, size_t bit, const char *pointer)
 {
     if (d->seen & 1u << bit)
@@ -168,7 +168,7 @@ static enum kd_status wrong_type(struct document *d, const cJSON *item, const ch
                           allowed);
 }
 
-/* The rays themselves have been read: an empty array stands for them. */
+/* The rays have been read already and are replaced by an empty array here. */
 static enum kd_status read_outermost(struct document *d, const cJSON *item)
 {
     static const char *const sections[] = { "/observer", "/accuracy" };
@@ -209,7 +209,7 @@ done:
     return status;
 }
 
-/* rest: the document `text`, `cut` bytes of it taken out at `where`. It is NUL-terminated. */
+/* rest: the document `text` with `cut` bytes at `where` removed; NUL-terminated. */
 static enum kd_status read_rest(struct document *d, const char *text, const char *rest, size_t length, size_t where,
                                 size_t cut)
 {
@@ -246,7 +246,7 @@ static enum kd_status read_rest(struct document *d, const char *text, const char
     return status;
 }
 
-/* The document with an empty array for the one from start to end. */
+/* Parses the document with an empty array in place of the one from start to end. */
 static enum kd_status read_without_rays(struct document *d, const char *text, size_t length, size_t start, size_t end)
 {
     size_t kept = start < end ? 2 : 0, rest_length = start + kept + length - end;
@@ -296,7 +296,7 @@ enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char 
 
 bool kd_rays_request_is_npy(const void *data, size_t size) { return size >= 6 && !memcmp(data, "\x93NUMPY", 6); }
 
-/* Reads the header, which must be that of pairs of doubles. */
+/* Reads the header and checks that it describes pairs of doubles. */
 static enum kd_status read_pairs(const void *data, size_t size, struct kd_npy *array, struct kd_error *error)
 {
     enum kd_status status = kd_npy_read(data, size, array, error);
@@ -347,7 +347,7 @@ enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const str
     return KD_OK;
 }
 
-/* What belongs to one motion is refused beside another, as it would do nothing. */
+/* Rejects parameters of one motion together with another motion, where they would have no effect. */
 static enum kd_status check_belongings(const struct kd_rays_params *p, struct kd_error *error)
 {
     const struct {

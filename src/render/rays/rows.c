@@ -19,7 +19,7 @@ static void text(struct row *row, const char *s)
 
 static void number(struct row *row, double value) { row->at += kd_decimal_print(row->at, value); }
 
-/* "name":value, if there is a value; a comma before it unless it is the first of its object. */
+/* "name":value if the value is finite, with a comma before it unless it is the first of its object. */
 static void member(struct row *row, const char *name, double value)
 {
     if (!isfinite(value))

@@ -119,7 +119,7 @@ static const char *precision(size_t i)
 }
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
 
-/* The observer comes back as it was asked for, all of it. */
+/* The observer is returned completely, as requested. */
 static void add_observer(struct kd_json *json)
 {
     begin_strict(json, "RaysObserver");
@@ -130,7 +130,7 @@ static void add_observer(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* docs/rays.md says what each is. */
+/* Units; docs/rays.md describes each member. */
 #define UNITS "lengths and times in M, angles in radians"
 void kd_rays_answer_schemas(struct kd_json *json)
 {

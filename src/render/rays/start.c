@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* The ray in Mino time: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r in y, their derivatives in
- * v, and what the Boyer-Lindquist azimuth has more than psi. The equations are those of shaders/ray/escape.glsl. */
+/* The ray in Mino time. y: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r; v: their derivatives;
+ * chi: Boyer-Lindquist azimuth minus psi. The equations are those of shaders/ray/escape.glsl. */
 struct motion { double a, l, q, k; };
 struct point { double y[4], v[4], chi; };
 
@@ -23,8 +23,8 @@ static double drag(const struct motion *m, double w)
     return m->a * w * (2 - m->a * m->l * w) / (1 + w * (m->a * m->a * w - 2));
 }
 
-/* Nystroem's method of order 4, as in nystroem.glsl; the drag by Simpson's rule, the middle from the cubic through
- * both ends. */
+/* Nystroem's method of order 4, as in nystroem.glsl; frame dragging by Simpson's rule with the midpoint from the
+ * cubic through both ends. */
 static struct point step(const struct motion *m, const struct point *p, double h)
 {
     double k1[4], k2[4], k3[4], y[4];
@@ -45,7 +45,7 @@ static struct point step(const struct motion *m, const struct point *p, double h
     return o;
 }
 
-/* The step's share after which the cubic through both ends meets the plane, by Newton's method. */
+/* Fraction of a step at which the cubic through both ends crosses the plane, by Newton's method. */
 static double share(const struct point *p, const struct point *q, double h)
 {
     double y0 = p->y[2], dy = q->y[2] - y0, d0 = h * p->v[2], d1 = h * q->v[2];
@@ -55,11 +55,11 @@ static double share(const struct point *p, const struct point *q, double h)
     return s;
 }
 
-/* Follows a ray from infinity to Mino time t, which is at most an eighth of the reciprocal impact parameter: less
- * than a half turn. */
+/* Follows a ray from infinity to Mino time t. t is at most an eighth of the reciprocal impact parameter, which is
+ * less than a half turn. */
 static struct point approach(const struct motion *m, struct point p, double t, struct kd_rays_origin *out)
 {
-    enum { STEPS = 32 }; /* each turns by a 256th of a radian at most: good to 1e-13 */
+    enum { STEPS = 32 }; /* each turns by at most a 256th of a radian: accurate to 1e-13 */
     double h = t / STEPS;
     for (int i = 0; i < STEPS; i++) {
         struct point q = step(m, &p, h);
@@ -73,16 +73,16 @@ static struct point approach(const struct motion *m, struct point p, double t, s
     return p;
 }
 
-/* Kerr-Schild less Boyer-Lindquist azimuth at r: integral of a/Delta from infinity. */
+/* Kerr-Schild minus Boyer-Lindquist azimuth at r: the integral of a/Delta from infinity. */
 static double twist(double a, double r)
 {
     double root = sqrt((1 - a) * (1 + a));
     return a / (2 * root) * log1p(2 * root / (r - 1 - root));
 }
 
-/* To Cartesian coordinates: x + iy = (r + ia)(n_x + i n_y), z = r n_z, n turned to the Kerr-Schild azimuth. The
- * momentum is p_r dr + n'.dn: n' has the components p_theta and L/sin(theta) along the unit vectors of the sphere,
- * and knows no axis. */
+/* Converts to Cartesian coordinates: x + iy = (r + ia)(n_x + i n_y), z = r n_z, with n rotated to the Kerr-Schild
+ * azimuth. The momentum is p_r dr + n'.dn: n' has the components p_theta and L/sin(theta) along the unit vectors of
+ * the sphere, so it is regular on the axis. */
 static void cartesian(const struct motion *m, const struct point *p, bool outward, struct kd_rays_origin *out)
 {
     double a = m->a, r = 1 / p->y[3], q = r * r + a * a, turn = p->chi - twist(a, r), c = cos(turn), s = sin(turn);
@@ -90,7 +90,8 @@ static void cartesian(const struct motion *m, const struct point *p, bool outwar
     double v[3] = { c * p->v[0] - s * p->v[1], s * p->v[0] + c * p->v[1], p->v[2] };
     double x[3] = { r * n[0] - a * n[1], r * n[1] + a * n[0], r * n[2] }, k = r / (r * r * r * r + a * a * x[2] * x[2]);
     double dr[3] = { r * r * x[0] * k, r * r * x[1] * k, q * x[2] * k };
-    /* p_r = (2r - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL; inwards without its cancellation. */
+    /* p_r = (2r - aL -+ sqrt(R))/Delta, R = W^2 - Delta K, W = r^2 + a^2 - aL; for inward rays in a form without
+     * cancellation. */
     double big = q - a * m->l, delta = r * (r - 2) + a * a, radial = sqrt(fmax(big * big - delta * m->k, 0));
     double p_r = (outward ? (big + radial) / delta : m->k / (big + radial)) - 1;
     p_r += (v[0] * (x[0] - 2 * r * n[0]) + v[1] * (x[1] - 2 * r * n[1])) / q - v[2] * n[2] / r;
@@ -109,7 +110,7 @@ void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, dou
     m.k = m.q + (m.l - a) * (m.l - a);
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };
     out->w = out->phi = 0;
-    if (isinf(r)) /* w' = 1 there, so that Mino time is w */
+    if (isinf(r)) /* there w' = 1, so Mino time equals w */
         p = approach(&m, p, 1 / fmax(far, 8 * hypot(alpha, beta)), out);
     cartesian(&m, &p, outward, out);
 }

@@ -1,6 +1,6 @@
-/* Finds where a listed ray starts in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t,
- * phi) -> (-t, -phi), in which a ray that is traced back is a photon that flies away from the observer. Double
- * precision, pure, any thread. */
+/* The start of a listed ray in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t, phi) -> (-t,
+ * -phi). There a ray traced backwards is a photon that moves away from the observer. Double precision, pure, any
+ * thread. */
 #ifndef KD_RENDER_RAYS_START_H
 #define KD_RENDER_RAYS_START_H
 
@@ -10,13 +10,14 @@
 
 struct kd_rays_origin {
     double x[3], p[3]; /* position and momentum, E = 1 */
-    double w, phi;     /* the crossing of the equatorial plane on the way here from infinity: 1/r, 0 where there is none
-                        * (there is at most one), and its azimuth as in render/rays/rays.h */
+    /* 1/r and azimuth (as in render/rays/rays.h) of the crossing of the equatorial plane between infinity and the
+     * start; there is at most one. w = 0: none */
+    double w, phi;
 };
 
-/* a; r and cosine and sine of the observer's polar angle, 0 allowed; labels as in render/rays/rays.h. r = INFINITY:
- * the start is at `far`, or at eight times the impact parameter where that is more. outward: a finite observer's ray
- * that starts away from the hole. */
+/* u, s: cosine and sine of the observer's polar angle, which may be 0; labels as in render/rays/rays.h. If r =
+ * INFINITY, the ray starts at `far`, or at eight times the impact parameter if that is more. outward: the ray of a
+ * finite observer starts away from the hole. */
 void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, double alpha, double beta, bool outward,
                    double far, struct kd_rays_origin *out);
 

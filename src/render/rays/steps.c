@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The constants as kernels write them in front of the records. */
+/* The constants that kernels write before the records. */
 struct constants { double count, momentum, q, energy2, a2, k, d, pad; };
 struct record { double stage, h, y[4], dy[4], chi; };
 _Static_assert(sizeof(struct constants) == KD_TRACE_HEADER * sizeof(double), "the header of interface.h");
@@ -28,10 +28,10 @@ static double radial(const struct constants *c, double w, double dw)
     return dw * dw - (1 + w * w * (c->a2 + w * (2 * c->k - c->d * w)));
 }
 
-/* Source minus observer, within half a turn. */
+/* Source minus observer, reduced to half a turn either way. */
 static double azimuth(double y, double x, double chi) { return 0 + remainder(-(atan2(y, x) + chi), 2 * M_PI); }
 
-/* A record in Mino time holds n and w, or on the way to a crossing u and w. */
+/* A record in Mino time holds n and w, or u and w on the way to a crossing. */
 static void mino(const struct constants *c, const struct record *r, struct kd_rays_step *s)
 {
     const double *n = r->y, *v = r->dy;
@@ -49,14 +49,14 @@ static void mino(const struct constants *c, const struct record *r, struct kd_ra
     s->res_l = n[0] * v[1] - n[1] * v[0] - c->momentum;
 }
 
-/* Kerr-Schild less Boyer-Lindquist azimuth is atan2(a, r) less the integral of a/Delta from infinity. */
+/* Kerr-Schild minus Boyer-Lindquist azimuth is atan2(a, r) minus the integral of a/Delta from infinity. */
 static double drag(double a, double r)
 {
     double root = sqrt((1 - a) * (1 + a));
     return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
 }
 
-/* The Hamiltonian of rays_kerr_schild.comp, written out once more; `momentum`: L of the start. */
+/* The Hamiltonian of rays_kerr_schild.comp, implemented again; `momentum`: L at the start. */
 static void kerr_schild(double a, double momentum, const struct record *record, struct kd_rays_step *s)
 {
     const double *x = record->y, *p = record->dy;
@@ -73,11 +73,11 @@ static void kerr_schild(double a, double momentum, const struct record *record, 
 
 static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >= KD_ENGINE_KS_EULER; }
 
-/* Fills in the stages and numbers of the records, which are in the order of the path, and the crossings from the end
+/* Sets the stages and numbers of the records, which are in the order of the path, and the crossings from the end
  * points. */
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {
-    double time = 0, crossed = 0, momentum = 0; /* crossed: when the last crossing was */
+    double time = 0, crossed = 0, momentum = 0; /* crossed: time of the last crossing */
     unsigned number = 0, order = 0;
     for (size_t i = 0; i < out->n; i++) {
         const struct record *r = &records[i];
@@ -88,7 +88,7 @@ static void tell(struct kd_rays_steps *out, const struct constants *c, const str
                    : r->stage == KD_TRACE_END      ? KD_STAGE_END
                                                    : KD_STAGE_STEP;
         if (s->stage == KD_STAGE_END && out->steps[i - 1].stage == KD_STAGE_STEP)
-            time = crossed; /* the steps to a crossing that is not there are taken back */
+            time = crossed; /* steps towards a crossing that does not exist are discarded */
         s->time = time += r->h;
         if (s->stage == KD_STAGE_CROSSING)
             crossed = time;
@@ -108,7 +108,7 @@ static void tell(struct kd_rays_steps *out, const struct constants *c, const str
     }
 }
 
-/* Traces the ray once more by the kernel that tells no steps, and compares the ends. */
+/* Traces the ray again by the kernel without recording, and compares the ends. */
 static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps *out, struct kd_error *error)
 {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
@@ -123,10 +123,10 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
 enum kd_status kd_rays_steps_ask(struct kd_renderer *renderer, const struct kd_rays_params *params)
 {
     const enum kd_status status = kd_rays_device_ask(renderer, params, true);
-    return status ? status : kd_rays_device_ask(renderer, params, false); /* of compare() */
+    return status ? status : kd_rays_device_ask(renderer, params, false); /* the kernel of compare() */
 }
 
-/* Room for twice the records of the longest ray, whatever the method. */
+/* Twice the records of the longest ray by any method. */
 static size_t room(const struct kd_rays_params *p)
 {
     return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64);

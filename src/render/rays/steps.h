@@ -1,5 +1,5 @@
 /* Records each step of one ray as the device takes it: the kernels of device.c are compiled with KD_TRACE and write
- * their state after each step. For `kerrd rays --trace` and for a pixel. Render thread. */
+ * their state after each step. For `kerrd rays --trace` and for explaining a pixel. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 
@@ -9,17 +9,17 @@
 
 enum kd_rays_stage {
     KD_STAGE_START,    /* at the observer, or where a Cartesian ray starts */
-    KD_STAGE_STEP,     /* on the way to the crossing of that order; if there is none, taken back */
-    KD_STAGE_CROSSING, /* of that order; no step of its own */
+    KD_STAGE_STEP,     /* a step towards the crossing of that order; discarded if there is no such crossing */
+    KD_STAGE_CROSSING, /* the crossing of that order; not a step */
     KD_STAGE_END,      /* after the last crossing, to infinity or the horizon */
 };
 
-/* Numbers that a stage or an engine does not have are NaN. Azimuths as in render/rays/rays.h, in an END or START
- * stage within half a turn either way. Residuals are those of the device's own numbers and constants, in double
- * precision: what they are not 0 by is what steps and rounding have lost. */
+/* Numbers that a stage or an engine does not have are NaN. Azimuths are as in render/rays/rays.h; in START and END
+ * stages they are reduced to half a turn either way. Residuals are computed in double precision from the device's
+ * own numbers and constants: their deviation from 0 is the error of steps and rounding. */
 struct kd_rays_step {
     enum kd_rays_stage stage;
-    unsigned order, number;        /* of the crossing ahead; of the step */
+    unsigned order, number;        /* of the next crossing; of the step */
     double time;                   /* Mino time since the observer; the Kerr-Schild engines' s, with d(lambda) = r ds */
     double r, phi, delay;          /* delay: of a crossing */
     double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
@@ -33,20 +33,21 @@ struct kd_rays_step {
 };
 
 struct kd_rays_steps {
-    struct kd_rays_params params; /* steps and the rest as they were in force */
+    struct kd_rays_params params; /* with the steps and other settings that were used */
     double alpha, beta;
-    bool outward;               /* it starts away from the hole */
-    size_t n, lost;             /* records; further ones that had no room */
+    bool outward;               /* the ray starts away from the hole */
+    size_t n, lost;             /* records; records that did not fit */
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
-    bool same; /* the kernel that does not tell gives the same end, bit for bit */
+    bool same; /* the kernel without recording gives the same end, bit for bit */
 };
 
-/* The steps of one ray; params as for kd_rays_trace, an engine that takes steps. Finish *out in any case. */
+/* Records the steps of one ray; params as for kd_rays_trace, with an engine that takes steps. Call
+ * kd_rays_steps_finish in any case. */
 enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params,
                              const struct kd_ray_labels *ray, struct kd_rays_steps *out, struct kd_error *error);
-/* Asks for the kernels that this takes, for kd_kernels_note. */
+/* Requests the kernels needed, for kd_kernels_note. */
 enum kd_status kd_rays_steps_ask(struct kd_renderer *renderer, const struct kd_rays_params *params);
 static inline void kd_rays_steps_finish(struct kd_rays_steps *steps)
 {

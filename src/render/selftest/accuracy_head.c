@@ -1,3 +1,4 @@
+/* Fills in the head of an accuracy table: version, date, machine and device. */
 #include "render/selftest/accuracy_measure.h"
 #include "render/device/internal.h"
 #include "base/cores.h"
@@ -8,7 +9,7 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-/* lavapipe starts a thread a core, or as many as this variable says; 0 means the thread that submits. */
+/* lavapipe starts one thread a core, or as many as this variable says; 0 means only the submitting thread. */
 static uint32_t lavapipe_cores(void)
 {
     const char *wish = getenv("LP_NUM_THREADS");

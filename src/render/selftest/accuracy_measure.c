@@ -15,8 +15,8 @@
 
 enum { ORDERS = KD_ACCURACY_ORDERS, WARM_UP = 64, RUNS = 5, BATCH = 1 << 18, RAYS = 4096, RAYS_QUICK = 256 };
 
-/* Steps double from first to last: below the first an engine is of no use, above the last rounding has taken over or
- * another one is better at the same price. */
+/* Steps double from first to last. Below the first an engine is useless; above the last rounding dominates or
+ * another engine is better at the same cost. */
 static const struct span {
     enum kd_engine engine;
     uint32_t first, last;
@@ -25,7 +25,7 @@ static const struct span {
     { KD_ENGINE_KS_EULER, 64, 1024 }, { KD_ENGINE_KS_TAO6, 32, 256 },
 };
 
-/* One view of a set, and where its rays end. */
+/* One view of a set, and the true end points of its rays. */
 struct truth {
     struct kd_accuracy_view view;
     size_t n;
@@ -39,7 +39,7 @@ struct bench {
     struct kd_accuracy_table *table;
     struct truth truths[KD_ACCURACY_SETS][KD_ACCURACY_VIEWS];
     uint32_t views[KD_ACCURACY_SETS];
-    double *rays; /* room for BATCH rays, for the speed */
+    double *rays; /* room for BATCH rays, for measuring speed */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     double *errors[KD_ACCURACY_QUANTITIES];
@@ -66,7 +66,7 @@ static struct kd_rays_params params_of(const struct kd_accuracy_row *row, const 
     };
 }
 
-/* One ray in closed form, which has nothing in common with the engines but the constants of motion. */
+/* Computes one ray in closed form, which shares only the constants of motion with the engines. */
 static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct kd_ray_crossing *crossings,
                                struct kd_ray_end *end)
 {
@@ -83,7 +83,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
     }
 }
 
-/* Finds where rays end, as far as can be known. *s: the time of one core. */
+/* Computes the true end points, as far as they can be known. *s: time of one core. */
 static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n,
                          struct kd_ray_crossing *crossings, struct kd_ray_end *ends, double *s)
 {
@@ -101,7 +101,7 @@ static void reference_of(const struct kd_accuracy_view *view, const double *rays
     *s = seconds_of(CLOCK_THREAD_CPUTIME_ID) - begun;
 }
 
-/* *s: the time of the kernels alone. */
+/* *s: time of the kernels only. */
 static enum kd_status trace(struct bench *b, const struct kd_accuracy_row *row, const struct kd_accuracy_view *view,
                             const double *rays, size_t n, double *s)
 {
@@ -134,9 +134,8 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Seconds a ray: the best of some runs, as other work on the machine only ever slows. Each takes as many rays, the
- * list over and over, as its share of the time allows; a list is cut where it alone takes longer. *s comes as the
- * seconds of the list. */
+/* Seconds a ray: the best of several runs, because other work on the machine only slows them. Each run traces the
+ * list repeatedly for its share of the time; a list that takes longer is cut. *s is the list's time on entry. */
 static enum kd_status time_view(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, double share,
                                 double *s)
 {
@@ -170,11 +169,11 @@ static double error_of(double value, double truth, int quantity)
     }
 }
 
-/* Adds the errors of one view, after those that counts says are there. */
+/* Appends the errors of one view to those already counted. */
 static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t,
                   struct kd_accuracy_entry *e, size_t counts[KD_ACCURACY_QUANTITIES])
 {
-    double inner = kd_kerr_isco(kd_hole(t->view.spin)); /* phi and t of Boyer and Lindquist diverge at the horizon */
+    double inner = kd_kerr_isco(kd_hole(t->view.spin)); /* Boyer-Lindquist phi and t diverge at the horizon */
     bool delays = row->engine == KD_ENGINE_MINO_RKN4 || row->engine == KD_ENGINE_MINO_RKN6;
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_ray_end *end = &b->ends[i], *true_end = &t->ends[i];
@@ -284,7 +283,7 @@ static void finish(struct bench *b)
     free(b->ends);
 }
 
-/* The rows to be measured, without their figures. */
+/* Lists the rows to be measured, without figures. */
 static void list_rows(struct kd_accuracy_table *table, bool float64)
 {
     table->rows[table->n++] = (struct kd_accuracy_row) { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
@@ -307,7 +306,7 @@ enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd
     enum kd_status status;
     KD_TRY(prepare(&b));
     for (uint32_t i = 0; i < out->n; i++) {
-        double s; /* this run compiles, which does not count */
+        double s; /* this run compiles the kernel, and is not timed */
         const struct truth *first = &b.truths[KD_ACCURACY_BULK][0];
         KD_TRY(trace(&b, &out->rows[i], &first->view, first->rays, WARM_UP, &s));
         for (int set = 0; set < KD_ACCURACY_SETS; set++) {

@@ -7,16 +7,16 @@
 
 struct kd_accuracy_params {
     bool quick;          /* fewer rays, shorter timing */
-    double seconds;      /* the device time for each speed; less where a million rays take less; 0: 0.5, quick 0.02 */
-    const char *command; /* the command that asked for it, kept with the table; NULL: none */
+    double seconds;      /* device time for each speed; less if a million rays take less; 0: 0.5, or 0.02 if quick */
+    const char *command; /* the command that requested it, stored with the table; NULL: none */
 };
 
-/* KD_ECANCELLED when progress says so; what the device cannot do is left out and named in out->skipped. */
+/* KD_ECANCELLED if progress returns false. What the device cannot do is left out and named in out->skipped. */
 enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd_accuracy_params *params,
                                    kd_progress_fn progress, void *user, struct kd_accuracy_table *out,
                                    struct kd_error *error);
 
-/* Version, date, machine and device of a table about to be measured. */
+/* Sets version, date, machine and device of a table that will be measured. */
 void kd_accuracy_head(struct kd_renderer *renderer, const struct kd_accuracy_params *params,
                       struct kd_accuracy_table *out);
 

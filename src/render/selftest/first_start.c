@@ -26,8 +26,8 @@ static void restore(struct kd_renderer *r, const struct kd_capacity *capacity)
     pthread_mutex_unlock(&r->lock);
 }
 
-/* What a ray and a pixel cost here, instead of what devices of this type are guessed to cost: the least of some
- * small pictures, since a driver may make a kernel when it first runs, and a busy machine adds to any of them. */
+/* Measures the cost of a ray and a pixel, which replaces the guess for this type of device: the least over several
+ * small pictures, because a driver may compile a kernel at its first run, and a busy machine slows any of them. */
 static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -42,7 +42,7 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         struct kd_frame frame = { 0 };
         kd_scene_smooth(&scene);
         scene.image.width = 256;
-        scene.image.height = 144 + k; /* another lens map */
+        scene.image.height = 144 + k; /* forces a new lens map */
         scene.camera.r = k < 4 ? INFINITY : 30;
         status = kd_plan_make(&scene, &guess, &plan, error);
         if (!status)
@@ -50,7 +50,7 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         kd_frame_finish(&frame);
     }
     r->probing = false;
-    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* that of particles, and all without timestamps */
+    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* not measured here: particles; without timestamps: all */
         c->ns[i] = isfinite(c->ns[i]) ? c->ns[i] : guess.ns[i];
     return status;
 }
@@ -76,7 +76,7 @@ enum kd_status kd_first_start(struct kd_renderer *r, struct kd_error *error)
     if (s->result == KD_PASSED)
         return KD_OK;
     struct kd_error why = { 0 };
-    const struct kd_capacity before = r->capacity; /* the self-test's pictures are too small to learn from */
+    const struct kd_capacity before = r->capacity; /* the self-test's pictures are too small to measure costs */
     double begun = kd_clock_ms();
     *s = (struct kd_verdict) { .now = true };
     enum kd_status status = kd_selftest_run(r, &kd_selftest_reference, judge, s, &why);

@@ -1,4 +1,4 @@
-/* A device, or a version of its driver or of kerrd, that has not been met before is tested when it is first started. */
+/* Tests a device when it is first started, and again with a new version of its driver or of kerrd. */
 #ifndef KD_RENDER_SELFTEST_FIRST_START_H
 #define KD_RENDER_SELFTEST_FIRST_START_H
 
@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 
-/* If nothing is known: test it and measure what passes cost. A check that fails is logged as an error, and tested
- * again at the next start; KD_OK all the same, since the user may know better. An error only where the device is
- * lost. For kd_renderer_params.prove. */
+/* If the device is unknown: tests it and measures the costs of passes. A failed check is logged as an error and
+ * tested again at the next start; the result is still KD_OK, because the user may know better. An error only if the
+ * device is lost. For kd_renderer_params.prove. */
 enum kd_status kd_first_start(struct kd_renderer *renderer, struct kd_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* These parts of the self-test judge brightness, from a ray to the numbers of a file. */
+/* Self-test of brightness, from a ray to the numbers of a file. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"
@@ -10,11 +10,10 @@
 
 #define LEVELS 65535.0
 
-/* The curve of IEC 61966-2-1 the other way round. */
+/* Inverse of the curve of IEC 61966-2-1. */
 static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 
-/* A scene whose one pixel is that ray's, exposed so that the luminance comes out as 0.2: the deepest red of the
- * gamut then is 0.94. */
+/* A scene of one pixel with this ray, exposed to a luminance of 0.2: the deepest red of the gamut is then 0.94. */
 static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double brightness)
 {
     struct kd_scene scene;
@@ -54,9 +53,9 @@ done:
     return status;
 }
 
-/* g^4 F/F_max. A file's 16 bits round a luminance of 0.2 to 0.9 (1/2)/65535 of it, 3.4e-5; the tables between whose
- * entries T is interpolated are good to 1e-6, T^4 to four times that; roundoff comes with the gain of r, once for F
- * and four times that of g. */
+/* Compares g^4 F/F_max. A file's 16 bits round a luminance of 0.2 to 0.9 (1/2)/65535 of it, 3.4e-5. The tables from
+ * which T is interpolated have errors of 1e-6, so T^4 has four times that. Roundoff is multiplied by the gain of r
+ * for F and four times that of g. */
 static enum kd_status brightness(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;
@@ -77,7 +76,8 @@ static enum kd_status brightness(const struct kd_selftest *test)
     return kd_selftest_end(test, &row);
 }
 
-/* Greys through the post kernel alone, four of each since an invocation makes four pixels; words[6 i] starts grey i. */
+/* Greys through the post kernel alone, four of each because an invocation makes four pixels; words[6 i] starts grey
+ * i. */
 static enum kd_status encode(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
                              struct kd_vk_buffer *words)
 {
@@ -101,9 +101,8 @@ done:
     return status;
 }
 
-/* The errors count in steps of 1/65535: half a step of rounding, and what the kernel's polynomial for the power
- * (5.4e-7) and Vulkan's square roots (three units in the last place) may be wrong by, together a fifteenth of a
- * step. */
+/* Errors are in steps of 1/65535: half a step of rounding, plus the errors of the kernel's polynomial for the power
+ * (5.4e-7) and of Vulkan's square roots (three units in the last place), together a fifteenth of a step. */
 static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
                             struct kd_vk_buffer *words)
 {

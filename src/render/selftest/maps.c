@@ -1,5 +1,4 @@
-/* This part of the self-test judges the kernels of the lens map by known rays, each the one ray of a picture of one
- * pixel. */
+/* Self-test of the lens map's kernels, with known rays: each is the only ray of a picture of one pixel. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"
@@ -11,8 +10,8 @@
 #define STEPS 16
 #define PLANES (2 * ORDERS + 3)
 
-/* The bounds are those of rays.c: roundoff, and what 16 steps of order 6 lose. The camera adds the operations from
- * pixel to ray; the azimuth comes from a series that is good to 1e-7 a half turn (polar_azimuth.glsl). */
+/* Bounds as in rays.c: roundoff, and the error of 16 steps of order 6. The camera adds the operations from pixel to
+ * ray; the azimuth comes from a series accurate to 1e-7 a half turn (polar_azimuth.glsl). */
 static double unit_of(void) { return KD_SELFTEST_OPERATIONS * (double)(FLT_EPSILON / 2) + 1e-3 * pow(M_PI / STEPS, 6); }
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
@@ -40,7 +39,7 @@ static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct 
     return scene;
 }
 
-/* The planes of the one ray. */
+/* Planes of the single ray. */
 static enum kd_status trace(const struct kd_selftest *test, const struct kd_scene *scene, const struct kd_needs *needs,
                             float planes[PLANES])
 {
@@ -55,7 +54,7 @@ done:
     return status;
 }
 
-/* Radii; a plane holds w = 1/r, or 0 where there is no crossing. */
+/* Compares radii; a plane holds w = 1/r, or 0 if there is no crossing. */
 static void judge_radii(const struct kd_selftest_ray *ray, const float *planes, struct kd_selftest_row *row)
 {
     for (int n = 0; n < ORDERS; n++) {
@@ -82,7 +81,7 @@ static void judge_angles(const struct kd_selftest_ray *ray, const float *planes,
         kd_selftest_compare(sky, hypot(acos(end[0]) - ray->theta, sin(ray->theta) * turn(end[1] - ray->phi)), allowed);
 }
 
-/* Compares rays from infinity: everything in closed form, then by steps. */
+/* Compares rays from infinity: in closed form, then by steps. */
 static enum kd_status far(const struct kd_selftest *test)
 {
     static const char taylor[] = "equations of motion by Taylor series, 38 digits";
@@ -119,8 +118,8 @@ done:
     return status;
 }
 
-/* The reference has Boyer-Lindquist azimuths, the map those past an observer who falls by ingoing ones: more by the
- * integral of a/Delta from r to infinity. */
+/* Converts the reference's Boyer-Lindquist azimuths to the map's, which are relative to a falling observer's ingoing
+ * azimuth: larger by the integral of a/Delta from r to infinity. */
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;

@@ -1,5 +1,5 @@
-/* These parts of the self-test judge radii of circular orbits, orbits that are not circles, and the flux of the
- * disk, in double precision on the CPU. */
+/* Self-test of radii of circular orbits, of other bound orbits, and of the disk's flux, in double precision on the
+ * CPU. */
 #include "render/selftest/parts.h"
 
 #include "physics/disk/thin_disk.h"
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* physics/spacetime/kerr.h promises a few ulp, 1e-14 for the ISCO: relative. */
+/* physics/spacetime/kerr.h promises a relative error of a few ulp, 1e-14 for the ISCO. */
 #define ORBIT_BOUND 1e-14
 
 static enum kd_status radius(const struct kd_selftest *test, const char *what, double (*of)(const struct kd_hole *),
@@ -37,7 +37,7 @@ static enum kd_status shape(const struct kd_selftest *test, double spin, double 
     return status;
 }
 
-/* Some tens of operations of 1.1e-16 each, which orbits this far from the separatrix amplify by up to a hundred. */
+/* Some tens of operations of 1.1e-16 each, amplified up to a hundredfold by orbits this far from the separatrix. */
 static enum kd_status bound_orbits(const struct kd_selftest *test)
 {
     static const char source[] = "Carter's equations by quadrature, 40 digits";
@@ -83,7 +83,7 @@ static enum kd_status mercury(const struct kd_selftest *test)
     return kd_selftest_end(test, &row);
 }
 
-/* physics/disk/thin_disk.h: 1e-11 and 4e-14/(r - r_isco)^2, relative. */
+/* Relative error by physics/disk/thin_disk.h: 1e-11 and 4e-14/(r - r_isco)^2. */
 static enum kd_status flux(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;

@@ -1,4 +1,4 @@
-/* The self-test has these parts. Private to src/render; render thread. */
+/* Parts of the self-test. Private to src/render; render thread. */
 #ifndef KD_RENDER_SELFTEST_PARTS_H
 #define KD_RENDER_SELFTEST_PARTS_H
 
@@ -13,16 +13,16 @@ struct kd_selftest {
     void *user;
     struct kd_error *error;
 };
-/* Hand a finished row over. */
+/* Delivers a finished row. */
 enum kd_status kd_selftest_end(const struct kd_selftest *test, struct kd_selftest_row *row);
 
-enum kd_status kd_selftest_orbits(const struct kd_selftest *test); /* orbits, the disk's flux: no device */
+enum kd_status kd_selftest_orbits(const struct kd_selftest *test); /* orbits, and the disk's flux; no device needed */
 enum kd_status kd_selftest_rays(const struct kd_selftest *test);   /* listed rays, by every engine */
 enum kd_status kd_selftest_maps(const struct kd_selftest *test);   /* the lens map's kernels */
 enum kd_status kd_selftest_light(const struct kd_selftest *test);  /* brightness and encoding */
-enum kd_status kd_selftest_same(const struct kd_selftest *test);   /* the same again, and in pieces */
+enum kd_status kd_selftest_same(const struct kd_selftest *test);   /* repeated pictures, and pictures in pieces */
 
-/* Operations of a unit roundoff each that a number may have gone through: rays.c. */
+/* Number of operations, each with an error of a unit roundoff, that bounds allow for a number: rays.c. */
 #define KD_SELFTEST_OPERATIONS 64
 
 #endif

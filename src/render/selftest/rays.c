@@ -1,5 +1,5 @@
-/* This part of the self-test judges listed rays by every engine: end points, deflections, and on which side of the
- * critical curve a ray falls in. */
+/* Self-test of listed rays by every engine: end points, deflections, and on which side of the critical curve a ray
+ * is captured. */
 #include "render/selftest/parts.h"
 
 #include "render/device/internal.h"
@@ -11,12 +11,12 @@
 #include <string.h>
 
 #define ORDERS 3
-#define COPIES 192 /* copies of each ray, so that more than one workgroup computes it */
+#define COPIES 192 /* copies of each ray, so that several workgroups compute it */
 
 struct engine {
     enum kd_engine engine;
     enum kd_precision precision;
-    uint32_t steps; /* a half period */
+    uint32_t steps; /* per half period */
 };
 static const struct engine engines[] = {
     { KD_ENGINE_CLOSED, KD_PRECISION_F64, 0 },
@@ -25,16 +25,16 @@ static const struct engine engines[] = {
 };
 enum { ENGINES = sizeof engines / sizeof *engines };
 
-/* What one unit of change may be: a number is the outcome of some tens of operations, each wrong by up to the unit
- * roundoff; and the steps of a method of order 6 lose (pi/steps)^6 a half turn times its error constant. The
- * constant is what was measured for these rays with a margin of about ten. */
+/* The unit of allowed error: a number results from some tens of operations, each with an error up to the unit
+ * roundoff, and the steps of a method of order 6 have an error of (pi/steps)^6 a half turn times its error constant.
+ * The constant was measured for these rays and has a margin of about ten. */
 static double unit_of(const struct engine *e)
 {
     double roundoff = e->precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
     return KD_SELFTEST_OPERATIONS * roundoff + (e->steps ? 1e-3 * pow(M_PI / e->steps, 6) : 0);
 }
 
-/* After the last crossing the drag is integrated by Simpson's rule, of order 4. */
+/* After the last crossing frame dragging is integrated by Simpson's rule, of order 4. */
 static double end_unit_of(const struct engine *e)
 {
     return unit_of(e) + (e->steps ? 2e-5 * pow(M_PI / e->steps, 4) : 0);
@@ -45,7 +45,7 @@ static void name_of(const struct engine *e, char out[32])
     snprintf(out, 32, "%s %s", kd_engine_name(e->engine), kd_precision_name(e->precision));
 }
 
-/* The list of rays, ORDERS crossings each. */
+/* Traces the list of rays, ORDERS crossings each. */
 static enum kd_status trace(const struct kd_selftest *test, const struct engine *e, const struct kd_selftest_ray *ray,
                             const double *list, size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
@@ -67,8 +67,8 @@ static const char *const quantities[QUANTITIES] = { "r (relative)", "phi (rad)",
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors against known numbers, each bound a unit of change times the size of what is summed and the gain. phi is
- * summed from half turns, the delay from terms as large as the radius, and near the hole of about 10 M. */
+/* Compares with known numbers. Each bound is a unit of error times the size of the terms summed and the gain. phi is
+ * a sum over half turns; delay is a sum of terms as large as the radius, and near the hole about 10 M. */
 static void judge(const struct kd_selftest_ray *ray, const struct engine *e, const struct kd_ray_crossing *crossings,
                   const struct kd_ray_end *end, struct kd_selftest_row rows[QUANTITIES])
 {
@@ -96,7 +96,7 @@ struct copies {
     struct kd_ray_end ends[COPIES];
 };
 
-/* Copies of a ray that differ from its first one. */
+/* Number of copies of a ray that differ from the first. */
 static double differing(const struct copies *c)
 {
     double sum = 0;
@@ -155,7 +155,7 @@ done:
     return status;
 }
 
-/* Compares the azimuth of the direction of escape in the equatorial plane. */
+/* Compares the azimuth of escape in the equatorial plane. */
 static enum kd_status deflection(const struct kd_selftest *test, const struct engine *e)
 {
     struct kd_selftest_row row;
@@ -170,18 +170,18 @@ static enum kd_status deflection(const struct kd_selftest *test, const struct en
         enum kd_status status = trace(test, e, &ray, (double[]) { -d->b, 0 }, 1, crossings, &end);
         if (status)
             return status;
-        /* Light of lambda = b goes round towards +phi, from the source to the observer. */
+        /* Light of lambda = b rotates towards +phi, from the source to the observer. */
         double error = end.fate == KD_RAY_ESCAPED ? turn(end.phi + d->phi) : NAN;
         kd_selftest_compare(&row, error, end_unit_of(e) * (fabs(d->phi) + d->gain));
     }
     return kd_selftest_end(test, &row);
 }
 
-#define NEAREST 60 /* a quarter of a power of ten each */
+#define NEAREST 60 /* each is a quarter of a power of ten */
 
-/* Rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve: the furthest that falls in and should
- * not, or the other way round. Rays just inside and outside part by e^pi each half turn, and an error of the
- * constants, of E^2 = 1 and of each step shifts the curve: as much as a unit of change of b. */
+/* Traces rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve, and finds the furthest one with
+ * the wrong fate. Rays just inside and outside diverge by e^pi each half turn. An error of the constants, of E^2 = 1
+ * or of a step shifts the curve by as much as a unit of change of b. */
 static enum kd_status critical(const struct kd_selftest *test, const struct engine *e,
                                const struct kd_selftest_critical *p)
 {

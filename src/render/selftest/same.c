@@ -1,4 +1,4 @@
-/* A picture must not change when it is made again, or in pieces. */
+/* Self-test of reproducibility: a picture must not change when it is rendered again, or in pieces. */
 #include "render/selftest/parts.h"
 
 #include "render/device/internal.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Odd sizes, so that pieces end in the middle of a workgroup; a sky, so that every ray is followed to its end. */
+/* Odd sizes, so that pieces end inside a workgroup; a sky, so that every ray is traced to its end. */
 static struct kd_scene scene_of(void)
 {
     struct kd_scene scene;
@@ -18,7 +18,7 @@ static struct kd_scene scene_of(void)
     return scene;
 }
 
-/* A frame whose lens map is traced and not found in the cache, which is made to forget what it holds. */
+/* Renders a frame whose lens map is traced: the cache is emptied first. */
 static enum kd_status draw(const struct kd_selftest *test, const struct kd_capacity *capacity, struct kd_frame *out,
                            uint32_t *bands)
 {
@@ -35,7 +35,6 @@ done:
     return status;
 }
 
-/* Counts the pixels that differ. */
 static double differing(const struct kd_frame *a, const struct kd_frame *b)
 {
     const unsigned char *x = kd_frame_pixels(a), *y = kd_frame_pixels(b);
@@ -45,7 +44,7 @@ static double differing(const struct kd_frame *a, const struct kd_frame *b)
     return n;
 }
 
-/* One row a submission: what the renderer takes a very slow device for. */
+/* One row a submission, which is what the renderer does on a very slow device. */
 static enum kd_status draw_by_rows(const struct kd_selftest *test, const struct kd_capacity *capacity,
                                    struct kd_frame *out)
 {
@@ -68,7 +67,7 @@ enum kd_status kd_selftest_same(const struct kd_selftest *test)
     struct kd_frame first = { 0 };
     kd_renderer_capacity(test->renderer, &whole);
     narrow = whole;
-    narrow.max_binding_bytes = 24 * 157 * 7 + 64; /* seven rows */
+    narrow.max_binding_bytes = 24 * 157 * 7 + 64; /* room for seven rows */
     enum kd_status status = draw(test, &whole, &first, NULL);
     for (int i = 0; i < 3 && !status; i++) {
         struct kd_frame again = { 0 };

@@ -1,4 +1,4 @@
-/* Embeds the catalogue data/hipparcos.stars in the program, as it is in the file. */
+/* Embeds the catalogue data/hipparcos.stars in the program, byte by byte. */
 #include "render/sky/star.h"
 
 #include <math.h>

@@ -40,7 +40,7 @@ static struct kd_vec unit(struct kd_vec v)
     return (struct kd_vec) { n * v.x, n * v.y, n * v.z };
 }
 
-/* Axes of one who looks along `forward` with `up` above. */
+/* Axes of an observer who looks along `forward` with `up` above. */
 struct axes { struct kd_vec forward, up, right; };
 
 static struct axes axes(struct kd_vec forward, struct kd_vec pole)
@@ -49,7 +49,7 @@ static struct axes axes(struct kd_vec forward, struct kd_vec pole)
     return (struct axes) { forward, cross(right, forward), right };
 }
 
-/* What lies along the axes of `from` comes to lie along those of `to`. */
+/* The rotation that takes the axes `from` to the axes `to`. */
 static struct kd_rotation between(struct axes from, struct axes to)
 {
     const double f[3][3] = { { from.forward.x, from.forward.y, from.forward.z },
@@ -80,7 +80,7 @@ static struct kd_rotation about_y(double degrees)
 
 struct kd_rotation kd_rotation_galactic(void)
 {
-    /* The galactic pole to z, then the equatorial pole to its longitude. */
+    /* Takes the galactic pole to z, then the equatorial pole to its longitude. */
     const struct kd_rotation turned = about_z(180 - 192.85948), tilted = about_y(90 - 27.12825),
                              both = kd_rotation_then(&turned, &tilted);
     const struct kd_rotation last = about_z(122.93192);
@@ -103,7 +103,7 @@ static struct kd_rotation oriented(const struct kd_scene *scene)
                   kd_rotate(&galactic, pole));
         break;
     }
-    /* Behind the hole, right of it, above it, as the unturned camera has them (render/view/camera.c). */
+    /* Directions behind the hole, above it and right of it, as an unturned camera sees them (render/view/camera.c). */
     const struct axes from = { { -s, 0, -c }, { -c, 0, s }, { 0, 1, 0 } };
     return between(from, to);
 }

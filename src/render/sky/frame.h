@@ -1,6 +1,6 @@
-/* Orientation of the sky: rotations between three frames. That of the hole has z along its spin and x towards azimuth
- * 0; equatorial, J2000, has x towards the equinox; galactic has x towards l = 0. All are right-handed. Double
- * precision; pure, any thread. */
+/* Orientation of the sky: rotations between three frames. The hole's frame has z along its spin and x towards
+ * azimuth 0; the equatorial one (J2000) has x towards the equinox; the galactic one has x towards l = 0. All are
+ * right-handed. Double precision; pure, any thread. */
 #ifndef KD_RENDER_SKY_FRAME_H
 #define KD_RENDER_SKY_FRAME_H
 
@@ -17,8 +17,8 @@ struct kd_rotation kd_rotation_then(const struct kd_rotation *first, const struc
  * (J2000 by ESA, The Hipparcos Catalogue, vol. 1, 1.5.3). */
 struct kd_rotation kd_rotation_galactic(void);
 
-/* From directions in which rays escape, their azimuth less the observer's, to galactic ones: by sky.orientation,
- * sky.tilt_deg and sky.turn_deg, and the azimuth of the camera. */
+/* From directions in which rays escape, with azimuth measured from the observer's, to galactic ones. Depends on
+ * sky.orientation, sky.tilt_deg, sky.turn_deg and the camera's azimuth. */
 struct kd_rotation kd_sky_rotation(const struct kd_scene *scene);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* IEC 61966-2-1: light of a sample. */
+/* IEC 61966-2-1: linear light of each sample value. */
 static void linearise(float *curve, uint32_t samples)
 {
     for (uint32_t i = 0; i < samples; i++) {
@@ -23,10 +23,10 @@ static uint32_t sample(const struct kd_png *png, size_t at)
     return png->bit_depth == 16 ? ((const uint16_t *)png->pixels)[at] : ((const uint8_t *)png->pixels)[at];
 }
 
-/* A target's texel covers [from, end) of the source, of which whole number k has this part. */
+/* A texel of the target covers [from, end) of the source; this is the length of pixel k within it. */
 static double part(double from, double end, uint32_t k) { return fmin(end, k + 1.0) - fmax(from, k); }
 
-/* A row of the file, averaged over areas to the width of the target. */
+/* One row of the file, averaged over areas to the width of the target. */
 static void narrow_row(const struct kd_png *png, const float *curve, uint32_t y, uint32_t width, double *out)
 {
     const double ratio = png->width / (double)width;
@@ -44,7 +44,7 @@ static void narrow_row(const struct kd_png *png, const float *curve, uint32_t y,
     }
 }
 
-/* line, sum: room for a row of the target each. */
+/* line, sum: scratch for one row of the target each. */
 static void average(const struct kd_png *png, const float *curve, const struct kd_sky_picture *out, double *line,
                     double *sum)
 {
@@ -91,7 +91,7 @@ static enum kd_status convert(const struct kd_png *png, struct kd_sky_picture *o
     return kd_error_set(error, KD_ENOMEM, "out of memory for a panorama of %u rows", rows);
 }
 
-/* Those who made it, as they say. */
+/* Copies the author's credit from the file. */
 static void take_credit(const struct kd_png *png, char credit[KD_SKY_CREDIT])
 {
     const char *text = kd_png_text_find(png, "Copyright");
@@ -109,7 +109,7 @@ enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture
     struct kd_error why = { 0 };
     enum kd_status status;
     *out = (struct kd_sky_picture) { 0 };
-    KD_TRY(kd_png_look(data, size, &about, &why)); /* its size, before memory is taken for it */
+    KD_TRY(kd_png_look(data, size, &about, &why)); /* reads the size before memory for it is allocated */
     if (!kd_asset_is_panorama(about.width, about.height))
         KD_TRY(kd_error_set(&why, KD_EINVAL,
                             "a picture of %u x %u pixels; it must be one of the whole sky, twice as wide as it is "

@@ -1,9 +1,9 @@
-/* Makes up a Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, by noise of a seed.
+/* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a seed.
  *
- * The profiles are fits by eye to photographs; the dust takes 1.35 times as much of blue light as of green, and 0.72
- * times of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as that of the sky:
- * some 21 magnitudes a square arcsecond where it is brightest, a tenth of that at 30 degrees from it (C. Leinert et
- * al. 1998, A&AS 127, 1, section 10). No place in it is a place in the sky. */
+ * The profiles are fits by eye to photographs. The dust absorbs 1.35 times as much of blue light as of green, and
+ * 0.72 times of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the real one:
+ * some 21 magnitudes a square arcsecond at its brightest, a tenth of that 30 degrees from it (C. Leinert et al.
+ * 1998, A&AS 127, 1, section 10). Its details correspond to nothing in the real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -15,7 +15,7 @@
 #define DEGREE ((float)M_PI / 180)
 enum { SIDE = 64 }; /* lattice points, after which noise repeats */
 
-struct clouds { float *lattice; }; /* SIDE^3 numbers of [-1, 1] */
+struct clouds { float *lattice; }; /* SIDE^3 numbers in [-1, 1] */
 
 static float at(const struct clouds *c, int x, int y, int z)
 {
@@ -25,7 +25,7 @@ static float at(const struct clouds *c, int x, int y, int z)
 static float mix(float a, float b, float t) { return a + t * (b - a); }
 static float eased(float t) { return t * t * (3 - 2 * t); }
 
-/* Noise has mean 0 and lies in [-1, 1]. The coordinates are positive. */
+/* Noise of mean 0 in [-1, 1]. The coordinates must be positive. */
 static float noise(const struct clouds *c, const float p[3])
 {
     const int x = (int)p[0], y = (int)p[1], z = (int)p[2];
@@ -37,11 +37,11 @@ static float noise(const struct clouds *c, const float p[3])
     return mix(low, high, w);
 }
 
-/* Filaments are where noise passes through 0. */
+/* Filaments: largest where noise passes through 0. */
 static float ridge(float value) { return 0.5f - 2 * fabsf(value); }
 
-/* Octaves from `first` to before `end`, each turned against the one before so that the lattice is not seen. cells:
- * of octave 0. */
+/* Octaves from `first` up to but not including `end`, each rotated against the one before to hide the lattice.
+ * cells: number of cells of octave 0. */
 struct octaves {
     float cells, falls;
     int first, end;
@@ -64,7 +64,7 @@ static float octaves(const struct clouds *c, const float n[3], const struct octa
     return sum;
 }
 
-/* What all directions of one longitude have in common, and of one latitude, in degrees. */
+/* Values shared by all directions of one longitude, and of one latitude; degrees. */
 struct along { float l, cos, sin, inwards, inner; };
 struct across { float b, cos, sin, near, far, contrast, halo; };
 
@@ -75,7 +75,7 @@ static struct along along_of(float l)
                             0.45f + 0.55f * expf(-deg * deg / (2 * 75 * 75)) };
 }
 
-/* The contrast is that of star clouds: far from the plane there are none. */
+/* The contrast of star clouds; there are none far from the plane. */
 static struct across across_of(float b)
 {
     const float deg = b / DEGREE, above = fabsf(deg);
@@ -88,12 +88,12 @@ static struct across across_of(float b)
                              0.018f * expf(-above / 26) };
 }
 
-/* Noise of few cells changes little from texel to texel: it is made for every STEP-th column and row, with at least
- * five of these a cell, and interpolated. FIRST, SECOND: of the filaments' octaves, before their ridges. */
+/* Smooth components: noise of few cells changes little from texel to texel. It is computed at every STEP-th column
+ * and row, at least five of these a cell, and interpolated. FIRST, SECOND: octaves of the filaments, before `ridge`. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
-#define DUSTY 32.0f /* degrees from the plane: beyond there is none */
-#define FALLS 0.66f /* of the filaments */
+#define DUSTY 32.0f /* degrees from the plane: there is no dust beyond */
+#define FALLS 0.66f /* amplitude ratio of the filaments' octaves */
 static const struct octaves few_clouds = { 7, 0.62f, 0, FEW, false }, more_clouds = { 7, 0.62f, FEW, 5, false };
 static const struct octaves filaments[] = { { 5, 1, 0, 1, false },
                                             { 5, 1, 1, FEW, false },
@@ -115,7 +115,7 @@ static void smooth_at(const struct clouds *c, const float n[3], bool dusty, floa
     out[SECOND] = octaves(c, warped, &filaments[1]);
 }
 
-/* What a direction has before dust: the band, reddish towards the middle. */
+/* Starlight of a direction before dust: the band, reddish towards the middle. */
 static void starlight(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l,
                       const struct across *b, float rgb[3])
 {
@@ -126,12 +126,12 @@ static void starlight(const struct clouds *c, const float n[3], const float smoo
         b->contrast > 0.1f
             ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast)
             : 1;
-    const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0; /* 1e-7 there */
+    const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0; /* 1e-7 at the cut */
     for (int k = 0; k < 3; k++)
         rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
 }
 
-/* Optical depth of the dust, of green light. Lanes wander about the plane; spurs leave it. */
+/* Optical depth of the dust for green light. Lanes wander about the plane; spurs leave it. */
 static float dust(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l, float b)
 {
     if (fabsf(b) > DUSTY)
@@ -149,8 +149,8 @@ static void look(const struct clouds *c, const float smooth[SMOOTH], const struc
     const float n[3] = { b->cos * l->cos, b->cos * l->sin, b->sin };
     starlight(c, n, smooth, l, b, rgb);
     const float depth = 1.5f * dust(c, n, smooth, l, b->b);
-    for (int k = 0; depth > 0 && k < 3; k++)                   /* dust is at most 32 degrees from the plane */
-        rgb[k] *= 0.06f + 0.94f * expf(-reddening[k] * depth); /* some stars are in front */
+    for (int k = 0; depth > 0 && k < 3; k++)                   /* no dust beyond 32 degrees from the plane */
+        rgb[k] *= 0.06f + 0.94f * expf(-reddening[k] * depth); /* 6 % of the stars are in front of the dust */
 }
 
 static struct across row_at(uint32_t y)
@@ -158,7 +158,7 @@ static struct across row_at(uint32_t y)
     return across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / KD_MILKY_WAY_HEIGHT));
 }
 
-/* The nodes of a row; the last one is the first again. */
+/* Computes the nodes of a row; the last repeats the first. */
 static void make_nodes(const struct clouds *c, const struct along *columns, uint32_t y, float nodes[NODES + 1][SMOOTH])
 {
     const struct across b = row_at(y);
@@ -187,7 +187,7 @@ static void paint_row(const struct clouds *c, const struct along *columns, uint3
     }
 }
 
-/* What every row is painted with. */
+/* State shared by all rows. */
 struct painter {
     struct clouds clouds;
     struct along *columns;

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Stands before the words. The last letter of the mark is another one when mips are made otherwise: what a texel
- * shows is compared, they are not. */
+/* Header of the file. The last letter of the mark changes whenever mips are computed differently: is_ours compares
+ * texels of level 0, but not mips. */
 struct head {
     char mark[8];
     uint64_t hash;
@@ -23,7 +23,7 @@ static const char mark[8] = "kdmway1";
 
 static size_t words_of(void) { return kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT); }
 
-/* FNV-1a (64 bits), a word at a time: against damage, not against malice; the directory is the user's own. */
+/* FNV-1a (64 bits), a word at a time. It guards against damage, not against malice: the directory is the user's own. */
 static uint64_t hash_of(const uint32_t *words, size_t n)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
@@ -43,12 +43,12 @@ static struct head head_of(int32_t seed, const uint32_t *words)
     return head;
 }
 
-/* Another version of this program, or of its mathematics library, may make another one. */
+/* Another version of this program or of its mathematics library may compute another picture. */
 static bool is_ours(int32_t seed, const uint32_t *words)
 {
     static const uint32_t rows[] = {
         5, 301, 422, 483, 512, 561, 702, 1022
-    }; /* of the poles, of clouds, of dust, of nodes and between them */
+    }; /* at the poles, in clouds, in dust, at nodes and between them */
     enum { N = sizeof rows / sizeof *rows };
     float *texels = malloc(sizeof(float) * 3 * N * KD_MILKY_WAY_WIDTH);
     bool same = texels && !kd_milky_way_rows(seed, rows, N, texels, NULL);

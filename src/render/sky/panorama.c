@@ -22,7 +22,7 @@ static uint32_t bits_of(float x)
     return bits;
 }
 
-/* 2^exponent, of a number that is not denormal. */
+/* 2^exponent, not denormal. */
 static float power(int exponent)
 {
     const uint32_t bits = (uint32_t)(exponent + 127) << 23;
@@ -31,10 +31,10 @@ static float power(int exponent)
     return x;
 }
 
-/* x, at least 0 and below 2^22, to the nearest whole number: behind 2^23 there is no room for less. */
+/* Rounds x, at least 0 and below 2^22, to the nearest whole number: a float above 2^23 has no fraction bits. */
 static uint32_t rounded(float x) { return bits_of(x + 0x1p23f) & 0x7fffff; }
 
-/* There are millions of them, and frexpf, ldexpf and lrintf are calls. */
+/* Written without frexpf, ldexpf and lrintf: there are millions of texels, and these are function calls. */
 uint32_t kd_panorama_pack(const float rgb[3])
 {
     float most = smaller(larger(larger(rgb[0], rgb[1]), rgb[2]), 65000);
@@ -56,7 +56,7 @@ void kd_panorama_unpack(uint32_t word, float rgb[3])
         rgb[c] = ldexpf((float)(word >> (c * BITS) & LARGEST), (int)(word >> (3 * BITS)) - BIAS - BITS);
 }
 
-/* Each texel becomes the mean of four. */
+/* Halves both sides; each texel becomes the mean of four. */
 static void halve(struct kd_sky_picture *p)
 {
     const uint32_t width = p->width / 2, height = p->height / 2;
@@ -71,12 +71,13 @@ static void halve(struct kd_sky_picture *p)
     p->height = height;
 }
 
-/* Replaces a row by its mean over so many texels about each, fewer than all; of texels at the ends it takes a part. */
+/* Replaces each texel of a row by the mean over `over` texels about it (fewer than the row has), the end texels by
+ * their fraction. The row is periodic. */
 static void spread_row(float *row, uint32_t n, double over, double *sums)
 {
     for (int c = 0; c < 3; c++) {
         sums[0] = 0;
-        for (uint32_t x = 0; x < 3 * n; x++) /* thrice round: what an end reaches on either side is there */
+        for (uint32_t x = 0; x < 3 * n; x++) /* three periods, so that windows at the ends need no special case */
             sums[x + 1] = sums[x] + row[3 * (x % n) + (uint32_t)c];
         for (uint32_t x = 0; x < n; x++) {
             double ends[2];

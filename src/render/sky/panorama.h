@@ -1,10 +1,10 @@
-/* A panorama is the light that is spread over a sky, as a picture of it in galactic coordinates: equirectangular, l
- * = 0 in its middle, l growing to the left, the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG
- * magnitudes a square arcsecond. Pure; any thread.
+/* A panorama: the diffuse light of a sky as a picture in galactic coordinates. It is equirectangular, with l = 0 in its
+ * middle, l growing to the left, and the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a
+ * square arcsecond. Pure; any thread.
  *
- * Kept as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two rows. Texels
- * are words of a shared exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides are powers of
- * two, so that level k begins at (4 - 4^(1 - k))/3 of level 0. */
+ * It is stored as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two
+ * rows. Texels are words with a shared exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides
+ * are powers of two, so that level k begins at (4 - 4^(1 - k))/3 of level 0. */
 #ifndef KD_RENDER_SKY_PANORAMA_H
 #define KD_RENDER_SKY_PANORAMA_H
 
@@ -14,12 +14,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A picture before that, three floats a texel, rows from the top. */
+/* The picture from which a panorama is made: three floats a texel, rows from the top. */
 struct kd_sky_picture {
     uint32_t width, height;
     float *texels;
-    /* Texels of a row are narrower towards the poles. Each level is averaged along rows over 1/cos(latitude) of
-     * them: it is as coarse there as at the equator, and the poles are no stars of many rays. */
+    /* Texels of a row are narrower towards the poles. If set, each level is averaged along rows over 1/cos(latitude)
+     * texels, so that it is as coarse there as at the equator and the poles are not drawn as stars of many rays. */
     bool even;
 };
 void kd_sky_picture_finish(struct kd_sky_picture *picture);
@@ -38,13 +38,13 @@ enum kd_status kd_panorama_fill(struct kd_sky_picture *picture, uint32_t *words,
 uint32_t kd_panorama_pack(const float rgb[3]);
 void kd_panorama_unpack(uint32_t word, float rgb[3]);
 
-/* The procedural Milky Way (milky_way.c), of sky.seed. KD_ENOMEM. Some tenths of a second. */
+/* The procedural Milky Way (milky_way.c) of sky.seed. KD_ENOMEM. Takes some tenths of a second. */
 enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
-/* Some of its rows alone, one after the other into texels, the same to the bit. */
+/* Only some of its rows, one after the other into texels; identical to those of the whole picture, bit by bit. */
 enum kd_status kd_milky_way_rows(int32_t seed, const uint32_t *rows, size_t n, float *texels, struct kd_error *error);
 
-/* A picture of the sky has at most so many rows when it is read (image.h). */
+/* Largest number of rows of a picture of the sky after it is read (image.h). */
 enum { KD_SKY_IMAGE_ROWS = 2048 };
 
 #endif

@@ -6,16 +6,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SLACK 0.05 /* in rays: so far beyond the part of a grid images are looked at, */
-#define BESIDE 4.0 /* in pixels: and so far beyond the edges of the picture */
+#define SLACK 0.05 /* rays: images this far outside a grid's part are examined as well */
+#define BESIDE 4.0 /* pixels: images this far outside the picture are examined as well */
 
-/* Rays of one grid of the rim that its part has, and those next to it: from a column and a row on. */
+/* The part of one grid's rays, and their neighbours, as a map: from `column` and `row` on. */
 struct rim_map {
     const struct kd_rim *rim;
     const struct kd_rim_grid *grid;
     struct kd_sky_rays rays;
-    const float *sky;     /* of rim_sky.h */
-    double width, height; /* of the picture, in rays of its camera */
+    const float *sky;     /* directions from kd_rim_sky */
+    double width, height; /* size of the picture, in rays of its camera */
     uint32_t column, row, columns, rows;
     enum kd_status (*found)(void *user, const struct kd_star_image *image);
     void *user;
@@ -30,7 +30,7 @@ static void row_of(const void *of, uint32_t y, struct kd_vec *out)
         out[k] = (struct kd_vec) { at[k], at[rays + k], at[2 * rays + k] };
 }
 
-/* A place among a map's rays by its turn and its logarithm. */
+/* Turn of a column of the map, and logarithm of a row. */
 static double turn_at(const struct rim_map *m, double column)
 {
     return m->grid->u + (m->column + column) * m->grid->du;
@@ -62,7 +62,7 @@ static bool seen(const struct rim_map *m, double column, double row, double *x, 
     return kd_camera_seen(&m->rays.camera, look, x, y);
 }
 
-/* How the place in the picture goes by with column and row. */
+/* Derivatives of the place in the picture by column and by row. */
 struct change { double xc, yc, xr, yr; };
 
 static bool change_at(const struct rim_map *m, double column, double row, struct change *o)
@@ -77,8 +77,8 @@ static bool change_at(const struct rim_map *m, double column, double row, struct
     return true;
 }
 
-/* The same by the points of the curve that the grid's table has: a fifth of the time, and as good as a guess must
- * be. */
+/* Pixels per square of rays, from the curve's points in the grid's table: five times as fast, and accurate enough
+ * for an estimate. */
 static double pixels(const void *of, double column, double row)
 {
     const struct rim_map *m = of;
@@ -97,7 +97,7 @@ static double pixels(const void *of, double column, double row)
     return fabs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / (h * h);
 }
 
-/* The cubic through four values at -1, 0, 1 and 2: what each counts at t, and how that goes by with it. */
+/* Weights of the cubic through four values at -1, 0, 1 and 2, at t, and the derivatives of the weights. */
 static void cubic(double t, double w[4], double by[4])
 {
     const double a = t + 1, b = t, c = t - 1, d = t - 2;
@@ -106,7 +106,7 @@ static void cubic(double t, double w[4], double by[4])
     by[3] = (a * b + a * c + b * c) / 6;
 }
 
-/* The ray before a place, with one before it and two after it on the grid. False: there is no such. */
+/* The ray before a place, if the grid has one more before it and two after it; false otherwise. */
 static bool cell_of(double place, uint32_t all, uint32_t *first, double *part)
 {
     const double low = floor(place);
@@ -115,7 +115,7 @@ static bool cell_of(double place, uint32_t all, uint32_t *first, double *part)
     return low >= 1 && low + 3 <= all;
 }
 
-/* By bicubic interpolation: rays are KD_RIM_STEP apart, so that it is good to 1e-5 rad. */
+/* By bicubic interpolation: rays are KD_RIM_STEP apart, so the error is about 1e-5 rad. */
 static bool between(const void *of, double column, double row, struct kd_sky_tangent *out)
 {
     const struct rim_map *m = of;
@@ -140,10 +140,11 @@ static bool between(const void *of, double column, double row, struct kd_sky_tan
     return true;
 }
 
-/* Whether a place lies on a border or beyond it; on both sides of it Newton's method ends within less than this. */
+/* Whether a place is at a border or beyond it. The tolerance is larger than the difference between results of
+ * Newton's method from the two sides. */
 static bool is_from(double place, double border) { return place > border - 1e-8; }
 
-/* In the grid's own part, and in the picture or not far from it. */
+/* Whether a place is in the grid's own part, and in the picture or close to it. */
 static bool wanted(const void *of, double column, double row)
 {
     const struct rim_map *m = of;
@@ -154,7 +155,7 @@ static bool wanted(const void *of, double column, double row)
            y < m->height + BESIDE;
 }
 
-/* From the rim's columns and rows to the picture's. */
+/* Converts an image from the rim's columns and rows to the picture's. */
 static enum kd_status hand_on(void *user, const struct kd_star_image *image)
 {
     const struct rim_map *m = user;
@@ -163,7 +164,7 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
     const double u = turn_at(m, image->x), l = log_at(m, image->y);
     if (!is_from(u, m->grid->low_u) || is_from(u, m->grid->high_u) || !is_from(l, m->grid->low_l) ||
         is_from(l, m->grid->high_l))
-        return KD_OK; /* another grid has it */
+        return KD_OK; /* it belongs to another grid */
     if (!seen(m, image->x, image->y, &o.x, &o.y) || !change_at(m, image->x, image->y, &by))
         return KD_OK;
     const double area = by.xc * by.yr - by.yc * by.xr;

@@ -29,12 +29,12 @@ static void catalogue(const struct kd_scene *scene, struct kd_stars *out)
     }
 }
 
-/* The catalogue's counts grow by this from magnitude to magnitude until it is no longer complete, and reach 4 995 at
- * V = 6. */
+/* Counts of the catalogue grow with magnitude at this rate until it becomes incomplete; there are 4 995 stars to V =
+ * 6. */
 static double magnitude_of_rank(double rank) { return 6 + log10(rank / 4995) / 0.49; }
 
-/* Half of the bright stars, and a third of the faint ones, lie anywhere; the others in a layer about the plane, more
- * towards the middle. */
+/* A random direction. Half of the bright stars and a third of the faint ones are isotropic; the others are in a
+ * layer about the plane, denser towards the middle. */
 static struct kd_vec made_up_place(struct kd_random *random, double magnitude)
 {
     double spread = fmin(fmax(0.6 - 0.035 * magnitude, 0.3), 0.7), l = 2 * M_PI * kd_random(random),
@@ -52,7 +52,7 @@ static struct kd_vec made_up_place(struct kd_random *random, double magnitude)
 static double made_up_colour(struct kd_random *random)
 {
     double n = 0, of = kd_random(random);
-    for (int i = 0; i < 4; i++) /* nearly Gaussian, of variance 1/3 */
+    for (int i = 0; i < 4; i++) /* approximately Gaussian, of variance 1/3 */
         n += kd_random(random) - 0.5;
     return of < 0.45 ? 0.1 + 0.35 * n : of < 0.75 ? 0.6 + 0.3 * n : 1.15 + 0.35 * n;
 }

@@ -1,9 +1,8 @@
-/* The stars of a sky are points: those of the Hipparcos catalogue, or as many that are made up. Pure; any thread.
+/* The stars of a sky, as points: those of the Hipparcos catalogue, or as many random ones. Pure; any thread.
  *
- * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. The flux of a star is in
- * units of the light that a steradian of surface brightness KD_SKY_UNIT_MAG sends: F = 10^(-0.4 (V - 21)) square
- * arcseconds. What is spread over the sky and what is a point thus keep their true ratio, in the V band;
- * sky.brightness multiplies both. */
+ * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. Fluxes are in units of the
+ * light of one steradian of surface brightness KD_SKY_UNIT_MAG: F = 10^(-0.4 (V - 21)) square arcseconds. Diffuse
+ * light and points thus keep their true ratio in the V band; sky.brightness multiplies both. */
 #ifndef KD_RENDER_SKY_STAR_H
 #define KD_RENDER_SKY_STAR_H
 
@@ -25,18 +24,18 @@ struct kd_stars {
     struct kd_star *at; /* the brightest first */
     size_t n;
 };
-/* Makes the stars of sky.model that are at least as bright as sky.limit_mag; none of other models. KD_ENOMEM. Some
- * 30 ms. */
+/* Makes the stars of sky.model that are at least as bright as sky.limit_mag; no stars for other models. KD_ENOMEM.
+ * About 30 ms. */
 enum kd_status kd_stars_make(const struct kd_scene *scene, struct kd_stars *out, struct kd_error *error);
 void kd_stars_finish(struct kd_stars *stars);
-/* At most so many. */
+/* An upper bound on their number. */
 size_t kd_stars_most(const struct kd_scene *scene);
 
 /* Flux of a magnitude V; temperature of a black body of colour B-V: F. J. Ballesteros 2012, EPL 97, 34008, eq. 14. */
 double kd_star_flux(double magnitude);
 double kd_star_kelvin(double colour);
 
-/* The catalogue as it is packed: scripts/pack-stars. Place k of the list, the brightest first. */
+/* Star k of the packed catalogue (scripts/pack-stars), the brightest first. */
 struct kd_catalogue_star { double ra, dec, magnitude, colour; }; /* radians, J2000; V; B-V */
 struct kd_catalogue_star kd_catalogue_star(size_t k);
 

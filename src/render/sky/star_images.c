@@ -5,12 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SAME 1e-3  /* in rays: two roots of one star nearer than this are one, unless only one is mirrored */
-#define FOLDED 0.2 /* rad: cells no larger than this are looked through for folds */
+#define SAME 1e-3  /* rays: two roots of one star nearer than this are the same image, unless only one is mirrored */
+#define FOLDED 0.2 /* rad: only cells up to this size are searched for folds */
 #define REACH \
-    0.5 /* of a cell's size: stars so near to a corner or the middle of one where the map folds are looked for */
-#define BESIDE 0.35 /* in rays: so far from where the map folds, on both sides, they are looked for */
-#define MARGIN 3.0  /* an image may be so much brighter than triangles tell, but for folds */
+    0.5 /* fraction of a cell's size: where the map folds, stars so near to a corner or the middle of the cell are \
+           searched for */
+#define BESIDE 0.35 /* rays: distance from the fold at which the search starts, on both sides */
+#define MARGIN 3.0  /* except at folds, an image is at most this many times as bright as its triangle indicates */
 
 struct listed {
     struct kd_vec n;
@@ -19,15 +20,15 @@ struct listed {
 struct told {
     double x, y;
     bool mirrored;
-    size_t before; /* of this star, 1 more; 0: none */
+    size_t before; /* index + 1 of the previous image of this star; 0: none */
 };
 
 struct search {
     const struct kd_sky_map *map;
-    struct listed *stars; /* by z, upwards */
+    struct listed *stars; /* sorted by z, ascending */
     size_t n;
-    size_t *near, n_near; /* of these, those that may be in the cell at hand, and bright enough */
-    size_t *last;         /* that was told of each star, 1 more */
+    size_t *near, n_near; /* indices of those that may be in the current cell and are bright enough */
+    size_t *last;         /* index + 1 of each star's last reported image */
     struct told *told;
     size_t n_told, room;
     enum kd_status (*found)(void *user, const struct kd_star_image *image);
@@ -40,7 +41,7 @@ static int by_z(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* The first star whose z is at least so much. */
+/* Index of the first star whose z is at least this. */
 static size_t first_from(const struct search *s, double z)
 {
     size_t low = 0, high = s->n;
@@ -54,7 +55,7 @@ static size_t first_from(const struct search *s, double z)
     return low;
 }
 
-/* Tells an image, but for one that was told before. */
+/* Reports an image unless it was reported before. */
 static enum kd_status tell(struct search *s, const struct listed *star, double x, double y,
                            const struct kd_sky_tangent *t, struct kd_star_stencil by)
 {
@@ -77,13 +78,14 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     s->told[s->n_told++] = (struct told) { x, y, image.mirrored, s->last[image.star] };
     s->last[image.star] = s->n_told;
     kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth,
-                    &image.y_by_azimuth); /* the sky goes the other way */
+                    &image.y_by_azimuth); /* when the observer's azimuth grows, the sky turns the other way */
     return s->found(s->user, &image);
 }
 
-/* Corners of a triangle in turn clockwise, as the picture is seen; the first has the right angle, the second lies
- * along `across`, the third along `down`, +1 or -1. A star s is w0 a + w1 b + w2 c with all w above 0 (Cramer's
- * rule), and two triangles of a pixel's area have twice the solid angle of one: the volume of a, b, c. */
+/* Corners of a triangle, clockwise as the picture is seen. The first has the right angle, the second is along
+ * `across`, the third along `down`, +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are positive
+ * (Cramer's rule). The volume of a, b, c is twice the triangle's solid angle: that of a pixel, which has two
+ * triangles. */
 struct corner {
     double x, y;
     struct kd_vec n;
@@ -97,15 +99,15 @@ static struct kd_sky_tangent tangent_of(const struct corner *a, const struct cor
     return t;
 }
 
-/* Four rays, in turn clockwise; the stars that may be in it; whether the map folds there. */
+/* A cell of four rays, clockwise; the stars that may be in it; whether the map folds there. */
 struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* if it does: how large it is where it is largest, and places on both sides */
+    double area, beside[2][2]; /* if it folds: its largest area, and places on both sides of the fold */
 };
 
-/* Whether a star may be bright enough where the map takes a cell to so much of the sky. */
+/* Whether a star may be bright enough where the map takes a cell to a solid angle `area`. */
 static bool is_seen(const struct search *s, const struct cell *cell, const struct listed *star, double area)
 {
     return !s->map->most || fabs(area) < MARGIN * cell->pixels * s->map->most[star->star];
@@ -116,7 +118,7 @@ static enum kd_status triangle(struct search *s, const struct cell *cell, int fi
     const struct corner *a = &cell->c[first], *b = &cell->c[second], *c = &cell->c[third];
     const struct kd_vec p = a->n, q = b->n, r = c->n;
     const double all = kd_vec_volume(p, q, r),
-                 size = cell->side[first] + cell->side[third] + cell->across; /* a NAN: a ray does not escape */
+                 size = cell->side[first] + cell->side[third] + cell->across; /* NAN if a ray does not escape */
     enum kd_status status = KD_OK;
     if (!isfinite(size) || fmax(cell->across, fmax(cell->side[first], cell->side[third])) > s->map->coarse || all == 0)
         return KD_OK;
@@ -153,7 +155,7 @@ static bool is_near(const struct cell *cell, struct kd_vec star)
     return nearest < REACH * cell->size;
 }
 
-/* Stars near to where the map folds, from both sides of that. */
+/* Searches stars near a fold from both sides of it. */
 static enum kd_status fold(struct search *s, const struct cell *cell)
 {
     enum kd_status status = KD_OK;
@@ -170,11 +172,11 @@ done:
     return status;
 }
 
-/* Rays of four rows, of which the cells are between the middle two; NULL: there is none. */
+/* Four rows of rays with the cells between the middle two; NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference of the rays on both sides of one, over two steps; where one of them is none, twice that to the
- * other. */
+/* The difference between the rays after and before one, over two steps. If one of them is missing, twice the
+ * difference to the other. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
@@ -182,7 +184,7 @@ static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *befor
     return has_before && has_after ? d : kd_vec_times(2, d);
 }
 
-/* This is the area of the sky about a ray, times four; it is below 0 where the sky is mirrored. */
+/* Four times the area of the sky about a ray; negative where the sky is mirrored. */
 static double area_at(const struct kd_sky_map *map, const struct rows *rows, int row, uint32_t x)
 {
     const uint32_t width = map->width;
@@ -192,8 +194,7 @@ static double area_at(const struct kd_sky_map *map, const struct rows *rows, int
                          difference(line[x], above ? above + x : NULL, below ? below + x : NULL));
 }
 
-/* Where the map folds, the area goes through 0: by the areas about the corners, as a plane through them has it,
- * within a cell or next to it. */
+/* Finds a fold in or next to a cell: where the area is 0, by a plane through the areas at the corners. */
 static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uint32_t x, struct cell *cell)
 {
     const uint32_t next = x + 1;
@@ -201,7 +202,7 @@ static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uin
                  d = area_at(map, rows, 2, next);
     const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b),
                  slope = hypot(gx, gy), off = -mean / slope;
-    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* not if any of it is a NAN */
+    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* also false if any of it is a NAN */
     cell->area = 0.25 * fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d)));
     for (int k = 0; k < 2; k++) {
         const double by = (off + (k ? BESIDE : -BESIDE)) / slope;
@@ -210,8 +211,8 @@ static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uin
     }
 }
 
-/* Stars that may be in a cell, or near to one of its corners, and bright enough in the smaller one of its triangles.
- * A ray that does not escape leaves one triangle. */
+/* Collects the stars that may be in a cell or near one of its corners, and are bright enough for the smaller of its
+ * triangles. If one ray does not escape, one triangle is left. */
 static void find_near(struct search *s, struct cell *cell, size_t first, double high)
 {
     const struct kd_vec *a = &cell->c[0].n, *b = &cell->c[1].n, *c = &cell->c[2].n, *d = &cell->c[3].n;
@@ -234,7 +235,7 @@ static void find_near(struct search *s, struct cell *cell, size_t first, double 
     }
 }
 
-/* Sets what a cell is, but for its corners. False: no star is near. */
+/* Sets everything in a cell except its corners. False: no star is near. */
 static bool measure(struct search *s, const struct rows *rows, uint32_t x, struct cell *cell)
 {
     double low = INFINITY, high = -INFINITY;

@@ -1,10 +1,11 @@
-/* Where a map of rays puts stars: for each star the places among rays that end at it. Pure; any thread.
+/* Finds the images of stars under a map of rays to the sky: for each star the places of rays that end at it. Pure; any
+ * thread.
  *
- * Neighbouring rays make triangles, of which the map takes each to one of the sky; a star within that has an image
- * within this, at the same barycentric coordinates. From there Newton's method goes to where the ray itself, if the
- * map can follow one, ends at the star (star_root.h). Where the map folds between four rays, two images of a star
- * meet, and triangles lose both or tell one that is none: there each star that is near is looked for from both
- * sides. A triangle with a side of more than `coarse` has no images. */
+ * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within the latter has an
+ * image in the former, at the same barycentric coordinates. From there Newton's method finds the ray that ends at
+ * the star, if the map can follow single rays (star_root.h). Where the map folds between four rays, two images of a
+ * star merge, and triangles miss both or report a false one; there each nearby star is searched from both sides of
+ * the fold. A triangle with a side longer than `coarse` has no images. */
 #ifndef KD_RENDER_SKY_STAR_IMAGES_H
 #define KD_RENDER_SKY_STAR_IMAGES_H
 
@@ -15,46 +16,47 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The map about a place: n + dx * across + dy * down; area: the volume of the three. */
+/* The linearised map about a place: n + dx * across + dy * down. area: the volume spanned by the three. */
 struct kd_sky_tangent {
     struct kd_vec n, across, down;
     double area;
 };
 
-/* Rays on a grid, and the places between them: ray 0, 0 is at 0, 0. */
+/* A map given on a grid of rays, and the places between them. Ray (0, 0) is at place (0, 0). */
 struct kd_sky_map {
     uint32_t width, height;
     double coarse; /* rad */
-    const double
-        *most; /* of each star: an image where a pixel is more of the sky, sr, need not be told; NULL: all are */
-    double (*pixels)(const void *of, double x, double y); /* the pixels that the square of four rays is in; NULL: 1 */
+    /* for each star the largest solid angle of a pixel, sr, at which an image must be reported; NULL: all are
+     * reported */
+    const double *most;
+    /* how many pixels the square of four rays about a place covers; NULL: 1 */
+    double (*pixels)(const void *of, double x, double y);
     const void *of;
-    void (*row)(const void *of, uint32_t y,
-                struct kd_vec *out); /* where rays come from, unit vectors; NAN: one that does not escape */
+    /* directions from which the rays of a row come, unit vectors; NAN where one does not escape */
+    void (*row)(const void *of, uint32_t y, struct kd_vec *out);
     bool (*exact)(const void *of, double x, double y,
-                  struct kd_vec *out); /* the same of any ray; false: it is not known. NULL: of none */
-    /* The map between its rays, but for `area`, to 1e-3 of a ray: what is no image there is not followed exactly.
-     * False: not known. NULL: of no place. */
+                  struct kd_vec *out); /* the same of any single ray; false: unknown. NULL: no ray can be followed */
+    /* The map between its rays, except `area`, to 1e-3 of a ray; it saves exact rays where there is no image. False:
+     * unknown. NULL: unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
-                   double y); /* whether an image about there need be told, to 0.01 rays; NULL: all */
+                   double y); /* whether an image near this place must be reported, to 0.01 rays; NULL: always */
 };
 
-/* A place and steps from there, by which a solid angle is taken. Steps of 0: it is the derivative at the place. */
+/* A place and the steps from it over which a solid angle is measured. Steps of 0: the derivative at the place. */
 struct kd_star_stencil { double x, y, across, down; };
 
 struct kd_star_image {
-    size_t star;        /* of the list, */
-    double x, y;        /* and its place among the rays, */
-    double solid_angle; /* the solid angle of the sky, sr, that the map takes the square of four rays to there, */
-    struct kd_star_stencil by; /* as this has it, */
-    double x_by_azimuth,
-        y_by_azimuth; /* and how the place goes by while the observer goes round the hole, per radian */
-    bool mirrored;    /* left and right are exchanged */
+    size_t star;               /* index in the list */
+    double x, y;               /* its place among the rays */
+    double solid_angle;        /* sr: the solid angle of the sky that the map makes of the square of four rays there */
+    struct kd_star_stencil by; /* how solid_angle was measured */
+    double x_by_azimuth, y_by_azimuth; /* change of the place per radian of the observer's azimuth */
+    bool mirrored;                     /* left and right are exchanged */
 };
 
-/* Tells each image of so many stars, unit vectors in the frame of the map, once; row by row. KD_ENOMEM; a status of
- * `found` ends it. */
+/* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. KD_ENOMEM; another status
+ * is that of `found`, which ended the search. */
 enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec *stars, size_t n,
                               enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user);
 

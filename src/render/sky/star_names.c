@@ -1,4 +1,4 @@
-/* The names of data/hipparcos.names, in the program as they are in the file. */
+/* Embeds data/hipparcos.names in the program, byte by byte. */
 #include "render/sky/star_names.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@ __asm__(".pushsection .rodata\n"
         ".popsection\n");
 extern const char kd_hipparcos_names[];
 
-/* Copies what stands before `end` and goes behind it. */
+/* Copies the text up to `end` and returns the place after it. */
 static const char *take(const char *from, char end, char out[KD_STAR_NAME])
 {
     size_t n = strcspn(from, (const char[]) { end, 0 }), most = n < KD_STAR_NAME ? n : KD_STAR_NAME - 1;

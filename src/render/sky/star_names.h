@@ -1,4 +1,4 @@
-/* Names of the bright stars of the catalogue: all down to V = 4.5 that have any (data/hipparcos.names,
+/* Names of the bright stars of the catalogue: all stars down to V = 4.5 that have a name (data/hipparcos.names,
  * scripts/pack-stars). Pure; any thread. */
 #ifndef KD_RENDER_SKY_STAR_NAMES_H
 #define KD_RENDER_SKY_STAR_NAMES_H
@@ -8,16 +8,16 @@
 #include <stddef.h>
 
 #define KD_STAR_NAMES 912
-#define KD_STAR_NAME 40 /* bytes of UTF-8, with the 0 at the end */
+#define KD_STAR_NAME 40 /* bytes of UTF-8, with the terminating 0 */
 
 struct kd_star_name {
     size_t place;                   /* in the catalogue: kd_catalogue_star */
-    char name[KD_STAR_NAME];        /* "Vega"; "" where it has none of its own, */
-    char designation[KD_STAR_NAME]; /* but then this: "α Lyr", of J. Bayer or J. Flamsteed */
+    char name[KD_STAR_NAME];        /* "Vega"; "" if it has no proper name */
+    char designation[KD_STAR_NAME]; /* in that case "α Lyr", by J. Bayer or J. Flamsteed; else "" */
 };
 
-/* Reads the next one, the brightest first. *text: NULL to begin with; NULL again behind the last one, when nothing
- * was read. */
+/* Reads the next one, the brightest first. *text: NULL at the first call; it becomes NULL after the last name, and
+ * then *out is not set. */
 void kd_star_name_next(const char **text, struct kd_star_name *out);
 
 #endif

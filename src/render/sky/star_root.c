@@ -1,12 +1,14 @@
 #include "render/sky/star_root.h"
 
-#define NUDGE 1e-3   /* in rays: of differences for the derivative */
-#define EXACT 1e-7   /* in rays: the next step would be 1e-10 */
-#define BETWEEN 1e-4 /* in rays: so near the map between rays is followed, which is no better */
-#define STEADY 0.02  /* in rays: after a shorter step, */
-#define SHRINKS 0.1  /* and one shorter than the last by this, the derivative is kept: the next one shrinks as much */
+#define NUDGE 1e-3   /* rays: step of the differences for the derivative */
+#define EXACT 1e-7   /* rays: convergence; the next step would be 1e-10 */
+#define BETWEEN 1e-4 /* rays: convergence on the interpolated map, which is not more accurate */
+#define STEADY 0.02  /* rays: after a step shorter than this, */
+/* and shorter than the last by this factor, the derivative is kept, as the next step shrinks by as much */
+#define SHRINKS 0.1
 #define DOUBTFUL \
-    1e-3 /* rad: a star that comes so near in the map between rays, next to where the map folds, may have an image */
+    1e-3 /* rad: next to a fold, a star to which the interpolated map comes so near may have an image, and is searched \
+          */
 #define STEPS 30
 
 void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, double *dx, double *dy)
@@ -15,8 +17,7 @@ void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, doub
     *dy = kd_vec_volume(from->n, from->across, star) / from->area;
 }
 
-/* The derivative by differences, from the ray at a place to others on one side of it, or where `both` between those
- * on both. */
+/* The derivative by differences to rays on one side of a place, or between both sides where `both`. */
 static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool both, struct kd_sky_tangent *out)
 {
     struct kd_vec across, down, left = out->n, up = out->n;
@@ -30,7 +31,8 @@ static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool bo
     return true;
 }
 
-/* A step towards the star, of half a ray at most. How long it should have been; not finite: nowhere. */
+/* A step of at most half a ray towards the star. Returns the length of the full step; not finite if there is no
+ * direction. */
 static double step(const struct kd_sky_tangent *at, struct kd_vec star, double *x, double *y)
 {
     double dx, dy;
@@ -40,8 +42,8 @@ static double step(const struct kd_sky_tangent *at, struct kd_vec star, double *
     return far;
 }
 
-/* By the map between its rays. NONE: no image is near. Where the map folds, that and the true one may disagree about
- * a pair of images that is about to merge: such a place is told as one to look at. */
+/* Newton's method on the interpolated map. NONE: no image is near. Next to a fold this map and the true one may
+ * disagree about a pair of images that is about to merge; such a place is reported as worth searching. */
 static enum kd_star_root root_between(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y)
 {
     const double x0 = *x, y0 = *y;

@@ -6,16 +6,16 @@
 
 #include <math.h>
 
-#define KD_STAR_ROOT_NEAR 1.5 /* in rays: no further from where it is sought is an image */
+#define KD_STAR_ROOT_NEAR 1.5 /* rays: an image further than this from the start is not looked for */
 
-/* UNKNOWN: the map cannot follow the first ray. UNWANTED: there may be one, which need not be told. */
+/* UNKNOWN: the map cannot follow the first ray. UNWANTED: there may be an image, but it need not be reported. */
 enum kd_star_root { KD_STAR_ROOT_NONE, KD_STAR_ROOT_FOUND, KD_STAR_ROOT_UNKNOWN, KD_STAR_ROOT_UNWANTED };
 
-/* Moves a place to where the map's ray ends at a star, and says how the map goes by there. */
+/* Moves a place to the ray that ends at a star; *at becomes the linearised map there. */
 enum kd_star_root kd_star_root(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y,
                                struct kd_sky_tangent *at);
 
-/* A star is n + dx across + dy down, times some number (Cramer's rule). */
+/* Solves star ~ n + dx across + dy down, up to a factor (Cramer's rule). */
 void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, double *dx, double *dy);
 
 static inline double kd_vec_dot(struct kd_vec a, struct kd_vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

@@ -20,8 +20,8 @@ static void set_directions(struct kd_camera_exact *o, struct vec c0, struct vec 
     o->cyx = cy.x, o->cyy = cy.y, o->cyz = cy.z;
 }
 
-/* Image plane: (alpha, beta) of the middle, and of one step to the right and up. A camera that rolls clockwise has its
- * right-hand side pointing down. */
+/* Image plane: (alpha, beta) of the middle, and of one step to the right and up. When the camera rolls clockwise,
+ * its right-hand side points down. */
 static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
@@ -29,8 +29,8 @@ static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double s
                    (struct vec) { step * sr, step * cr, 0 });
 }
 
-/* Look directions in the local frame (e_r, e_theta, e_phi), of any camera that is near. Unturned, it looks along
- * -e_r, with +e_phi to the right and -e_theta up. */
+/* Look directions of a camera at a finite radius, in the local frame (e_r, e_theta, e_phi). Without rotation it
+ * looks along -e_r, with +e_phi to the right and -e_theta up. */
 static void near(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     const struct vec inwards = { -1, 0, 0 }, right = { 0, 0, 1 }, up = { 0, -1, 0 };
@@ -50,7 +50,7 @@ double kd_camera_twist(const struct kd_scene *scene)
     return falls ? kd_kerr_twist(kd_hole(at.spin), at.r) : 0;
 }
 
-/* The legs of the observer's frame. A valid scene has no observer where there is none such. */
+/* Axes of the observer's frame. A valid scene has no observer where the frame does not exist. */
 static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const struct kd_vantage *at)
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
@@ -74,7 +74,7 @@ uint32_t kd_camera_sight(const struct kd_scene *scene)
                                                                      : KD_SIGHT_PINHOLE;
 }
 
-/* A sphere fills the picture, whatever its sides; a dome's circle touches those that are nearer. */
+/* A sphere fills the picture whatever its sides; a dome's circle touches the nearer sides. */
 static void turns(struct kd_camera_exact *o, double width, double height)
 {
     o->turn_x = o->sight == KD_SIGHT_SPHERE ? 4 / width : o->sight == KD_SIGHT_DOME ? 2 / fmin(width, height) : 0;
@@ -104,16 +104,16 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
-/* The sums of the sizes of terms, over what they add up to: at most 2 min(x, y) more where x and y are of other signs.
- */
+/* Bound on (sum of the terms' sizes) - (size of their sum): the constant counts twice, and the smaller of the other
+ * two, which may cancel. */
 static double more_than_sum(double constant, double across, double up)
 {
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
 }
 
-/* What rounding may do to rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: of the whole picture in
- * steps. The components of a unit vector, which are sums of three of right angles to each other, have terms of sqrt(3).
- */
+/* Sets the bounds on rounding errors of rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: of the whole
+ * picture, in steps. The components of a unit vector are sums of three orthogonal terms, whose sizes add up to at
+ * most sqrt(3). */
 static void bound_rounding(struct kd_camera_exact *o, double width, double height)
 {
     const double all = sqrt(3), x = 0.5 * width, y = 0.5 * height, h2 = o->horizon * o->horizon;
@@ -151,7 +151,8 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     double height = (double)scene->image.height * kd_scene_side(scene);
     const struct kd_vantage at = kd_scene_vantage(scene);
 
-    /* The middle is that of the whole picture, counted from the first ray of the tile: halves, which floats hold. */
+    /* The middle of the whole picture, counted from the first ray of the tile. It is a multiple of one half, which
+     * floats hold exactly. */
     o.middle_x = 0.5 * width - 0.5 - (double)window.left * kd_scene_side(scene);
     o.middle_y = 0.5 * height - 0.5 - (double)window.top * kd_scene_side(scene);
     o.width = window.width * (uint32_t)kd_scene_side(scene);
@@ -184,7 +185,7 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
     return o;
 }
 
-/* On the image plane: alpha, beta, 0; else along e_r, e_theta, e_phi, of any length. */
+/* At infinity alpha, beta, 0; else along e_r, e_theta, e_phi, of any length. */
 static struct vec direction(const struct kd_camera_exact *c, double px, double py)
 {
     double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);
@@ -256,7 +257,7 @@ void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3],
                        c->dw_t - (c->dw_r * k[0] + c->dw_theta * k[1] + c->dw_phi * k[2]) * n < 0, out);
 }
 
-/* Labels have no place for E = 0; a ray next to it is the same to 1e-12 of what the observer measures. */
+/* Labels cannot express E = 0; a ray with E = 1e-12 of what the observer measures differs by 1e-12. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
 {
     double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;

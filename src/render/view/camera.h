@@ -17,41 +17,44 @@ struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
 struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene);
 struct kd_camera_block kd_camera_block(const struct kd_scene *scene);
 
-/* KD_SIGHT_ of shaders/shared/interface.h: how it looks. */
+/* The KD_SIGHT_ constant (shaders/shared/interface.h) of the camera's projection. */
 uint32_t kd_camera_sight(const struct kd_scene *scene);
 
-/* What the direction at (x, y), in steps from the middle, has of c0; x and y become what it has of cx and cy. */
+/* For a point (x, y), in steps from the middle of the picture: returns the component of its direction along c0, and
+ * replaces x and y by the components along cx and cy. */
 double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, double *y);
 
-/* The Boyer-Lindquist azimuth of the observer less camera.azimuth_deg. */
+/* Boyer-Lindquist azimuth of the observer minus camera.azimuth_deg. */
 double kd_camera_twist(const struct kd_scene *scene);
 
-/* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. Of these two alone. */
+/* Distance between neighbouring pixels: in M on the image plane; for a pinhole as a fraction of the picture's
+ * distance. Only for these two projections. */
 double kd_camera_pixel(const struct kd_scene *scene);
 
-/* The ray at (x, y) by its labels (render/rays/rays.h), as shaders/ray/camera.glsl makes it, in double. In the
- * ergosphere E may be negative: r and theta along the ray are those of the labels L/E and Q/E^2 all the same, as if
- * E were positive; azimuth and time run the other way. */
+/* The labels (render/rays/rays.h) of the ray at (x, y), computed in double as shaders/ray/camera.glsl does. In the
+ * ergosphere E may be negative: r and theta along the ray still follow from the labels L/E and Q/E^2 as if E were
+ * positive; azimuth and time run backwards. */
 struct kd_camera_label {
     double alpha, beta;
-    bool outward;  /* at a finite radius: the traced ray starts away from the hole */
-    double energy; /* at infinity, per unit that the observer measures; not 0 */
+    bool outward;  /* at a finite radius: whether the traced ray starts away from the hole */
+    double energy; /* at infinity, in units of the energy that the observer measures; not 0 */
 };
-/* Where the ray at (x, y), in rays from the upper left one, comes from in the observer's own frame: a unit vector
- * along e_r, e_theta, e_phi. Of a camera at a finite radius. */
+/* Direction from which the ray at (x, y) arrives, in the observer's frame: a unit vector along e_r, e_theta, e_phi.
+ * x and y count rays from the upper left one. The camera must be at a finite radius. */
 void kd_camera_direction(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
-/* The same of any length, and of a camera at infinity alpha and beta. */
+/* As above, but the vector is not normalised; for a camera at infinity it is (alpha, beta, 0). */
 void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
-/* The place at which it sees a direction of any length, in rays as above; at infinity that of alpha and beta. False:
- * none, behind a pinhole. */
+/* Place in the picture, in rays as above, at which the camera sees a direction of any length; at infinity the
+ * direction is alpha and beta. False if the direction is behind a pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
-/* From E, L/sin(theta), and what beta is times |E|. */
+/* Labels from E, L/sin(theta), and beta |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
+/* kd_camera_label_towards: direction of any length; the camera must be at a finite radius */
 void kd_camera_label_towards(const struct kd_camera_exact *camera, const double direction[3],
-                             struct kd_camera_label *out); /* of any length; at a finite radius */
+                             struct kd_camera_label *out);
 void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);
 
 #endif

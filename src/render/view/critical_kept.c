@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The list depends on this. The azimuth of the camera is no part of it: nothing is where the hole is but the hole. */
+/* Everything that the list depends on. The camera's azimuth is not part of it because the hole is axisymmetric. */
 struct key {
     struct kd_spacetime spacetime;
     struct kd_camera camera;
@@ -14,16 +14,16 @@ struct key {
 
 static struct kept {
     struct key key;
-    struct kd_critical_pixels list; /* an empty one too is kept: pixels NULL */
-    uint64_t used;                  /* the larger, the later; 0: there is none here */
+    struct kd_critical_pixels list; /* may be empty, with pixels NULL; that is cached as well */
+    uint64_t used;                  /* time of the last use, counted; 0: the slot is free */
 } all[KD_CRITICAL_KEPT];
 static uint64_t now;
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all that is above */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* guards all of the above */
 
 static struct key key_of(const struct kd_scene *scene)
 {
     struct key key;
-    memset(&key, 0, sizeof key); /* it is compared byte by byte */
+    memset(&key, 0, sizeof key); /* keys are compared byte by byte */
     key.spacetime = scene->spacetime;
     key.camera = scene->camera;
     key.camera.azimuth_deg = 0;
@@ -45,7 +45,7 @@ static enum kd_status copy(const struct kd_critical_pixels *from, struct kd_crit
     return KD_OK;
 }
 
-/* Locked, as the next three. NULL: it is not kept. */
+/* The cached list of a key, or NULL. The lock must be held, as for the next three. */
 static struct kept *find(const struct key *key)
 {
     for (size_t i = 0; i < KD_CRITICAL_KEPT; i++)
@@ -60,7 +60,7 @@ static void drop(struct kept *kept)
     kept->used = 0;
 }
 
-/* The place of the list that was used longest ago, after others have made room for one of n pixels. */
+/* A slot for a list of n pixels: the least recently used lists are evicted to make room. */
 static struct kept *place_for(size_t n)
 {
     for (;;) {
@@ -83,7 +83,7 @@ static void keep(const struct key *key, const struct kd_critical_pixels *list)
 {
     struct kd_critical_pixels own;
     if (list->n > KD_CRITICAL_KEPT_BYTES / sizeof(struct kd_pixel) || find(key) || copy(list, &own))
-        return; /* too long, or made by two at once, or without memory: it can be made again */
+        return; /* not cached: too long, already inserted by another thread, or out of memory */
     struct kept *place = place_for(own.n);
     *place = (struct kept) { .key = *key, .list = own, .used = ++now };
 }

@@ -1,14 +1,14 @@
-/* Cache of the pixels at the critical curve, for the most recent cameras. A picture needs them twice, for its plan and
- * for its lens map, and a view whose time runs needs them for every frame. Any thread. */
+/* Cache of the pixels at the critical curve, for the most recent cameras. A picture needs them for its plan and for
+ * its lens map; a view in which time runs needs them for every frame. Any thread. */
 #ifndef KD_RENDER_VIEW_CRITICAL_KEPT_H
 #define KD_RENDER_VIEW_CRITICAL_KEPT_H
 
 #include "render/view/critical_pixels.h"
 
-#define KD_CRITICAL_KEPT 16                      /* cameras, the latest */
-#define KD_CRITICAL_KEPT_BYTES ((size_t)4 << 20) /* of all their lists; a longer one is not kept */
+#define KD_CRITICAL_KEPT 16                      /* cameras; the least recently used is evicted */
+#define KD_CRITICAL_KEPT_BYTES ((size_t)4 << 20) /* total size of the lists; a longer list is not cached */
 
-/* Gives what kd_critical_pixels_of does; the caller's to finish. */
+/* The result of kd_critical_pixels_of, from the cache if possible. The caller finishes it. */
 enum kd_status kd_critical_kept(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error);
 
 #endif

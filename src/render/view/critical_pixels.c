@@ -8,16 +8,16 @@
 #include <stdlib.h>
 
 enum { DEEPEST = 14, PIECES = 16, TILE = 64 };
-static const double straight = 0.05; /* pixels that a chord may be off the curve in its middle */
+static const double straight = 0.05; /* largest distance, in pixels, of a chord's midpoint from the curve */
 
-struct tile { uint64_t rows[TILE]; }; /* a bit a pixel, the least at the left */
+struct tile { uint64_t rows[TILE]; }; /* a bit a pixel; the lowest bit is leftmost */
 
-/* Tiles are made where the curve passes: the work and the memory are those of its length, and not of the picture. */
+/* Tiles exist only where the curve passes, so that work and memory grow with its length and not with the picture. */
 struct work {
     struct kd_critical curve;
     struct kd_camera_exact camera;
-    uint32_t width, height, across, down; /* of what is made, in pixels; in tiles */
-    uint32_t whole;                       /* columns of the picture */
+    uint32_t width, height, across, down; /* size of the rendered part in pixels; in tiles */
+    uint32_t whole;                       /* columns of the whole picture */
     struct tile **tiles;                  /* row by row; NULL: nothing is marked there */
     size_t n;                             /* pixels that are marked */
     bool no_memory;
@@ -31,8 +31,8 @@ struct spot {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Where a direction is seen by a camera whose steps are angles: (to the right, upwards) of unit vectors, and what is
- * ahead. */
+/* Place of a direction in the picture of a camera whose steps are angles (sphere or dome). right, up, ahead:
+ * components of a unit vector. */
 static struct spot turned(const struct kd_camera_exact *c, double right, double up, double ahead)
 {
     const double quarter = 0.5 * M_PI, aside = hypot(right, up), off = atan2(aside, ahead) / (quarter * c->turn_x);
@@ -85,7 +85,7 @@ static void mark_pixel(struct work *w, uint32_t x, uint32_t y)
     (*tile)->rows[y % TILE] |= bit;
 }
 
-/* Mark what is near the straight line from a to b. */
+/* Marks the pixels near the straight line from a to b. */
 static void mark(struct work *w, struct spot a, struct spot b)
 {
     const double near = KD_CRITICAL_NEAR;
@@ -103,7 +103,7 @@ static void mark(struct work *w, struct spot a, struct spot b)
         }
 }
 
-/* Whether the curve between two spots may come into the picture: it is not much longer than their distance. */
+/* Whether the curve between two spots may enter the picture; the curve is not much longer than their distance. */
 static bool meets(const struct work *w, struct spot a, struct spot b)
 {
     double room = KD_CRITICAL_NEAR + hypot(a.x - b.x, a.y - b.y);
@@ -111,8 +111,8 @@ static bool meets(const struct work *w, struct spot a, struct spot b)
            fmin(a.y, b.y) - room <= w->height;
 }
 
-/* The curve from one place to another in pieces that are straight, and short: what mark looks at is their bounding
- * boxes. */
+/* Draws the curve between two parameters in straight, short pieces; they are short because mark examines their
+ * bounding boxes. */
 static void draw(struct work *w, double half, double from, struct spot a, double to, struct spot b, int depth)
 {
     if (a.seen && b.seen && depth > 0 && !meets(w, a, b))
@@ -121,7 +121,7 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     struct spot m = project(w, middle, half);
     bool whole = a.seen && m.seen && b.seen;
     if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->whole)
-        return; /* from one edge of a sphere to the other, or past what lies behind a dome */
+        return; /* a jump from one edge of a sphere to the other, or past what is behind a dome */
     if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight &&
                                        fabs(m.y - 0.5 * (a.y + b.y)) < straight && hypot(b.x - a.x, b.y - a.y) < 24))) {
         mark(w, a, m);
@@ -142,7 +142,7 @@ static void list_row(const struct work *w, const uint32_t *columns, uint32_t n, 
     }
 }
 
-/* columns: of a row of tiles those that there are; room for all. */
+/* columns: room for the tiles of one row; filled with the columns that have tiles. */
 static void list(const struct work *w, uint32_t *columns, struct kd_critical_pixels *out)
 {
     for (uint32_t row = 0; row < w->down; row++) {
@@ -209,7 +209,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     atomic_fetch_add(&made, 1);
     *out = (struct kd_critical_pixels) { 0 };
     w.curve = kd_critical_of(&observer);
-    if (w.curve.status) /* not of a valid scene */
+    if (w.curve.status) /* cannot happen for a valid scene */
         return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin,
                             observer.radius);
     w.across = (w.width + TILE - 1) / TILE;
@@ -243,7 +243,7 @@ struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays)
     return camera;
 }
 
-/* Square of the distance between the nearest points, the pixel repeated endlessly. */
+/* Squared distance between the nearest points of the lattice, with the pixel repeated periodically. */
 static uint32_t apart(uint32_t rays, uint32_t generator)
 {
     uint32_t least = rays * rays;
@@ -262,7 +262,7 @@ struct kd_critical_lattice kd_critical_grid(uint32_t side)
     return (struct kd_critical_lattice) { .rays = side * side, .shift = side };
 }
 
-/* The shortest vector of the lattice that is no multiple of (bx, by); of any, where that is 0. */
+/* The shortest vector of the lattice that is not a multiple of (bx, by), or the shortest of all if (bx, by) is 0. */
 static void shortest(const struct kd_critical_lattice *l, int32_t bx, int32_t by, int32_t *x, int32_t *y)
 {
     const int32_t n = (int32_t)l->rays;

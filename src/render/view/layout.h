@@ -1,5 +1,5 @@
-/* This is the C side of what shaders/shared lists: structs of interface.h, specialisation constants of spec.h,
- * planes of lens.h. */
+/* C side of the lists in shaders/shared: structs of interface.h, specialisation constants of spec.h, planes of
+ * lens.h. */
 #ifndef KD_RENDER_VIEW_LAYOUT_H
 #define KD_RENDER_VIEW_LAYOUT_H
 
@@ -12,10 +12,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What is told from 0 on the device must stay so as a float, for whether a ray lies in the plane or on the axis
- * depends on it; and where denormal numbers count as zeros, so must its quotients and products with what else there
- * is. An observer may be 2.5e-16 from the plane: beside that a label of 1e-20 would move the node by 1e-5, this one
- * moves it by 1e-7; a third of it, times 2.5e-16, would be denormal. */
+/* A value that is not 0 must not become 0 as a float on the device, because it decides whether a ray lies in the
+ * plane or on the axis. Where the device flushes denormals, products and quotients with other values must not become
+ * denormal either. An observer may be 2.5e-16 from the plane: there a label of 1e-20 would move the node by 1e-5,
+ * and 1e-22 moves it by 1e-7; a third of 1e-22, times 2.5e-16, would be denormal. */
 #define KD_LEAST_FLOAT 1e-22
 static inline double kd_lifted(double x)
 {
@@ -42,8 +42,8 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* post.comp takes these: workgroups for so many pixels, bytes of radiance that they read, in blocks of four pixels,
- * and bytes of packed pixels that they write, whole groups of them. */
+/* Sizes for post.comp: workgroups for a number of pixels; bytes of radiance that they read, in blocks of four
+ * pixels; bytes of packed pixels that they write, a multiple of a workgroup's. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {
     const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;
@@ -57,8 +57,8 @@ static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
 {
     return (uint64_t)kd_post_groups(pixels) * KD_GROUP_SIZE * KD_POST_PIXELS * (bit_depth == 16 ? 6 : 3);
 }
-/* Behind its pixels the host gets two counts of a band: rays that the march has given up, the last word of the band's
- * light, and pixels whose light is no number, the word behind the pixels. */
+/* Two counts of a band are read back after its pixels: rays on which the march gave up (last word of the band's
+ * light), and pixels whose light is not finite (the word after the pixels). */
 #define KD_POST_COUNTS 2
 
 _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 &&
@@ -66,9 +66,9 @@ _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push
                    sizeof(struct kd_post_push) <= 128,
                "the push constants that every device has");
 
-/* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, of those at the
- * critical curve, of those of pixels that need more, on the grid and there, of those that tell what is left, and of
- * the picture that this may be a tile of. */
+/* Cameras of a frame, in one buffer at offsets at which a binding may begin. In order: rays of the grid; rays at the
+ * critical curve; extra rays of refined pixels, on the grid and at the curve; rays that measure the remaining error;
+ * the whole picture that this one may be a tile of. */
 enum {
     KD_CAMERA_GRID,
     KD_CAMERA_CRITICAL,
@@ -81,7 +81,7 @@ enum {
 };
 _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next camera begins behind this one");
 
-/* Specialisation constants: a member each, at four times its id. */
+/* Specialisation constants as structs: a member's offset is four times the constant's id. */
 #define SPEC_U(id, name, value) uint32_t name;
 #define SPEC_CHECK(of, id, name) _Static_assert(offsetof(struct of, name) == 4 * (id), "a constant's id is its place");
 #define SPEC(of, LIST, CHECK, more) \
@@ -144,7 +144,7 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS,
 #undef CHECK_BEAM_BLUR
 #undef TRAIT
 
-/* Planes of a lens map of these quantities: where those of one begin, and all. */
+/* Index of the first plane of one quantity in a lens map with these quantities, and the number of all planes. */
 static inline uint32_t kd_lens_plane(uint32_t quantities, uint32_t orders, uint32_t quantity)
 {
     uint32_t before = quantities & (quantity - 1);

@@ -14,13 +14,14 @@ static void scale(double a[3], double by)
         a[i] *= by;
 }
 
-#define ENDS 3e-4 /* of half the curve: so near to its ends, where digits of `up` are lost, it is a parabola; */
+/* fraction of half the curve: nearer to its ends, where `up` loses digits, the curve is taken as a parabola */
+#define ENDS 3e-4
 #define MIDST \
-    1e-9 /* over that: no nearer is a point, for there light stays in an observer's plane, which null_bend.h does not \
-            follow */
+    1e-9 /* Fraction of ENDS: no point is nearer to an end, because light there stays in the observer's plane, which \
+            null_bend.h does not follow. */
 
-/* A point of the upper half, from 0 to 1; at both ends all components are even functions of how far it is from
- * there, but up and beta, which are odd. */
+/* A point of the upper half, along = 0 to 1. Near both ends all components are even functions of the distance to the
+ * end, except up and beta, which are odd. */
 static struct kd_critical_point upper(const struct kd_critical *curve, double along)
 {
     const double end = along < 0.5 ? 0 : 1, t = fmax(fabs(along - end) / ENDS, MIDST);
@@ -35,8 +36,8 @@ static struct kd_critical_point upper(const struct kd_critical *curve, double al
     return p;
 }
 
-/* The direction of a point of the curve in the observer's frame, or alpha and beta. They go round once, without a
- * gap: the place of an orbit goes as a cosine. */
+/* Direction of a point of the curve in the observer's frame; at infinity (alpha, beta). u goes once round without a
+ * gap: the radius of the photon orbit varies as a cosine. */
 static void direction(const struct kd_critical *curve, double u, double out[3])
 {
     const double whole = u / KD_RIM_ANGLES, turn = 2 * (whole - floor(whole)), half = turn <= 1 ? 1 : -1;
@@ -47,7 +48,7 @@ static void direction(const struct kd_critical *curve, double u, double out[3])
     memcpy(out, isinf(curve->observer.radius) ? plane : d, sizeof d);
 }
 
-/* The plane about the mean of the directions along the curve. */
+/* Sets the plane about the mean of the directions along the curve. */
 static void set_legs(struct kd_rim *o, double d[KD_RIM_ANGLES][3])
 {
     double all = 0;
@@ -75,7 +76,7 @@ static void set_legs(struct kd_rim *o, double d[KD_RIM_ANGLES][3])
     memcpy(o->up, up, sizeof up);
 }
 
-/* Where the plane has a direction; false: more than 80 degrees from the middle. */
+/* Projects a direction on the plane; false if it is more than 80 degrees from the middle. */
 static bool on_plane(const struct kd_rim *o, const double d[3], double place[2])
 {
     const double from[] = { d[0] - o->ahead[0], d[1] - o->ahead[1], 0 }, depth = o->flat ? 1 : dot(d, o->ahead);
@@ -84,8 +85,8 @@ static bool on_plane(const struct kd_rim *o, const double d[3], double place[2])
     return depth > cos(80 * (M_PI / 180));
 }
 
-/* From one point of the curve to the next: where rays from the middle meet the straight line between them. False: it
- * does not go round the middle. */
+/* Sets the edges between two points of the curve: where rays from the middle meet the straight line between them.
+ * False if the curve does not turn about the middle there. */
 static bool set_edges_between(struct kd_rim *o, const double p[2], const double q[2], double turning)
 {
     const double unit = KD_RIM_EDGES / (2 * M_PI), cross = p[0] * q[1] - p[1] * q[0];
@@ -101,7 +102,8 @@ static bool set_edges_between(struct kd_rim *o, const double p[2], const double 
     return true;
 }
 
-/* False: it is no curve about the middle, or some of it is too far off. *least: its least distance from the middle. */
+/* False if the curve does not go round the middle, or some of it is too far off. *least: its least distance from the
+ * middle. */
 static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *least)
 {
     double p[KD_RIM_ANGLES][2];
@@ -118,8 +120,8 @@ static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *leas
     return true;
 }
 
-/* How much less or more the sky goes by, while a ray comes e times nearer to the curve, at the next point of it:
- * that is the more, the slower light leaves its orbit (photon_shell.h). */
+/* How differently the sky shifts at neighbouring points of the curve while a ray comes e times nearer to it. The
+ * shift is larger where light leaves its orbit more slowly (photon_shell.h). */
 static double winding(const struct kd_critical *curve)
 {
     enum { PLACES = 32 };
@@ -128,7 +130,7 @@ static double winding(const struct kd_critical *curve)
         const struct kd_critical_point p = kd_critical_round(curve, (double)i / PLACES);
         const struct kd_shell_exponents e = kd_shell_exponents(&p.orbit);
         const double turned = M_PI / e.gamma,
-                     dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* the latter without the jump of delta */
+                     dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* without the jump of delta by pi */
         if (i)
             apart = fmax(apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
         turn = turned, drag = dragged;
@@ -170,7 +172,7 @@ void kd_rim_look(const struct kd_rim *rim, const double place[2], double look[3]
         look[i] = rim->ahead[i] + place[0] * rim->right[i] + place[1] * rim->up[i];
 }
 
-/* The first rays and the last ones, all round, end in the sky. */
+/* Whether the outermost and innermost rays escape, all round the curve. */
 static bool escapes(const struct kd_scene *scene, const struct kd_rim *o)
 {
     const struct kd_sky_rays rays = kd_sky_rays_of(scene);

@@ -1,14 +1,16 @@
-/* Lays out the rim of the shadow: next to the critical curve rays of a picture lead too far apart to find
- * images of stars between them, and others are followed there, round the curve and by the logarithm of the distance
- * to it, in which every image order of the sky is as wide as the last (docs/physics/sky.md). Which ones: rim_grid.h.
- * Double precision; pure, any thread. The scene must be valid.
+/* Layout of the rim of the shadow, where images of stars are searched with extra rays. Next to the critical curve
+ * neighbouring rays of a picture end too far apart for that. The extra rays are spaced by angle round the curve and by
+ * the logarithm of the distance to it, in which every image order of the sky has the same width (docs/physics/sky.md).
+ * rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be valid.
  *
- * The rim lies on a plane: of an observer at infinity (alpha, beta) about the curve's middle; of others the tangent
- * plane of the sky of directions at the middle of the curve, tangents of angles. A place of it is a turn u round the
- * curve, KD_RIM_ANGLES to the whole, and l, the logarithm of `off`: it is further out from the middle than the
- * curve's point by the factor 1 + off. The last rays are KD_RIM_LEAST from the curve, or so near that the brightest
- * star would be seen no more, if that is nearer, but not nearer than KD_RIM_NEAREST: an image at `off` of a star of
- * flux F has the radiance F off (radius/pixel)^2 at least, and not much more unless the star is next to a caustic. */
+ * The rim lies on a plane. For an observer at infinity it is (alpha, beta) about the curve's middle. For others it is
+ * the tangent plane of the sky of directions at the curve's middle, with tangents of angles as coordinates. A place has
+ * a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance from the middle is 1 + off
+ * times that of the curve's point.
+ *
+ * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen
+ * there, down to KD_RIM_NEAREST. An image at `off` of a star of flux F has at least the radiance F off
+ * (radius/pixel)^2, and not much more unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
@@ -19,42 +21,44 @@
 #include <stdbool.h>
 
 #define KD_RIM_LEAST 3e-5
-#define KD_RIM_NEAREST 1e-7     /* nearer even double precision loses 1e-6 rad and more */
-#define KD_RIM_BRIGHTEST 0.0235 /* sr: of V = -1.5, Sirius's and some more (sky/star.h) */
-#define KD_RIM_SEEN 0.1         /* of KD_STAR_LEAST: what moves makes stars brighter */
-#define KD_RIM_PIXELS 14.0      /* as wide is the rim, where neighbouring pixels lead far apart; */
+#define KD_RIM_NEAREST 1e-7     /* nearer than this, double precision loses 1e-6 rad and more */
+#define KD_RIM_BRIGHTEST 0.0235 /* sr: a star slightly brighter than Sirius, V = -1.5 (sky/star.h) */
+#define KD_RIM_SEEN 0.1         /* fraction of KD_STAR_LEAST; motion makes stars brighter */
+#define KD_RIM_PIXELS 14.0      /* width of the rim in pixels: there neighbouring pixels end far apart */
 #define KD_RIM_NOISE \
-    1.3e-3 /* or, over its radius, so many radii in pixels: beyond, what 32 bits lose, 7e-6 over the distance, is less \
-              than half a percent of where the next pixel leads; */
-#define KD_RIM_MOST 1.0 /* of its radius at most */
+    1.3e-3 /* The rim is at least this wide, times its radius in pixels: beyond that width the rounding of 32 bits, \
+              7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
+#define KD_RIM_MOST 1.0 /* its width is at most this fraction of its radius */
 
 struct kd_rim {
     bool there;
-    double none, full; /* distances from the curve, over its own from the middle: from the first on images of stars are
-                          the grid's alone, up to the second the rim's, between them they are shared */
-    double last;       /* the least distance of its rays */
-    double winds; /* how far, at most, the sky goes by from one point of the curve to the next on the way down there,
-                     rad; roughly */
-    double pixel; /* a step of the picture on the plane */
+    /* relative distances from the curve: beyond `none` images come from the grid alone, within `full` from the rim
+     * alone; between them their light is shared */
+    double none, full;
+    double last; /* the least relative distance of its rays */
+    /* rad, roughly: the most by which the sky shifts from one point of the curve to the next, from the first ray in
+     * to the last */
+    double winds;
+    double pixel; /* a pixel's step on the plane */
     bool flat;
     double ahead[3], right[3],
-        up[3]; /* legs of the plane in the observer's frame; at infinity `ahead` is alpha and beta of the middle */
-    float edge[KD_RIM_EDGES]; /* the curve's distance from the middle by the angle from `right`, to 1e-4 */
+        up[3]; /* axes of the plane in the observer's frame; at infinity `ahead` is (alpha, beta) of the middle */
+    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, by angle from `right`; to 1e-4 */
     struct kd_critical curve;
 };
 
-/* Whether there may be one, at no cost. */
+/* Whether the scene may have a rim; a cheap test. */
 bool kd_rim_may_be(const struct kd_scene *scene);
-/* There is one where the observer is beyond the orbits of light, and sees all of the curve less than 80 degrees from
- * its middle. Some 0.3 ms. */
+/* Makes the rim; false if there is none. There is one if the observer is outside the photon orbits and sees all of
+ * the curve within 80 degrees of its middle. About 0.3 ms. */
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 
-/* The place on its plane at a turn u, any real, `off` from the curve. */
+/* The place on the plane at turn u (any real number) and relative distance `off` from the curve. */
 void kd_rim_place(const struct kd_rim *rim, double u, double off, double place[2]);
-/* Which way an observer looks at a place of its plane: along e_r, e_theta, e_phi, of any length; at infinity alpha
- * and beta. */
+/* Direction of a place of the plane: along e_r, e_theta, e_phi, of any length; at infinity (alpha, beta). */
 void kd_rim_look(const struct kd_rim *rim, const double place[2], double look[3]);
-/* How far from the curve an observer looks, over its distance from the middle there; far off where the plane is not. */
+/* Distance of a direction from the curve, relative to the curve's distance from the middle; INFINITY behind the
+ * plane. */
 double kd_rim_off(const struct kd_rim *rim, const double look[3]);
 
 #endif

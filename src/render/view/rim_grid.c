@@ -6,19 +6,19 @@
 #include <math.h>
 #include <string.h>
 
-/* The rim is gone through by cells, ROUND by ACROSS. */
+/* The rim is sampled in cells: ROUND along the curve, ACROSS away from it. */
 enum { ROUND = 64, ACROSS = 20 };
 
-#define OVERHEAD 1000.0 /* rays: what a grid costs by itself */
-#define LONGEST_L 0.5   /* from row to row, at most */
+#define OVERHEAD 1000.0 /* rays: the fixed cost of a grid */
+#define LONGEST_L 0.5   /* largest step of the logarithm from row to row */
 #define NUDGE 1e-4
-#define SLOW 0.6   /* rad: of a rim's `winds` */
-#define BESIDE 0.2 /* of a cell's size in the picture: so far beyond its corners it may reach */
-#define FEW 6.0    /* rad: of a rim's `winds`; such a one has too many rays in no picture */
-#define SPREAD 4.0 /* pixels: an image out of the picture may light some of it */
+#define SLOW 0.6   /* rad: if a rim's `winds` is less, every second cell is measured */
+#define BESIDE 0.2 /* fraction of a cell's size in the picture by which it may extend beyond its corners */
+#define FEW 6.0    /* rad: a rim whose `winds` is less has too many rays in no picture */
+#define SPREAD 4.0 /* pixels: an image this far outside the picture may light some of it */
 
-/* by_u, by_l: how far the sky goes by; most_u, most_l: there or at a border, half way to a neighbour; shown: what a
- * pixel shows of it, sr. */
+/* by_u, by_l: shift of the sky along u and l; most_u, most_l: the largest of these here and half way to the
+ * neighbours; shown: solid angle of the sky that a pixel shows, sr. */
 struct cell {
     double by_u, by_l, most_u, most_l, shown;
     bool in_picture, wanted;
@@ -29,7 +29,7 @@ struct part { int u0, u1, l0, l1; };
 struct layout {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    double first, du, dl; /* the logarithm at which they begin, and the size of a cell */
+    double first, du, dl; /* the logarithm at which the cells begin; the size of a cell */
     double step;
     struct cell of[ROUND][ACROSS];
     struct kd_rim_grids *out;
@@ -57,13 +57,13 @@ static double solid_angle(const double n[3], const double a[3], const double b[3
                 n[2] * (i[0] * j[1] - i[1] * j[0]));
 }
 
-/* Cells by the ray in their middle, and two next to it. */
+/* Measures cells by the ray in their middle and two next to it. */
 static void measure(struct layout *o, int i, int j, int apart)
 {
     const double u = (i + 0.5 * apart) * o->du, l = o->first - (j + 0.5 * apart) * o->dl;
     struct sample at, beside, below;
     if (!sample_at(o, u, l, &at) || !sample_at(o, u + NUDGE, l, &beside) || !sample_at(o, u, l - NUDGE, &below))
-        return; /* a ray that does not escape: whoever follows it says so */
+        return; /* a ray that does not escape: kd_rim_sky reports it */
     const double area = (beside.place[0] - at.place[0]) * (below.place[1] - at.place[1]) -
                         (beside.place[1] - at.place[1]) * (below.place[0] - at.place[0]);
     for (int k = 0; k < apart * apart; k++) {
@@ -74,7 +74,7 @@ static void measure(struct layout *o, int i, int j, int apart)
     }
 }
 
-/* Corners of cells in the picture. */
+/* Corners of cells, in the picture. */
 struct corner {
     double x, y;
     bool seen;
@@ -120,7 +120,7 @@ static void set_most(struct layout *o, int i, int j)
     }
 }
 
-/* Whether one of some cells is in the picture, or next to one that is, for means of neighbours. */
+/* Whether any of these cells, or a neighbour of one, is in the picture; neighbours enter the means of choose_cells. */
 static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 {
     for (int u = i - 1; u <= i + apart; u++)
@@ -132,7 +132,7 @@ static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 
 struct columns_of {
     struct layout *layout;
-    int apart; /* cells that one measurement stands for, along a side */
+    int apart; /* side of the block of cells that one measurement stands for */
 };
 
 static void measure_column(void *user, size_t item)
@@ -155,13 +155,14 @@ static void look_at_cells(struct layout *o, const struct kd_scene *scene)
                                          &corners[i + 1][j + 1] };
             o->of[i][j] = (struct cell) { .in_picture = is_in_picture(c, width, height) };
         }
-    struct columns_of columns = { o, o->rim->winds < SLOW ? 2 : 1 }; /* every second cell is enough */
+    /* a rim that winds slowly is measured in blocks of 2 x 2 cells */
+    struct columns_of columns = { o, o->rim->winds < SLOW ? 2 : 1 };
     kd_parallel((size_t)(ROUND / columns.apart), measure_column, &columns);
     for (int k = 0; k < ROUND * ACROSS; k++)
         set_most(o, k / ACROSS, k % ACROSS);
 }
 
-/* What a pixel shows goes through 0 on caustics: a mean of nine cells. */
+/* A pixel shows no solid angle on caustics, so the mean of nine cells decides. */
 static void choose_cells(struct layout *o, double faintest)
 {
     for (int i = 0; i < ROUND; i++)
@@ -179,7 +180,7 @@ static void choose_cells(struct layout *o, double faintest)
         }
 }
 
-/* Leaves out what is not wanted at its edges; false: all of it. */
+/* Shrinks a part to the cells that are wanted; false if none is. */
 static bool tighten(const struct layout *o, struct part *p)
 {
     struct part t = { ROUND, 0, ACROSS, 0 };
@@ -223,7 +224,6 @@ static double cost(const struct layout *o, const struct part *p)
     return OVERHEAD + rays + (rays > KD_RIM_GRID_RAYS ? 1e3 * rays : 0);
 }
 
-/* Of two halves. */
 static double cost_of(const struct layout *o, struct part halves[2])
 {
     double sum = 0;
@@ -232,7 +232,7 @@ static double cost_of(const struct layout *o, struct part halves[2])
     return sum;
 }
 
-/* Where a part is best cut in two; false: nowhere. */
+/* The best cut of a part in two; false if no cut helps. */
 static bool cut(const struct layout *o, const struct part *p, struct part best[2])
 {
     double least = 0.95 * cost(o, p);
@@ -264,14 +264,14 @@ static void divide(const struct layout *o, struct part p)
         return;
     }
     const struct kd_rim_grid g = grid_of(o, &p);
-    o->out->rays +=
-        kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1; /* too many, then */
+    /* more than the limit: counts as too many */
+    o->out->rays += kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1;
     if (o->out->n < KD_RIM_GRIDS)
         o->out->of[o->out->n] = g;
     o->out->n++;
 }
 
-/* From a few beginnings, for one cut alone may gain nothing. */
+/* Tries several initial divisions, because a single cut may gain nothing. */
 static void divide_all(struct layout *o)
 {
     double least = INFINITY;

@@ -9,10 +9,10 @@
 #include <string.h>
 
 enum {
-    LEAST = 9, /* intervals along a side of a grid */
+    LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
-    ASIDE = 4, /* lines across it, on which a number of intervals is tried */
-    SHARED = 4 /* grids, up to which the threads share each grid; of more, each thread takes whole ones */
+    ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
+    SHARED = 4 /* up to this many grids the threads share each grid; beyond, each thread takes whole grids */
 };
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
@@ -22,7 +22,7 @@ struct angles { double of[ANGLES]; };
 struct follower {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    bool alone; /* its grid is filled by one thread, since others fill theirs */
+    bool alone; /* one thread fills this grid, since others fill other grids */
 };
 
 static void run_each(const struct follower *f, size_t n, void (*each)(void *user, size_t item), void *user)
@@ -61,7 +61,7 @@ static double apart(const struct angles *a, const struct angles *b)
     return most;
 }
 
-/* A side of a grid, from its first ray to its last one, and extrema of a polynomial there. */
+/* A side of a grid from its first ray to its last, with the extrema of a polynomial on it. */
 struct side {
     double from, to;
     int n;
@@ -97,13 +97,13 @@ static struct side side_of(const struct kd_rim_grid *g, bool along_u)
                    : (struct side) { g->l, g->l - (g->rows - 1) * g->dl, 0 };
 }
 
-/* The ray at a place of one side, on the line at a place of the other. */
+/* Follows the ray at `place` along one side and at `line` along the other. */
 static bool follow_on(const struct follower *f, bool along_u, double place, double line, struct angles *out)
 {
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);
 }
 
-/* Whether n intervals are enough along a line; -1: rays do not escape. */
+/* 1 if n intervals are accurate enough along a line, 0 if not, -1 if rays do not escape. */
 static int serves(const struct follower *f, const struct side *s, int n, bool along_u, double line)
 {
     struct angles at[MOST + 1], want;
@@ -121,13 +121,13 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
         if (apart(&sum, &want) >
-            0.1 * KD_RIM_EXACT) /* between the lines it is more, and images next to a caustic are as exact as this */
+            0.1 * KD_RIM_EXACT) /* between the lines the error is larger; so is that of images next to a caustic */
             return 0;
     }
     return 1;
 }
 
-/* One try of a number of intervals on lines across a side. */
+/* Tests one number of intervals on lines across a side. */
 struct trial {
     const struct follower *f;
     const struct side *side, *other;
@@ -142,8 +142,8 @@ static void try_line(void *user, size_t k)
     t->serves[k] = serves(t->f, t->side, t->side->n, t->along_u, line);
 }
 
-/* How many intervals are enough along one side, by lines at both ends and between them of the other; more than MOST:
- * not even that. False: a ray does not escape. */
+/* Finds how many intervals are enough along one side, tested on lines at both ends of the other side and between
+ * them; more than MOST if even MOST are too few. False if a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
     struct trial trial = { .f = f, .side = s, .other = other, .along_u = along_u };
@@ -163,9 +163,9 @@ struct sheet {
     const struct kd_rim_grid *grid;
     struct side u, l;
     struct angles at[MOST + 1][MOST + 1]; /* rows of l */
-    double *columns;                      /* by row and angle, of all columns */
+    double *columns;                      /* by row and angle, for all columns */
     float *out;
-    _Atomic bool escapes; /* every ray of it */
+    _Atomic bool escapes; /* whether every ray of the sheet escapes */
 };
 
 static void follow_line(void *user, size_t j)
@@ -239,7 +239,7 @@ static void fill_row(void *user, size_t row)
     }
 }
 
-/* A row of rays each of which is followed: where no polynomial of MOST intervals is good enough; 10 us a ray. */
+/* Follows each ray of a row, where no polynomial of MOST intervals is accurate enough; 10 us a ray. */
 static void follow_row(void *user, size_t row)
 {
     struct sheet *o = user;
@@ -269,7 +269,7 @@ static bool fill_rays(struct sheet *o)
     return atomic_load(&o->escapes);
 }
 
-/* Where a grid's part begins or ends, in its own columns or rows; far off where it does not. */
+/* Border of a grid's part in its own columns or rows; far away if the border is infinite. */
 static float border(double at, double from, double by)
 {
     return isfinite(at) ? (float)((at - from) / by) : at > 0 ? -1e6f : 1e6f;
@@ -295,7 +295,7 @@ static void fill_table(const struct kd_rim *rim, const struct kd_rim_grid *g, fl
     }
 }
 
-/* What the threads that fill the grids share. */
+/* State shared by the threads that fill the grids. */
 struct fill {
     struct follower f;
     const struct kd_rim_grids *grids;
@@ -329,7 +329,7 @@ static void fill_grid(void *user, size_t i)
 enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
                           float *out, struct kd_error *error)
 {
-    const bool many = grids->n > SHARED; /* threads take whole grids; else they take rows of one */
+    const bool many = grids->n > SHARED; /* threads take whole grids; otherwise they share the rows of one */
     struct fill fill = { .f = { rim, kd_sky_rays_of(scene), many }, .grids = grids, .out = out, .status = KD_OK };
     memset(out, 0, grids->numbers * sizeof *out);
     memcpy(out, rim->edge, sizeof rim->edge);

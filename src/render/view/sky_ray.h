@@ -1,5 +1,5 @@
-/* Follows one ray of an observer to the sky in double precision, by closed form: physics/null/null_bend.h for a
- * direction in which a camera looks. Pure; any thread. */
+/* Follows one ray of a camera to the sky in double precision by closed form, for any direction of look
+ * (physics/null/null_bend.h). Pure; any thread. */
 #ifndef KD_RENDER_VIEW_SKY_RAY_H
 #define KD_RENDER_VIEW_SKY_RAY_H
 
@@ -11,13 +11,14 @@ struct kd_sky_rays {
     struct kd_vantage at;
 };
 
-/* Places are those of the whole picture, whatever tile is made of it. */
+/* Places count from the whole picture, also when the scene renders a tile of it. */
 struct kd_sky_rays kd_sky_rays_of(const struct kd_scene *scene);
 
-/* look: along e_r, e_theta, e_phi, of any length; of an observer at infinity alpha and beta. False: the ray does not
- * escape, or is one that null_bend.h does not follow, as one that crosses no equator. */
+/* look: along e_r, e_theta, e_phi, of any length; for an observer at infinity (alpha, beta). False if the ray does
+ * not escape or null_bend.h does not cover it (a ray that crosses no equator, for example). */
 bool kd_sky_ray_bend(const struct kd_sky_rays *rays, const double look[3], struct kd_null_bend *out);
-/* Where it comes from: a unit vector in the hole's frame, the observer at azimuth 0, as the lens map has it. */
+/* Direction from which the ray comes: a unit vector in the hole's frame, with the observer at azimuth 0, as in the
+ * lens map. */
 bool kd_sky_ray(const struct kd_sky_rays *rays, const double look[3], double out[3]);
 
 #endif
