@@ -124,8 +124,8 @@
 #define KD_SAMPLE_QUEUES 64 /* start of the lists after the header: cells of each level, at most 85 a block */
 #define KD_SAMPLE_QUEUED 85
 #define KD_SAMPLE_UNITS \
-    64 /* start of the units to fill, eight columns of a cell each, at most twice this many a block; the places follow \
-        */
+    64 /* units to fill in a block, at most, for each of two kinds; a unit is eight columns of a cell; the places \
+          follow them */
 #define KD_PLACE_BITS 17
 #define KD_FOOTPRINT_PLACES 1
 #define KD_PLACES_BINDING 3          /* for the tracing kernels */
@@ -165,7 +165,7 @@
 #define KD_STAR_TILE 9
 #define KD_STAR_LEAST 0.03       /* fraction of sky.brightness: images that brighten a pixel less are left out */
 #define KD_STAR_LEAST_BRIGHT 1.0 /* the same if only bright images are made */
-#define KD_STAR_PATCH 0.15       /* radians: largest distance of rays between which images of stars are searched, */
+#define KD_STAR_PATCH 0.15       /* radians: largest patch of a ray in which images of stars are searched, */
 #define KD_STAR_PATCH_RIM 0.8    /* and the same if a rim has the images next to the critical curve */
 
 /* Push constants of between.comp, for the pixels of a list that are in one band. */
