@@ -391,7 +391,7 @@ class Hand(Browser):
         page = self.open("pace=auto&lang=it")
         asked = lambda: [r.url.partition("least=")[2].partition("&")[0] for r in self.requests if "least=" in r.url]
         self.assertEqual((asked(), page.input_value("#pace")), (["0.5"], "auto"))
-        page.evaluate('document.getElementById("group-more").open = true')
+        page.evaluate('for (const id of ["all", "group-more"]) document.getElementById(id).open = true')
         for pace, least in (("sharp", "1"), ("fast", "0.25"), ("auto", "0.5")):
             page.select_option("#pace", pace)
             self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or asked()[-1] == least))
