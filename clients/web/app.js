@@ -11,6 +11,7 @@ import { buildFull } from './full.js';
 import { buildKeys, buildLanguages, welcome } from './header.js';
 import { buildHistory } from './history.js';
 import { t, tell, translatePage } from './i18n.js';
+import { buildLeading } from './leading.js';
 import * as link from './link.js';
 import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
@@ -164,6 +165,14 @@ async function watch(scene) {
     tour.then(begin => begin()).catch(error => ((tour = null), sayWrong(error.message)));
   });
 
+  // A search through all settings, once somebody looks for one.
+  let finder = null;
+  for (const event of ['focus', 'input'])
+    byId('find').addEventListener(event, () => {
+      finder ??= load(import('./find.js')).then(({ buildFind }) => buildFind(scene));
+      finder.catch(error => ((finder = null), sayWrong(error.message)));
+    });
+
   // Names of stars, once there are any that have one.
   let stars = null;
   function nameStars() {
@@ -222,6 +231,7 @@ async function watch(scene) {
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
   }
   followScene(scene);
+  buildLeading(scene);
   const complain = buildControls(scene, byId('living'));
   buildLiving(stage, scene, source);
   const drawOverlays = buildOverlays(byId('overlays'), stage, scene);

@@ -127,6 +127,9 @@ function labelOf(path) {
   );
 }
 
+// What a field is called in English, whatever the page's language.
+export const english = path => labels[path] ?? labels[path.split('.').pop()] ?? spell(path.split('.').pop());
+
 // A help names other fields by their labels, not by their paths, and points to no file.
 const inside =
   /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;

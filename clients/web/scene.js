@@ -49,9 +49,11 @@ function sections([path, spec]) {
   ];
 }
 
-// Microarcseconds that one M is wide on the sky, for one solar mass at one parsec: G m_sun/c^2 (nominal, IAU 2015
-// resolution B3) over the parsec (B2).
-const m_uas = (1.3271244e20 / 299792458 ** 2 / 3.085677581491367e16) * ((180 * 3.6e9) / Math.PI);
+// One M of one solar mass, in metres: G m_sun/c^2 (nominal, IAU 2015 resolution B3).
+export const light_m_s = 299792458;
+export const sun_m = 1.3271244e20 / light_m_s ** 2;
+// Microarcseconds that it is wide on the sky at one parsec (B2).
+const m_uas = (sun_m / 3.085677581491367e16) * ((180 * 3.6e9) / Math.PI);
 
 // As a link has it: nobody sees the seventh digit.
 export const linkedTime = time => Number(time?.toPrecision(6)) || null;

@@ -159,6 +159,7 @@ class Living(Browser):
 
     def test_the_light_of_a_spot(self):
         page = self.open("lang=en&preset=hot-spot", "#light canvas")
+        page.click("#all > summary")
         page.click("#group-gas > summary")
         page.fill('[data-path="motion.time_rate"] input[type=number]', "60")
         page.keyboard.press("Enter")

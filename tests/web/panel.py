@@ -1,5 +1,6 @@
 """The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
 
+import json
 import re
 
 from browser import AT_REST, SMOOTH, Browser, main, rows
@@ -69,23 +70,30 @@ class Panel(Browser):
             ("en", ["Look", "Gas", "Hole", "Camera", "More"]),
             ("it", ["Aspetto", "Gas", "Buco", "Camera", "Altro"]),
         ):
-            self.assertEqual(self.open("lang=" + lang).locator("#fields > details > summary").all_inner_texts(), titles)
+            self.assertEqual(
+                self.open("lang=" + lang).locator("#fields > details > summary").all_text_contents(), titles
+            )
 
     def test_a_newcomer_is_not_drowned(self):
         page = self.open()
+        self.assertEqual(page.locator("#panel details[open]:visible").count(), 0)
+        self.assertLessEqual(page.locator("#panel [data-path]:visible").count(), 2, "of time")
+        self.assertEqual(page.locator("#leading input:visible").count(), 4)
+        page.click("#all > summary")
         self.assertEqual(
-            [d for d in page.locator("#panel details[open]").evaluate_all("all => all.map(n => n.id)")], ["group-hole"]
+            page.locator("#panel details[open]").evaluate_all("all => all.map(n => n.id)"), ["all", "group-hole"]
         )
-        self.assertLessEqual(page.locator("#panel [data-path]:visible").count(), 3)
         for group in GROUPS:
             page.evaluate(
-                'id => { for (const d of document.querySelectorAll("#panel details")) d.open = d.id === id; }',
+                'id => { for (const d of document.querySelectorAll("#panel details")) d.open = ["all", id].includes(d.id); }',
                 "group-" + group,
             )
             self.assertLessEqual(page.locator("#panel [data-path]:visible").count(), 8, group)
 
     def test_what_is_open_outlives_a_reload(self):
         page = self.open()
+        page.focus("#all > summary")
+        page.keyboard.press("Enter")
         page.focus("#group-gas > summary")
         page.keyboard.press("Enter")
         page.focus("#rest-disk > summary")
@@ -96,7 +104,8 @@ class Panel(Browser):
         page.reload()
         page.wait_for_selector(AT_REST)
         self.assertEqual(
-            page.locator("#panel details[open]").evaluate_all("all => all.map(n => n.id)"), ["group-gas", "rest-disk"]
+            page.locator("#panel details[open]").evaluate_all("all => all.map(n => n.id)"),
+            ["all", "group-gas", "rest-disk"],
         )
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or page.url == address), "a link is of the scene")
 
@@ -150,7 +159,7 @@ class Panel(Browser):
         self.expected = "422"
         page = self.open("lang=en&disk.inner=1", "#status[data-wrong]")
         page.wait_for_selector('[data-path="disk.inner"] .fault >> text=the ISCO')
-        page.wait_for_selector("#group-gas[open] #rest-disk[open]")
+        page.wait_for_selector("#all[open] #group-gas[open] #rest-disk[open]")
 
     def test_what_means_nothing_is_not_there(self):
         page = self.open()
@@ -237,6 +246,125 @@ class Panel(Browser):
         self.open_groups(italian)
         for path, choice in (("sky.model", "grid"), ("camera.observer", "zamo")):
             self.assertNotIn(italian.inner_text(f'[data-path="{path}"] .help'), ("", told[choice]))
+
+    LEADING = (
+        ("spin", "spacetime.spin", "0.3", "0.31", "Spin"),
+        ("tilt", "camera.inclination_deg", "40", "41", "Tilt"),
+        ("distance", "camera.r", "60", "61", "Distance"),
+        ("glow", "style.bloom", "0.2", "0.21", "Glow"),
+    )
+
+    def test_four_sliders_are_in_step_with_their_fields(self):
+        """Both ways, by pointer and by keys, and with words for those who hear them."""
+        page = self.open("lang=en&pause=1&spacetime.spin=0.3&camera.inclination_deg=40&camera.r=60&style.bloom=0.2")
+        self.open_groups(page)
+        self.assertEqual(page.locator("#leading label").all_inner_texts(), [name for *_, name in self.LEADING])
+        for id_, path, value, next_, _ in self.LEADING:
+            slider, field = page.locator("#lead-" + id_), page.locator(f'[data-path="{path}"] input[type=number]')
+            same = lambda: slider.input_value() == page.locator(f'[data-path="{path}"] input[type=range]').input_value()
+            self.assertEqual(field.input_value(), value)
+            slider.press("ArrowRight")
+            self.assertTrue(daemon.eventually(lambda: field.input_value() == next_), (path, field.input_value()))
+            self.assertTrue(slider.get_attribute("aria-valuetext").startswith(next_), path)
+            self.assertEqual(slider.locator("xpath=../span").inner_text(), slider.get_attribute("aria-valuetext"))
+            self.assertTrue(same(), path)
+            field.fill(value)
+            field.press("Enter")
+            self.assertTrue(daemon.eventually(lambda: slider.get_attribute("aria-valuetext").startswith(value)), path)
+            self.assertTrue(same(), path)
+            slider.scroll_into_view_if_needed()
+            box = slider.bounding_box()
+            page.mouse.click(box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2)
+            self.assertTrue(daemon.eventually(lambda: field.input_value() != value), path)
+            self.assertTrue(daemon.eventually(lambda: float(field.input_value()) == self.scene_value(page, path)), path)
+            self.assertTrue(same(), path)
+
+    def scene_value(self, page, path):
+        """What the scene as text says of a field."""
+        section, name = path.split(".")
+        return json.loads(page.input_value("#scene-text")).get(section, {}).get(name)
+
+    def test_the_third_slider_is_of_the_width_at_infinity(self):
+        page = self.open("lang=it&camera.field_m=40")
+        self.assertEqual(page.inner_text("label[for=lead-distance]"), "Larghezza della vista")
+        self.assertEqual(page.get_attribute("#lead-distance", "aria-valuetext"), "40 M")
+        page.focus("#lead-distance")
+        page.keyboard.press("ArrowRight")
+        self.linked(page, "camera.field_m=41")
+        page.keyboard.press("ArrowLeft")
+        self.linked(page, "camera.field_m=40")
+
+    def test_m_is_told_in_metres_and_seconds(self):
+        """Of the scene's own mass, with the figures of /v1/physics/scale."""
+        for mass, lang, words in (
+            (10, "en", ("10 suns", "14.8 km", "49.3 µs")),
+            (6.5e9, "it", ("6,5 miliardi di soli", "64,2 ua", "8,89 ore")),
+        ):
+            page = self.open(f"lang={lang}&pause=1&spacetime.mass_msun={mass:.0f}")
+            for part in words:
+                self.there(page, part, "#mass-unit")
+            scale = self.physics("scale", hole="none", mass_msun=mass, distance_pc=1)
+            self.assertAlmostEqual(
+                scale["m_km"], {10: 14.8, 6.5e9: 64.2 * 149597870.7}[mass], delta=4e-3 * scale["m_km"]
+            )
+            self.assertAlmostEqual(scale["m_s"], {10: 49.3e-6, 6.5e9: 8.89 * 3600}[mass], delta=4e-3 * scale["m_s"])
+        page.evaluate('document.querySelector("#all").open = true')
+        self.open_groups(page)
+        page.fill('[data-path="spacetime.mass_msun"] input[type=number]', "1")
+        page.keyboard.press("Enter")
+        self.there(page, "un sole", "#mass-unit")
+
+    def found(self, page):
+        return page.locator("#fields [data-path]:visible").evaluate_all("all => all.map(n => n.dataset.path)")
+
+    def test_a_setting_is_found(self):
+        """By label, help, choice and name, in both languages; its group opens, and closes when the search ends."""
+        for lang in ("en", "it"):
+            page = self.open("lang=" + lang)
+            page.click("#all > summary")
+            for words, path in (
+                ("Accretion rate" if lang == "en" else "tasso di accrescimento", None),
+                ("Inner edge", "disk.inner"),
+                ("bordo interno", "disk.inner"),
+                ("Tone map" if lang == "en" else "tone_map", "style.tone_map"),
+                ("camera.roll_deg", "camera.roll_deg"),
+                ("roll deg", "camera.roll_deg"),
+                ("knee", "style.bloom"),
+                ("kerr–schild tao", "accuracy.engine"),
+            ):
+                page.fill("#find", words)
+                if path is None:
+                    self.there(page, "Without effect" if lang == "en" else "Senza effetto", "#found")
+                    continue
+                self.assertTrue(daemon.eventually(lambda: path in self.found(page)), (words, self.found(page)))
+                self.assertLessEqual(len(self.found(page)), 6, words)
+            page.fill("#find", "xyzzy")
+            self.there(page, "“xyzzy”" if lang == "en" else "«xyzzy»", "#found")
+            self.assertEqual((self.found(page), page.locator("#fields summary:visible").count()), ([], 0))
+            page.fill("#find", "roll_deg")
+            page.press("#find", "Enter")
+            self.assertEqual(
+                page.evaluate('document.activeElement.closest("[data-path]").dataset.path'), "camera.roll_deg"
+            )
+            page.focus("#find")
+            page.keyboard.press("Escape")
+            self.assertEqual(page.input_value("#find"), "")
+            self.assertEqual(
+                page.locator("#fields details[open]").evaluate_all("all => all.map(n => n.id)"), ["group-hole"]
+            )
+            self.assertEqual(page.inner_text("#found"), "")
+
+    def test_a_search_finds_lines_and_follows_the_scene(self):
+        page = self.open("lang=en")
+        page.click("#all > summary")
+        page.fill("#find", "ergosphere")
+        page.wait_for_selector("#over-ergosphere:visible")
+        page.fill("#find", "grid spacing")
+        self.there(page, "Without effect in this scene: Grid spacing.", "#found")
+        page.evaluate('document.querySelector("#find").value = ""')
+        page.fill("#find", "sky")
+        page.select_option('[data-path="sky.model"] select', "grid")
+        self.assertTrue(daemon.eventually(lambda: "sky.grid_deg" in self.found(page)))
 
     def test_each_pass_has_a_name(self):
         page = self.open("lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1")

@@ -75,7 +75,7 @@ class Physics(Browser):
         )
         with page.expect_request("**/v1/line") as asked:
             page.evaluate(
-                '() => { for (const name of ["hole", "camera"]) document.getElementById("group-" + name).open = true; }'
+                '() => { for (const id of ["all", "group-hole", "group-camera"]) document.getElementById(id).open = true; }'
             )
             page.fill('[data-path="spacetime.spin"] input[type=number]', "0.7")
             page.keyboard.press("Tab")

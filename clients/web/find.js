@@ -1,0 +1,101 @@
+// A search through all settings: by label, help, choice or name of the field, in both languages. What is found stays in
+// its group, which opens; the rest is away until the search is empty again.
+import { byId } from './dom.js';
+import { english, lang, t } from './i18n.js';
+
+const most = 4; // names of what means nothing here
+
+const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').replace(/[’‘]/g, "'").toLowerCase();
+
+// What the other language says of a field.
+async function otherWords(scene) {
+  if (lang === 'it') return path => [english(path), scene.fields.get(path)?.help];
+  const { fields } = await import('./it-fields.js');
+  return path => fields[path] ?? fields[path.split('.').pop()] ?? [];
+}
+
+export async function buildFind(scene) {
+  const box = byId('find'),
+    told = byId('found'),
+    form = byId('fields'),
+    other = await otherWords(scene),
+    texts = new Map(), // of nodes, as they were read
+    opened = new Set(); // details that the search has opened
+
+  // Elements of a list have the names of its first one; that of a field is also found with spaces.
+  function read(node) {
+    const { path = '' } = node.dataset,
+      name = path.replace(/\.\d+\./, '.'),
+      part = node.closest('.part')?.getAttribute('aria-label') ?? '',
+      own = [...node.querySelectorAll('[data-it]')].map(({ dataset }) => dataset.it);
+    const words = [
+      node.textContent,
+      part,
+      path,
+      name,
+      name.replace(/[._]/g, ' '),
+      ...own,
+      ...(name ? other(name) : []),
+    ];
+    return plain(words.filter(Boolean).join(' \n'));
+  }
+
+  const items = () => [...form.querySelectorAll('.field, #overlays > div')];
+  const textOf = node => (texts.has(node) || texts.set(node, read(node)), texts.get(node));
+  const nameOf = node =>
+    [...node.querySelector('label').childNodes].find(({ nodeType }) => nodeType === Node.TEXT_NODE).textContent;
+
+  function open(node) {
+    for (let at = node.closest('details'); at && at.id !== 'all'; at = at.parentElement.closest('details'))
+      if (!at.open) opened.add(at), (at.open = true);
+  }
+
+  function clear() {
+    delete form.dataset.find;
+    told.textContent = '';
+    for (const node of opened) node.open = false;
+    opened.clear();
+  }
+
+  function say(found, away) {
+    const names = [...new Set(away.map(nameOf))];
+    const here = !found.length
+        ? t(
+            `No setting here is called or explained by “${box.value.trim()}”.`,
+            `Qui nessuna impostazione si chiama o si spiega con «${box.value.trim()}».`,
+          )
+        : found.length === 1
+          ? t('One setting.', 'Un’impostazione.')
+          : t(`${found.length} settings.`, `${found.length} impostazioni.`),
+      list = names.slice(0, most).join(', ') + (names.length > most ? ', …' : '');
+    const words =
+      here +
+      (names.length ? t(` Without effect in this scene: ${list}.`, ` Senza effetto in questa scena: ${list}.`) : '');
+    if (told.textContent !== words) told.textContent = words;
+  }
+
+  function find() {
+    const wanted = plain(box.value).split(/\s+/).filter(Boolean);
+    if (!wanted.length) return clear();
+    const all = items(),
+      fits = all.filter(node => wanted.every(word => textOf(node).includes(word)));
+    for (const node of all) node.toggleAttribute('data-found', fits.includes(node));
+    form.dataset.find = '';
+    const found = fits.filter(node => !node.hidden);
+    found.forEach(open);
+    say(
+      found,
+      fits.filter(node => node.hidden),
+    );
+  }
+
+  box.addEventListener('input', find);
+  box.addEventListener('keydown', event => {
+    if (event.key === 'Escape' && box.value) (box.value = ''), find(), event.stopPropagation();
+    if (event.key !== 'Enter') return;
+    event.preventDefault();
+    form.querySelector('[data-found]:not([hidden]) :is(input, select):not(:disabled)')?.focus();
+  });
+  scene.addEventListener('change', () => box.value && find());
+  find();
+}

@@ -1,0 +1,92 @@
+// Four large sliders in front of all others: spin, tilt, distance and glow. Each sets a field of the scene, as its
+// control under "All settings" does; both show the value that the scene has.
+import { byId } from './dom.js';
+import { duration, lang, number, t, unit } from './i18n.js';
+import { meansSomething } from './known.js';
+import { scale, stepByArrows } from './slider.js';
+import { light_m_s, sun_m } from './scene.js';
+
+const au_m = 149597870700;
+
+// The fields of each, of which one counts: an observer at infinity has no distance, and the picture's width takes its
+// place.
+const sliders = {
+  spin: ['spacetime.spin'],
+  tilt: ['camera.inclination_deg'],
+  distance: ['camera.r', 'camera.field_m'],
+  glow: ['style.bloom'],
+};
+
+const metres = x =>
+  x >= au_m / 10
+    ? t(`${number(x / au_m, 3)} au`, `${number(x / au_m, 3)} ua`)
+    : x >= 1e3
+      ? `${number(x / 1e3, 3)} km`
+      : `${number(x, 3)} m`;
+
+// 10 suns, 100 million suns.
+function suns(mass) {
+  if (mass === 1) return t('one sun', 'un sole');
+  if (mass < 1e6) return t(`${number(mass)} suns`, `${number(mass)} soli`);
+  const format = { notation: 'compact', compactDisplay: 'long', maximumSignificantDigits: 3 },
+    words = new Intl.NumberFormat(lang, format).format(mass);
+  return t(`${words} suns`, `${words} di soli`);
+}
+
+function explainMass(node, scene) {
+  const mass = scene.get('spacetime.mass_msun'),
+    m = mass * sun_m,
+    [hole, long, time] = [suns(mass), metres(m), duration(m / light_m_s)],
+    words = t(
+      `M is the hole’s mass as a length, GM/c². With the mass of ${hole}, 1 M is ${long}, and light takes ${time} for it.`,
+      `M è la massa del buco come lunghezza, GM/c². Con la massa di ${hole}, 1 M è ${long}, e la luce lo percorre in ${time}.`,
+    );
+  if (node.textContent !== words) node.textContent = words;
+}
+
+function build(scene, name, paths) {
+  const slider = byId('lead-' + name),
+    row = slider.parentNode,
+    [label, value] = row.children,
+    now = () => paths.find(path => typeof scene.get(path) === 'number'),
+    give = to => scene.change({ [now()]: to });
+  const ranges = Object.fromEntries(
+    paths.map(path => {
+      const field = scene.fields.get(path),
+        [minimum, maximum] = field.span ?? [field.minimum, field.maximum];
+      return [path, { ...field, minimum, maximum }];
+    }),
+  );
+  slider.addEventListener('input', () => give(scale(ranges[now()]).from(slider.valueAsNumber)));
+  for (const path of paths)
+    stepByArrows(slider, ranges[path], give, {
+      get valueAsNumber() {
+        return path === now() ? scene.get(path) : NaN;
+      },
+    });
+
+  return function show() {
+    const path = now(),
+      held = scene.get(path),
+      mark = unit(ranges[path].unit),
+      words = `${number(held)}${mark && mark !== '°' ? ' ' : ''}${mark}`;
+    row.hidden = !meansSomething(scene, path);
+    if (path === 'camera.r') label.textContent = t('Distance', 'Distanza');
+    if (path === 'camera.field_m') label.textContent = t('Width of view', 'Larghezza della vista');
+    slider.disabled = false;
+    slider.value = scale(ranges[path]).to(held);
+    slider.setAttribute('aria-valuetext', words);
+    value.textContent = words;
+  };
+}
+
+export function buildLeading(scene) {
+  const shows = Object.entries(sliders).map(([name, paths]) => build(scene, name, paths)),
+    mass = byId('mass-unit');
+  function show() {
+    for (const each of shows) each();
+    explainMass(mass, scene);
+  }
+  for (const event of ['change', 'settle', 'move', 'tick']) scene.addEventListener(event, show);
+  show();
+}
