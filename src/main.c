@@ -1,5 +1,5 @@
 /* main: finds the subcommand and runs it. */
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "cli/cli.h"
 
 #include <fcntl.h>
@@ -21,12 +21,12 @@ struct choice {
 static const struct kd_command *find(const char *name, struct argp_state *state)
 {
     char known[300] = "";
-    struct kd_slip_best meant = { 0 };
+    struct kd_spelling_best meant = { 0 };
     for (size_t i = 0; i < kd_n_commands; i++) {
         size_t used = strlen(known);
         if (!strcmp(name, kd_commands[i].name))
             return &kd_commands[i];
-        kd_slip_offer(&meant, name, kd_commands[i].name);
+        kd_spelling_offer(&meant, name, kd_commands[i].name);
         snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_commands[i].name);
     }
     if (meant.name)

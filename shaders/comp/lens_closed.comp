@@ -48,7 +48,7 @@ struct kd_leg {
 };
 
 /* Upper bound of the time to the horizon, or to infinity for a ray that starts outwards: R is above its least value. */
-float time_limit(kd_barrier b, kd_state start, float e, bool falls)
+float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
     if (falls)
@@ -158,8 +158,8 @@ void main()
     kd_state start;
     start.w = ray.w;
     start.dw = ray.dw;
-    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root, kd_camera_rounding());
-    kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_flies_out(barrier, start));
+    kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, kd_camera_rounding());
+    kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_escapes(barrier, start));
     float edge = cam.horizon * a.scale, limit = time_limit(barrier, start, ray.e, drag.falls);
 
     const bool known = first_is_known(m, polar, cam.u, cam.spin * ray.e);

@@ -86,14 +86,14 @@ void main()
     y.dw = ray.dw;
     bool dark = INGOING && !kd_from_outside(m, ray.w, ray.e, cam.spin, cam.horizon);
     const kd_rounding rounding = kd_camera_rounding();
-    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
+    kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
     kd_state start = y;
     float way = 0.0, fallen = 0.0;
     bool returns = false;
     if (INGOING)
-        barrier = kd_barrier_beside(m, barrier, y, cam.horizon, rounding);
+        barrier = kd_turning_point_beside(m, barrier, y, cam.horizon, rounding);
     if (INGOING && (PHI || SKY)) {
-        returns = !kd_flies_out(barrier, y);
+        returns = !kd_escapes(barrier, y);
         way = returns && y.dw > 0.0 ? 1.0 : -1.0;
         fallen = way > 0.0 ? -2.0 * cam.twist : 0.0;
     }
@@ -114,8 +114,8 @@ void main()
         float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
         kd_turning turn = kd_turning(y, 0.0, 0.0, 0.0, false, false);
         if (!INGOING && (PHI || SKY) && way == 0.0) { /* whether the rest is in ingoing or outgoing coordinates */
-            returns = y.dw < 0.0 && !kd_flies_out(barrier, y);
-            way = returns ? -1.0 : kd_way(barrier, y);
+            returns = y.dw < 0.0 && !kd_escapes(barrier, y);
+            way = returns ? -1.0 : kd_direction_of_motion(barrier, y);
             fallen = -way * kd_drag_fall(y.w, cam.spin, cam.root);
         }
         if (!INGOING && (PHI || SKY))
@@ -164,7 +164,7 @@ void main()
         open = open || kd_crossing_is_open(y.w, margins) || !kd_is_finite(y.w + sum);
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {
-            lost = max(lost, abs(y.dw * y.dw - kd_fall_squared(m, y.w, ray.e, cam.spin, cam.root)));
+            lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
             chi += sum * h * (2.0 / 45.0);
             float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
             crossings++;
@@ -186,8 +186,7 @@ void main()
         kd_escape end = kd_path_escape(m, ray, last);
         if (dark)
             end.fate = KD_FATE_CAPTURED;
-        else if (open || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED) ||
-                 !kd_is_finite(end.u + end.phi))
+        else if (open || kd_escapes(barrier, start) != (end.fate == KD_FATE_ESCAPED) || !kd_is_finite(end.u + end.phi))
             end.fate = KD_FATE_UNDECIDED;
         lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = end.u;
         lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = -end.phi;
@@ -198,5 +197,5 @@ void main()
     if (INGOING && start.w >= cam.horizon) { /* and if light comes from outside (kd_from_outside) */
         curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;
     }
-    kd_finish_ray(open, at, crossings, dark || !kd_flies_out(barrier, start), curve);
+    kd_finish_ray(open, at, crossings, dark || !kd_escapes(barrier, start), curve);
 }

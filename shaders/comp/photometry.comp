@@ -42,7 +42,7 @@ void main()
         vec4 term = f * f * f * vec4(1.0, f, f * x, f * y);
         float light = 0.2126 * radiance[3 * o] + 0.7152 * radiance[3 * o + 1] + 0.0722 * radiance[3 * o + 2];
         all = add(all, light * term);
-        if (APART)
+        if (SEPARATE_PHOTOMETRY)
             spots = add(spots, radiance[push.spots + o] * term);
         if (STOKES) {
             uint at = push.stokes + o;

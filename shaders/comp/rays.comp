@@ -95,7 +95,7 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
  * half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
-    float off = abs(y.dw * y.dw - kd_fall_squared(m, y.w, 1.0, cam.spin, cam.root));
+    float off = abs(y.dw * y.dw - kd_radial_potential(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
@@ -116,7 +116,7 @@ void main()
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
-    ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
+    ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_radial_potential(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
     /* psi without its smooth part; see polar_azimuth.glsl. */
@@ -130,8 +130,9 @@ void main()
     kd_state half_, start;
     half_.w = start.w = ray.w;
     half_.dw = start.dw = ray.dw;
-    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root,
-                                       kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
+    kd_turning_point barrier =
+        kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root,
+                            kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
     /* Rounding at the start: of w, and of R, whose root is w'. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
@@ -150,7 +151,7 @@ void main()
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         if (way == 0.0) { /* whether the rest is in ingoing or outgoing coordinates */
-            way = kd_way(barrier, radial(p));
+            way = kd_direction_of_motion(barrier, radial(p));
             delay += delay_edge(m, radial(p), 0.0) - started;
             started = delay_edge(m, radial(p), way);
             fallen = kd_drag_fall(p.y.x, cam.spin, cam.root);
@@ -216,7 +217,7 @@ void main()
     kd_escape end = kd_path_escape(m, ray, last);
     if (error == 0.0) /* no crossing: nothing amplifies errors */
         error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
-    if (!kd_is_decided(barrier, start) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+    if (!kd_is_decided(barrier, start) || kd_escapes(barrier, start) != (end.fate == KD_FATE_ESCAPED))
         end.fate = KD_FATE_UNDECIDED;
     at = o + 3 * ORDERS;
     ends[at] = end.u;

@@ -29,8 +29,8 @@
  * to the bodies. The bodies follow, KD_BODY_WORDS each: three rows of the map A, each with its value at the centre;
  * velocity and gamma; the velocity relative to which coordinates rotate, R, limb darkening and brightness; factors
  * of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and index of the body in the list; and the
- * disk's light that it reflects (src/render/emit/bodies_lit.c): its sum, and its moments along r, theta and phi;
- * those along rr, thetatheta and phiphi, and its temperature over the disk's largest; those along rtheta, rphi and
+ * disk's light that it reflects (src/render/emit/bodies_illumination.c): its sum, and its moments along r, theta and
+ * phi; those along rr, thetatheta and phiphi, and its temperature over the disk's largest; those along rtheta, rphi and
  * thetaphi. */
 #define KD_BODY_WORDS 40
 #define KD_BUFFERS_bodies(B) B(3, stored, bodies)

@@ -1,4 +1,4 @@
-/* Debris that tides have torn off bodies as an emitter: a density on the plane of the disk (src/scene/crowd.h,
+/* Debris that tides have torn off bodies as an emitter: a density on the plane of the disk (src/scene/dynamic_bodies.h,
  * src/playground/show.h).
  *
  * A column with S bodies' worth per M^2 is a black body of one temperature with an optical depth D S. It is seen with

@@ -19,7 +19,7 @@
 #define KD_TRAIT_SPOTS_SHIFT 8u /* number of spots from this bit on */
 #define KD_TRAIT_SPOTS (31u << KD_TRAIT_SPOTS_SHIFT)
 #define KD_TABLES_spots(T)
-#define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(APART) T(SPOTS)
+#define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(SEPARATE_PHOTOMETRY) T(SPOTS)
 #define KD_BUFFERS_spots(B)
 #define KD_PASS_spots(P)
 #endif

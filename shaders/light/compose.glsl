@@ -61,7 +61,7 @@ struct kd_beam {
     float apart, through;
 };
 
-#include "light/tell.glsl"
+#include "light/probe.glsl"
 
 #define KD_SPEC_TRAIT_(number, name) layout(constant_id = KD_SPEC_TRAITS + number) const uint TRAITS_##name = 0;
 KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
@@ -83,7 +83,7 @@ const int KD_VOLUMES =
 const uint KD_ALL_TRAITS =
     0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
-const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
+const bool KD_SEPARATE_PHOTOMETRY = (KD_ALL_TRAITS & KD_TRAIT_SEPARATE_PHOTOMETRY) != 0u;
 const uint KD_ALONG_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_);
 const uint KD_MET_TRAITS =
@@ -102,7 +102,7 @@ const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
-    KD_TELL_PLACE(s, beam.through)
+    KD_PROBE_PLACE(s, beam.through)
 #define KD_OVER_(number, name) \
     if (KD_HAS(name)) \
         seen *= kd_##name##_over(s.order);
@@ -113,7 +113,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
         beam.light += seen * glow.light; \
         beam.apart += seen * glow.apart; \
         beam.through *= 1.0 - glow.alpha; \
-        KD_TELL_GLOW(number, seen, glow) \
+        KD_PROBE_GLOW(number, seen, glow) \
     }
     KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
@@ -132,7 +132,7 @@ kd_medium kd_medium_at(kd_midst p)
     if (KD_HAS(name)) { \
         kd_medium one = kd_##name##_along(p); \
         one.light *= KD_OVERS ? over : 1.0; \
-        KD_TELL_MEDIUM(name, one) \
+        KD_PROBE_MEDIUM(name, one) \
         sum.light += one.light; \
         sum.depth += one.depth; \
         sum.grain = min(sum.grain, one.grain); \
@@ -147,7 +147,7 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
     float x = medium.depth * way, passes = exp(-x);
     float mean = x < 0.25 ? 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0 - x * (1.0 / 720.0)))))
                           : (1.0 - passes) / x;
-    KD_TELL_ON(beam.through * mean, way)
+    KD_PROBE_ON(beam.through * mean, way)
     beam.light += (beam.through * mean) * min(way * medium.light, KD_BEAM_MOST);
     beam.through *= passes;
 }
@@ -160,7 +160,7 @@ void kd_beam_met(inout kd_beam beam, kd_met met)
 #define KD_MET_(number, name) \
     if (KD_HAS(name)) { \
         vec3 light = kd_##name##_light(met); \
-        KD_TELL_MET_(number, name, met, light, beam.through) \
+        KD_PROBE_MET_(number, name, met, light, beam.through) \
         beam.light += beam.through * light; \
     }
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_MET_)
@@ -170,12 +170,12 @@ void kd_beam_met(inout kd_beam beam, kd_met met)
 
 void kd_beam_end(inout kd_beam beam, kd_end end)
 {
-    KD_TELL_END(end)
+    KD_PROBE_END(end)
 #define KD_END_(number, name) \
     if (KD_HAS(name)) { \
         vec3 light = kd_##name##_end(end); \
         beam.light += beam.through * light; \
-        KD_TELL_LIGHT(KD_TELL_OF_END, number, light) \
+        KD_PROBE_LIGHT(KD_PROBE_OF_END, number, light) \
     }
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
@@ -187,7 +187,7 @@ void kd_beam_points(inout kd_beam beam, uint pixel)
     if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) { \
         vec3 light = kd_##name##_points(pixel); \
         beam.light += beam.through * light; \
-        KD_TELL_LIGHT(KD_TELL_OF_POINTS, number, light) \
+        KD_PROBE_LIGHT(KD_PROBE_OF_POINTS, number, light) \
     }
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
@@ -197,7 +197,7 @@ void kd_beam_given_up(inout kd_beam beam)
 {
     beam.light += beam.through * vec3(1.0, 0.0, 1.0);
     beam.through = 0.0;
-    KD_TELL_GIVEN_UP
+    KD_PROBE_GIVEN_UP
 }
 
 #endif

@@ -71,7 +71,7 @@ layout(set = 0, binding = KD_LIGHT_BINDING) readonly buffer Radiance { float rad
 /* Luminance of a pixel, Stokes I, and Q, U and V. */
 vec4 light_of_pixel(uint o)
 {
-    const uint pixels = emission.frame.band_pixels, at = (KD_APART ? 4u : 3u) * pixels + o;
+    const uint pixels = emission.frame.band_pixels, at = (KD_SEPARATE_PHOTOMETRY ? 4u : 3u) * pixels + o;
     vec3 stokes = vec3(radiance[at], radiance[at + pixels], radiance[at + 2u * pixels]);
     untold = stokes.z > KD_STOKES_LEAST_UNTOLD;
     return vec4(dot(vec3(radiance[3u * o], radiance[3u * o + 1u], radiance[3u * o + 2u]), LUMINANCE), stokes);

@@ -118,7 +118,7 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
 const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
 /* Whether the times are needed at which light left. */
-#ifdef KD_TELL
+#ifdef KD_PROBE
 const bool KD_MARCH_DELAYS = true;
 #else
 const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
@@ -233,9 +233,9 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
         y.w = ray.w;
         y.dw = ray.dw;
         kd_rounding off = kd_camera_rounding();
-        kd_barrier b =
-            kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.horizon, cam.root, off), y, cam.horizon, off);
-        drag.returns = !kd_flies_out(b, y);
+        kd_turning_point b = kd_turning_point_beside(
+            m, kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, off), y, cam.horizon, off);
+        drag.returns = !kd_escapes(b, y);
         drag.way = drag.returns && y.dw > 0.0 ? 1.0 : -1.0;
         drag.fallen = drag.way > 0.0 ? -2.0 * cam.twist : 0.0;
     }
@@ -350,7 +350,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
         length_ = next - from; /* after rounding */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
         kd_stokes_trial polarised = kd_stokes_begin();
-        KD_TELL_TRY(length_ > 0.0 ? 3.0 : 1.0)
+        KD_PROBE_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three nodes */
         for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough to determine the first length */
@@ -382,7 +382,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
                 rest = vec3(all.x) - trial.light;
                 kd_march_add(seen, seen_off, all.yzw);
             }
-            KD_TELL_TAKE(vec3(0.0), trial.light, rest)
+            KD_PROBE_TAKE(vec3(0.0), trial.light, rest)
             kd_march_add(light, light_off, min(trial.light + rest, KD_BEAM_MOST));
             kd_march_add(depth, depth_off, one.w + two.w + three.w);
             beam.through = KD_HAS(stokes) ? kd_jones_through(kd_stokes_front) : front * exp(-depth);
@@ -525,9 +525,9 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         }
         if (KD_MARCH_TURNS && ORDERS > 0)
             spread = kd_march_spread(y.m, ray, order, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
-        KD_TELL_BEFORE(beam)
+        KD_PROBE_BEFORE(beam)
         kd_march_part(beam, y.m, ray, s, spread, order, from, to, y.stretch, y.lost);
-        KD_TELL_STRETCH(s, from, to, beam)
+        KD_PROBE_STRETCH(s, from, to, beam)
         if (KD_MARCH_WAITS)
             break;
         if (end == plane && KD_GLOWS && y.crossed < ORDERS && beam.through > 0.0) {
@@ -607,7 +607,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
 #endif
     if (y.lost || (y.goes && beam.through > 0.0))
         KD_MARCH_GIVEN_UP(beam);
-    KD_TELL_MARCHED(y.steps)
+    KD_PROBE_MARCHED(y.steps)
     for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0;
          n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];

@@ -12,7 +12,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #else
 #define KD_RADIANCE_ACCESS writeonly
 #endif
-#ifndef KD_TELL
+#ifndef KD_PROBE
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #ifdef KD_MARCH
 /* The same buffer: after the light, the list of rays that were not completed (KD_LOST_...). */
@@ -57,7 +57,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
                             quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
     float before = dot(beam.light, LUMINANCE), before_apart = beam.apart;
     kd_beam_at(beam, s);
-    KD_TELL_POLARIZED_AT(s, place, ray.p)
+    KD_PROBE_POLARIZED_AT(s, place, ray.p)
     if (STOKES && KD_HAS(polarization)) { /* all light of a crossing has the same polarisation */
         vec2 part = kd_polarization_at(s, kd_polarization_right(place), ray.p);
         stokes.xy += (dot(beam.light, LUMINANCE) - before) * part;
@@ -100,10 +100,10 @@ void follow_on(inout kd_beam beam, uvec2 place, uint at, uint pixel)
         return;
     if (STOKES && KD_HAS(stokes))
         stokes += kd_stokes_seen;
-    KD_TELL_SUM(KD_TELL_FRONT, beam)
+    KD_PROBE_SUM(KD_PROBE_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);
-    KD_TELL_SUM(KD_TELL_WHOLE, beam)
+    KD_PROBE_SUM(KD_PROBE_WHOLE, beam)
 }
 
 kd_beam follow(uvec2 place, uint at, uint pixel)
@@ -126,10 +126,10 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
         if (beam.through <= 0.0)
             break;
     }
-    KD_TELL_SUM(KD_TELL_FRONT, beam)
+    KD_PROBE_SUM(KD_PROBE_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);
-    KD_TELL_SUM(KD_TELL_WHOLE, beam)
+    KD_PROBE_SUM(KD_PROBE_WHOLE, beam)
     return beam;
 }
 #endif
@@ -140,7 +140,7 @@ uint light_at(uint x, uint y)
     return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x;
 }
 
-#ifdef KD_TELL
+#ifdef KD_PROBE
 #include "light/numbers.glsl"
 
 /* Follows one ray, given by the push constants: on the grid its row of rays is row0 and its column `rows`; on listed
@@ -166,19 +166,19 @@ void store_light(uint at, vec3 light)
 
 /* After the band's pixels follow, a band of pixels each, the separate luminance, then Stokes Q, U and V of all
  * light, and Q and U of the separate one. */
-const uint STOKES_AT = KD_APART ? 4u : 3u;
+const uint STOKES_AT = KD_SEPARATE_PHOTOMETRY ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
     uint pixels = emission.frame.band_pixels, to = STOKES_AT * pixels + at;
     store_light(at, light);
-    if (KD_APART)
+    if (KD_SEPARATE_PHOTOMETRY)
         radiance[3 * pixels + at] = apart;
     if (STOKES) {
         radiance[to] = all.x;
         radiance[to + pixels] = all.y;
         radiance[to + 2 * pixels] = all.z;
     }
-    if (STOKES && KD_APART && KD_HAS(polarization)) {
+    if (STOKES && KD_SEPARATE_PHOTOMETRY && KD_HAS(polarization)) {
         radiance[to + 3 * pixels] = spots.x;
         radiance[to + 4 * pixels] = spots.y;
     }
@@ -282,10 +282,10 @@ void store_ray(uint to, kd_beam beam, bool adds)
     if (adds) {
         const uint pixels = emission.frame.band_pixels, from = STOKES_AT * pixels + to;
         sum += vec3(radiance[3 * to], radiance[3 * to + 1], radiance[3 * to + 2]);
-        apart += KD_APART ? radiance[3 * pixels + to] : 0.0;
+        apart += KD_SEPARATE_PHOTOMETRY ? radiance[3 * pixels + to] : 0.0;
         if (STOKES)
             all += vec3(radiance[from], radiance[from + pixels], radiance[from + 2 * pixels]);
-        if (STOKES && KD_APART && KD_HAS(polarization))
+        if (STOKES && KD_SEPARATE_PHOTOMETRY && KD_HAS(polarization))
             spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
     }
     if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever the pixel's other rays are */

@@ -64,7 +64,7 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     c.w = q.y.w;
     a.dw = p.v.w;
     c.dw = q.v.w;
-    b.dw = -sqrt(max(kd_fall_squared(m, b.w, ray.e, cam.spin, cam.root), 0.0));
+    b.dw = -sqrt(max(kd_radial_potential(m, b.w, ray.e, cam.spin, cam.root), 0.0));
     if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* at the midpoint the ray still moves inwards */
         b.dw = -b.dw;
     if (INGOING) /* no pole: an outgoing ray is in ingoing coordinates from the start */
@@ -82,7 +82,7 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
 
 /* w' of an outgoing ray by the first integral. Inside the horizon w' does not vanish and may be large, so its
  * rounding there would matter outside. */
-float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_fall_squared(m, w, e, cam.spin, cam.root)); }
+float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_radial_potential(m, w, e, cam.spin, cam.root)); }
 
 kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
 {

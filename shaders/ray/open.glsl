@@ -21,7 +21,7 @@ struct kd_margins { float far, horizon, edge; };
 
 /* far, horizon: the scales of w there; noise: rounding error of R at the barrier. The margin grows as the ray comes
  * closer to the critical curve, where R vanishes there. */
-kd_margins kd_margins_of(kd_barrier b, float noise, float far, float horizon)
+kd_margins kd_margins_of(kd_turning_point b, float noise, float far, float horizon)
 {
     float part = 32.0 * KD_ROUNDOFF + noise / max(abs(b.r), 1e-30);
     return kd_margins(part * far, part * horizon, horizon);

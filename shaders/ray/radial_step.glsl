@@ -8,12 +8,12 @@
 
 struct kd_state { float w, dw; };
 
-float kd_pull(kd_geodesic m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)); }
+float kd_acceleration(kd_geodesic m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)); }
 
 kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
 {
     kd_state o;
-    KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw)
+    KD_NYSTROEM_STEP(float, kd_acceleration, m, y.w, y.dw, h, o.w, o.dw)
     return o;
 }
 
@@ -25,7 +25,7 @@ float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 }
 
 /* w'^2 = W^2 - D K w^2, which keeps its precision next to the horizon. */
-float kd_fall_squared(kd_geodesic m, float w, float e, float a, float root)
+float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
 {
     precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2,
                   square = all * all - kd_delta(w, root) * m.k * w2;
@@ -71,15 +71,15 @@ float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); 
  * (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and at the horizon R = W^2: a ray on one
  * side of that place gets to the other exactly if R > 0 there. R = W^2 - D K w^2 keeps its precision next to the
  * horizon too. */
-struct kd_barrier {
+struct kd_turning_point {
     float w, r;  /* the place, or the horizon if the place is inside it; R there */
     float noise; /* bound of its rounding error */
     bool open;   /* the place is clearly inside the horizon: there is no barrier */
 };
 
-kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float horizon, float root, kd_rounding off)
+kd_turning_point kd_turning_point_of(kd_geodesic m, kd_ray ray, float a, float horizon, float root, kd_rounding off)
 {
-    kd_barrier o;
+    kd_turning_point o;
     float by = kd_squared_by(m), k = by * m.k,
           disc = sqrt(max(9.0 * k * k + 8.0 * (by * m.d) * (by * m.a2), 0.0)) * kd_squared_back(by);
     float w = m.a2 < 0.0 ? -2.0 * m.a2 / (3.0 * m.k + disc) : 2.0;
@@ -97,7 +97,7 @@ kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float horizon, floa
 /* The same from a place near it, for an observer next to the photon orbits. There R = w'^2, and between the two
  * places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance, since R' vanishes at
  * the barrier. If w' is close to 0, its square is more precise than R. */
-kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float horizon, kd_rounding off)
+kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
           hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
@@ -112,26 +112,26 @@ kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float hori
 /* Error of R along a ray traced by steps, due to rounding at its start: of w, and of w', whose square is R. */
 float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 {
-    return off.unit * (abs(y.dw) * (off.size_e + sqrt(max(m.k, 0.0)) * y.w) + abs(y.w * kd_pull(m, y.w)));
+    return off.unit * (abs(y.dw) * (off.size_e + sqrt(max(m.k, 0.0)) * y.w) + abs(y.w * kd_acceleration(m, y.w)));
 }
 
 /* Whether a ray falls into the horizon from its present state, without turning. */
-bool kd_falls_in(kd_barrier b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
+bool kd_falls_in(kd_turning_point b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
 
 /* The `way` for kd_drag from here on. */
-float kd_way(kd_barrier b, kd_state y)
+float kd_direction_of_motion(kd_turning_point b, kd_state y)
 {
     return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
 }
 
 /* Whether the ray escapes. */
-bool kd_flies_out(kd_barrier b, kd_state y)
+bool kd_escapes(kd_turning_point b, kd_state y)
 {
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
 /* Whether the outcome is certain in spite of rounding. */
-bool kd_is_decided(kd_barrier b, kd_state y)
+bool kd_is_decided(kd_turning_point b, kd_state y)
 {
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;
     return (!b.open && abs(b.r) > b.noise) || ((b.open || !ahead) && y.dw * y.dw > b.noise);

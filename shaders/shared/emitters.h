@@ -2,15 +2,13 @@
  * composition at one place; the number is that of the specialisation constant TRAITS_name, counted from KD_SPEC_TRAITS.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
- *   PART          no light of its own: other emitters call its functions, so that shared values are computed once
- *   OVER          kd_name_over(order): a factor for all light of a crossing of that order, and for a part of the light
- *                 of volumes (kd_midst)
- *   ALONG         kd_name_along(point): emission and absorption of a volume at a point of the ray (a kd_medium of
- *                 light/compose.glsl). Scenes with such an emitter are lit by the march (light/march.glsl), whose step
- *                 length follows the emitter's grain, its optical depth and the ray's bending; its C file gives its
- *                 range of radii and latitudes
- *   MET           kd_name_light(met), kd_name_shift(met), kd_name_kelvin(met): light, 1/g and temperature of opaque
- *                 surfaces off the plane (light/meet.glsl), the first of which hides everything behind it. Scenes
+ *   HELPER          no light of its own: other emitters call its functions, so that shared values are computed once
+ *   MODULATE          kd_name_over(order): a factor for all light of a crossing of that order, and for a part of the
+ * light of volumes (kd_midst) ALONG         kd_name_along(point): emission and absorption of a volume at a point of the
+ * ray (a kd_medium of light/compose.glsl). Scenes with such an emitter are lit by the march (light/march.glsl), whose
+ * step length follows the emitter's grain, its optical depth and the ray's bending; its C file gives its range of radii
+ * and latitudes SURFACE           kd_name_light(met), kd_name_shift(met), kd_name_kelvin(met): light, 1/g and
+ * temperature of opaque surfaces off the plane (light/meet.glsl), the first of which hides everything behind it. Scenes
  *                 with such an emitter are lit by the march's kernel as well
  *   AT_END        kd_name_end(end): light at the end of a ray that was transmitted; kd_name_points(pixel): for points
  *                 of light, their contribution to a pixel
@@ -33,22 +31,22 @@
 #ifndef KD_EMITTERS_H
 #define KD_EMITTERS_H
 
-#define KD_EMITTERS(AT_CROSSING, PART, OVER, AT_END, ALONG, MET) \
+#define KD_EMITTERS(AT_CROSSING, HELPER, MODULATE, AT_END, ALONG, SURFACE) \
     AT_CROSSING(0, disk) \
     AT_CROSSING(1, particles) \
-    PART(2, plunge) \
+    HELPER(2, plunge) \
     AT_CROSSING(3, spots) \
-    OVER(4, ringdown) \
+    MODULATE(4, ringdown) \
     AT_END(5, sky) \
     AT_CROSSING(6, gas) \
     ALONG(7, volume) \
     ALONG(8, jets) \
     ALONG(9, thick) \
-    MET(10, bodies) \
+    SURFACE(10, bodies) \
     AT_CROSSING(11, debris) \
-    PART(12, polarization) \
+    HELPER(12, polarization) \
     ALONG(13, plasma) \
-    PART(14, stokes)
+    HELPER(14, stokes)
 
 /* Everything that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)
@@ -74,7 +72,7 @@
 /* Bits of every word. PRESENT: the scene has the emitter. APART: its luminance is kept separately as well, so that
  * its flux and centroid can be measured; possible for one emitter. */
 #define KD_TRAIT_PRESENT 1u
-#define KD_TRAIT_APART 32u
+#define KD_TRAIT_SEPARATE_PHOTOMETRY 32u
 #define KD_TRAIT_SLOW \
     16u /* moving emitters are shown as they were when their light left them; volumes are given the light delay for \
            that */

@@ -315,21 +315,21 @@
 #define KD_TRACE_END -3.0 /* after the last crossing */
 
 /* Records of light/tell.glsl: numbers a record, and kinds. */
-#define KD_TELL_RECORD 11
-#define KD_TELL_AT 0.0
-#define KD_TELL_OF_PLACE 1.0
-#define KD_TELL_ENDS 2.0
-#define KD_TELL_OF_END 3.0
-#define KD_TELL_OF_POINTS 4.0
-#define KD_TELL_LOST 5.0
-#define KD_TELL_FRONT 6.0
-#define KD_TELL_WHOLE 7.0
-#define KD_TELL_ALONG 8.0
-#define KD_TELL_OF_VOLUME 9.0
-#define KD_TELL_MET 10.0
-#define KD_TELL_MET_AT 11.0
-#define KD_TELL_POLARIZED 12.0
-#define KD_TELL_ALONG_AT 13.0
-#define KD_TELL_SUMS 2u /* records before the others: KD_TELL_FRONT and KD_TELL_WHOLE */
+#define KD_PROBE_RECORD 11
+#define KD_PROBE_AT 0.0
+#define KD_PROBE_OF_PLACE 1.0
+#define KD_PROBE_ENDS 2.0
+#define KD_PROBE_OF_END 3.0
+#define KD_PROBE_OF_POINTS 4.0
+#define KD_PROBE_LOST 5.0
+#define KD_PROBE_FRONT 6.0
+#define KD_PROBE_WHOLE 7.0
+#define KD_PROBE_ALONG 8.0
+#define KD_PROBE_OF_VOLUME 9.0
+#define KD_PROBE_MET 10.0
+#define KD_PROBE_MET_AT 11.0
+#define KD_PROBE_POLARIZED 12.0
+#define KD_PROBE_ALONG_AT 13.0
+#define KD_PROBE_SUMS 2u /* records before the others: KD_PROBE_FRONT and KD_PROBE_WHOLE */
 
 #endif

@@ -53,9 +53,10 @@
  * list those with low numbers. */
 #define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
 
-/* APART: the luminance of some emitter is kept separately; FINITE: solid angles of an observer at a finite radius;
- * STOKES: Stokes Q, U and V follow the radiance, STOKES_APART: and Q and U of the separate luminance. */
-#define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
+/* SEPARATE_PHOTOMETRY: the luminance of some emitter is kept separately; FINITE: solid angles of an observer at a
+ * finite radius; STOKES: Stokes Q, U and V follow the radiance, STOKES_APART: and Q and U of the separate luminance. */
+#define KD_SPEC_PHOTOMETRY(U, B) \
+    B(0, SEPARATE_PHOTOMETRY, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
 
 /* Of star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness weighted as by the eye; TILE: rays
  * along the sides of a tile; RIM: as in ray/rim.glsl. */

@@ -8,7 +8,7 @@
 /* A pointer that was cut off may end within a character or an escape. */
 static void mend_pointer(char *pointer)
 {
-    kd_utf8_mend(pointer);
+    kd_utf8_sanitize(pointer);
     const size_t length = strlen(pointer);
     if (length && pointer[length - 1] == '~')
         pointer[length - 1] = '\0';

@@ -271,7 +271,7 @@ void kd_program_reason(const struct kd_program *p, char out[300])
     while (n && out[n - 1] == ' ')
         n--;
     out[n] = 0;
-    kd_utf8_mend(out);
+    kd_utf8_sanitize(out);
 }
 
 void kd_program_end(struct kd_program *p)

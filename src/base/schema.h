@@ -11,7 +11,7 @@
 #define KD_SCHEMA_NUMBER "{\"type\":\"number\"}"
 #define KD_SCHEMA_NUMBER_OR_NULL "{\"type\":[\"number\",\"null\"]}"
 #define KD_SCHEMA_COUNT "{\"type\":\"integer\",\"minimum\":0}"
-#define KD_SCHEMA_TRUTH "{\"type\":\"boolean\"}"
+#define KD_SCHEMA_BOOL "{\"type\":\"boolean\"}"
 #define KD_SCHEMA_TEXT "{\"type\":\"string\"}"
 #define KD_SCHEMA_LIST(items) "{\"type\":\"array\",\"items\":" items "}"
 #define KD_SCHEMA_MAP(values) "{\"type\":\"object\",\"additionalProperties\":" values "}"

@@ -41,7 +41,7 @@ static void mend(char *text, bool controls)
     }
 }
 
-void kd_utf8_mend(char *text) { mend(text, false); }
+void kd_utf8_sanitize(char *text) { mend(text, false); }
 
 void kd_utf8_show(char *text) { mend(text, true); }
 

@@ -15,7 +15,7 @@ bool kd_utf8_ascii(const char *text);
 bool kd_utf8_valid(const char *text);
 
 /* Replaces each byte that is not part of valid UTF-8 by "?". */
-void kd_utf8_mend(char *text);
+void kd_utf8_sanitize(char *text);
 /* The same, and also replaces control characters: line feed, tab and carriage return by a blank, others by "?". */
 void kd_utf8_show(char *text);
 

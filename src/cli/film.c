@@ -301,7 +301,8 @@ done:
 }
 
 /* Moves the playground from the previous frame to this one, as the server's jobs do, and returns its bodies. */
-static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_crowd **out, struct kd_error *error)
+static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_dynamic_bodies **out,
+                           struct kd_error *error)
 {
     struct kd_playground_run run;
     const double time = begin + number * w->spec.every - w->bodies->t;
@@ -316,7 +317,8 @@ static enum kd_status move(struct work *w, unsigned number, double begin, struct
     return kd_frames_has(&w->frames, number) ? KD_OK : kd_playground_show_named(w->bodies, out, error);
 }
 
-static enum kd_status render(struct work *w, unsigned number, const struct kd_crowd *crowd, struct kd_error *error)
+static enum kd_status render(struct work *w, unsigned number, const struct kd_dynamic_bodies *crowd,
+                             struct kd_error *error)
 {
     const struct kd_blur blur = kd_job_frame_blur(&w->spec, number);
     struct kd_capacity capacity;
@@ -343,7 +345,7 @@ done:
 
 static enum kd_status render_all(struct work *w, struct kd_error *error)
 {
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies *crowd = NULL;
     enum kd_status status;
     kd_progress_init(&w->progress);
     kd_progress_catch_signals();
@@ -356,11 +358,11 @@ static enum kd_status render_all(struct work *w, struct kd_error *error)
             KD_TRY(move(w, w->done, begin, &crowd, error));
         if (!kd_frames_has(&w->frames, w->done))
             KD_TRY(render(w, w->done, crowd, error));
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
         crowd = NULL;
     }
 done:
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     kd_progress_finish(&w->progress);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);

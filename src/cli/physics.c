@@ -1,5 +1,5 @@
 /* kerrd physics: quantities by name. */
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -137,9 +137,9 @@ static error_t parse_name(int key, char *text, struct argp_state *state)
     char names[300];
     if (key == ARGP_KEY_ARG) {
         kd_quantity_names(names, sizeof names);
-        struct kd_slip_best meant = { 0 };
+        struct kd_spelling_best meant = { 0 };
         for (size_t i = 0; i < kd_quantity_count; i++)
-            kd_slip_offer(&meant, text, kd_quantities[i]->name);
+            kd_spelling_offer(&meant, text, kd_quantities[i]->name);
         if (!kd_quantity_find(text) && meant.name)
             argp_error(state, "there is no quantity \"%s\"; did you mean %s? Known are %s", text, meant.name, names);
         if (!kd_quantity_find(text))

@@ -115,7 +115,7 @@ done:
 
 enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playground *p, struct kd_error *error)
 {
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies *crowd = NULL;
     struct kd_buffer file = { 0 };
     struct kd_scene scene = pictures->scene;
     char path[4096];
@@ -129,7 +129,7 @@ enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playgrou
     KD_TRY(kd_file_write(path, &file, error));
     pictures->made++;
 done:
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     kd_buffer_finish(&file);
     return status;
 }

@@ -200,7 +200,7 @@ static enum kd_status settle(const struct arguments *arguments, struct kd_rays_r
 {
     struct kd_capacity capacity;
     enum kd_status status;
-    bool device = kd_wish_needs_device(&request->wish);
+    bool device = kd_accuracy_request_needs_device(&request->asked_accuracy);
     if (device) {
         KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, renderer, error));
         kd_renderer_capacity(*renderer, &capacity);
@@ -255,7 +255,8 @@ done:
     return status;
 }
 
-static enum kd_status tell(const struct arguments *arguments, const struct kd_told_steps *trace, struct kd_error *error)
+static enum kd_status tell(const struct arguments *arguments, const struct kd_described_steps *trace,
+                           struct kd_error *error)
 {
     const char *format = arguments->format, *path = arguments->output;
     struct kd_buffer text = { 0 };
@@ -274,7 +275,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
 {
     struct kd_rays_request request;
     struct kd_rays_steps steps = { 0 };
-    struct kd_told_steps trace = { 0 };
+    struct kd_described_steps trace = { 0 };
     struct kd_renderer *renderer = NULL;
     double energy;
     bool outward = false;

@@ -1,6 +1,6 @@
 /* Reads settings from a JSON file and from the environment. */
 #include "base/log.h"
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/settings.h"
@@ -44,12 +44,12 @@ static size_t find_key(const struct kd_settings *settings, const char *name)
 static enum kd_status refuse_key(const struct kd_settings *settings, const char *name, const char *pointer,
                                  struct kd_error *error)
 {
-    struct kd_slip_best best = { 0 };
+    struct kd_spelling_best best = { 0 };
     char given[60], known[400] = "";
     kd_text_clip(given, sizeof given, name);
     for (size_t i = 0; i < settings->n; i++)
         if (settings->table[i].where == KD_SETTING_ANYWHERE) {
-            kd_slip_offer(&best, name, settings->table[i].name);
+            kd_spelling_offer(&best, name, settings->table[i].name);
             snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
                      settings->table[i].name);
         }
@@ -214,14 +214,14 @@ static bool is_other(const char *name)
 
 static void warn_of(const struct kd_settings *settings, const char *name)
 {
-    struct kd_slip_best best = { 0 };
+    struct kd_spelling_best best = { 0 };
     char lower[60] = "", own[KD_SETTING_VARIABLE] = "";
     for (size_t k = 0; name[sizeof PREFIX - 1 + k] && k + 1 < sizeof lower; k++)
         lower[k] =
             (char)(name[sizeof PREFIX - 1 + k] == '_' ? '-' : tolower((unsigned char)name[sizeof PREFIX - 1 + k]));
     for (size_t i = 0; i < settings->n; i++)
         if (settings->table[i].where != KD_SETTING_FLAG)
-            kd_slip_offer(&best, lower, settings->table[i].name);
+            kd_spelling_offer(&best, lower, settings->table[i].name);
     for (size_t i = 0; best.name && i < settings->n; i++)
         if (best.name == settings->table[i].name)
             kd_setting_variable(&settings->table[i], own);

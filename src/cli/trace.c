@@ -8,13 +8,13 @@
 #include <math.h>
 #include <stdio.h>
 
-enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out,
+enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_described_steps *out,
                                 struct kd_error *error)
 {
     const double alpha_beta[] = { steps->alpha, steps->beta };
     const struct kd_ray_labels labels = { alpha_beta, NULL, 1 };
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
-    *out = (struct kd_told_steps) { .steps = steps, .points = points };
+    *out = (struct kd_described_steps) { .steps = steps, .points = points };
     const struct kd_null_ray ray = {
         .spin = steps->params.spin,
         .radius = steps->params.r,
@@ -37,7 +37,7 @@ done:
     return status;
 }
 
-void kd_trace_finish(struct kd_told_steps *trace) { kd_ray_path_finish(&trace->path); }
+void kd_trace_finish(struct kd_described_steps *trace) { kd_ray_path_finish(&trace->path); }
 
 /* Writes a value: residuals with few digits, others with as many as the precision has. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x,
@@ -63,7 +63,7 @@ done:
     return status;
 }
 
-static enum kd_status put_verdict(const struct kd_told_steps *trace, struct kd_buffer *out)
+static enum kd_status put_verdict(const struct kd_described_steps *trace, struct kd_buffer *out)
 {
     const struct kd_rays_steps *steps = trace->steps;
     enum kd_status status;
@@ -108,7 +108,7 @@ static enum kd_status put_points(const struct kd_ray_path *path, struct kd_buffe
     return status;
 }
 
-enum kd_status kd_trace_text(const struct kd_told_steps *trace, struct kd_buffer *out)
+enum kd_status kd_trace_text(const struct kd_described_steps *trace, struct kd_buffer *out)
 {
     const struct kd_rays_steps *steps = trace->steps;
     const struct kd_rays_params *p = &steps->params;
@@ -146,7 +146,7 @@ static void put_json_step(struct kd_json *json, const struct kd_rays_steps *step
     kd_json_end(json);
 }
 
-enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer *out)
+enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_buffer *out)
 {
     const struct kd_rays_steps *steps = trace->steps;
     const struct kd_rays_params *p = &steps->params;
@@ -223,7 +223,7 @@ static enum kd_status put_csv_points(const struct kd_ray_path *path, struct kd_b
     return status ? status : kd_buffer_printf(out, "\n");
 }
 
-enum kd_status kd_trace_csv(const struct kd_told_steps *trace, struct kd_buffer *out)
+enum kd_status kd_trace_csv(const struct kd_described_steps *trace, struct kd_buffer *out)
 {
     const struct kd_rays_steps *steps = trace->steps;
     enum kd_status status;

@@ -6,7 +6,7 @@
 #include "render/explain/motion.h"
 #include "render/rays/steps.h"
 
-struct kd_told_steps {
+struct kd_described_steps {
     const struct kd_rays_steps *steps;
     bool points; /* text and CSV contain the points of the path instead of the steps; JSON contains both */
     struct kd_ray_motion motion;
@@ -16,14 +16,14 @@ struct kd_told_steps {
 };
 
 /* Computes what is not in the steps. KD_ENOMEM. Finish *out in any case. */
-enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out,
+enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_described_steps *out,
                                 struct kd_error *error);
-void kd_trace_finish(struct kd_told_steps *trace);
+void kd_trace_finish(struct kd_described_steps *trace);
 
 /* Append a table as text; a JSON document; CSV, one line for each step or point with empty cells for missing values.
  * KD_ENOMEM. */
-enum kd_status kd_trace_text(const struct kd_told_steps *trace, struct kd_buffer *out);
-enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer *out);
-enum kd_status kd_trace_csv(const struct kd_told_steps *trace, struct kd_buffer *out);
+enum kd_status kd_trace_text(const struct kd_described_steps *trace, struct kd_buffer *out);
+enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_buffer *out);
+enum kd_status kd_trace_csv(const struct kd_described_steps *trace, struct kd_buffer *out);
 
 #endif

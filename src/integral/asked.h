@@ -72,7 +72,7 @@ static inline bool kd_integral_is_pictured(enum kd_integral what) { return what 
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
 /* A field of requests, for the reader, the schema and the options. */
-enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_WHOLE, KD_INTEGRAL_WORD, KD_INTEGRAL_WORDS, KD_INTEGRAL_NUMBERS };
+enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_INT, KD_INTEGRAL_WORD, KD_INTEGRAL_WORDS, KD_INTEGRAL_NUMBERS };
 struct kd_integral_field {
     const char *name, *unit, *help; /* a name with a dot is a member of an object: systematic.amplitude */
     enum kd_integral_kind kind;

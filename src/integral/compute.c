@@ -311,7 +311,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };
-    KD_TRY(kd_kept_image(kd_hole(request->spin), request->inclination_deg, &image, error));
+    KD_TRY(kd_cached_documents_image(kd_hole(request->spin), request->inclination_deg, &image, error));
     KD_TRY(compute[request->what](request, image, answer, error));
 done:
     free(image);

@@ -22,8 +22,8 @@
     { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of, false }
 #define WORD(name, member, words, of, help) \
     { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of, false }
-#define WHOLE(name, least, most, of, help) \
-    { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of, false }
+#define INT(name, least, most, of, help) \
+    { #name, "", help, KD_INTEGRAL_INT, AT(name), least, most, false, NULL, of, false }
 #define WORDS(name, words, least, of, help) \
     { #name, "", help, KD_INTEGRAL_WORDS, AT(name), least, 0, false, words, of, false }
 #define MEMBER(name, member, unit, least, most, of, help) \
@@ -53,12 +53,12 @@ const struct kd_integral_field kd_integral_fields[] = {
          "energy of the line where the gas is at rest, in any unit: edges are in the same"),
     REAL(energy_min, "", 0, 1e9, LINE, "first edge of bins of equal width"),
     OR_WORD(energy_max, "", 0, 1e9, "auto", LINE, "last edge; auto: 1.7 times rest_energy"),
-    WHOLE(bins, 1, KD_INTEGRAL_ROWS, LINE, "number of bins of equal width"),
+    INT(bins, 1, KD_INTEGRAL_ROWS, LINE, "number of bins of equal width"),
     NUMBERS(edges, "", 0, 1e9, LINE,
             "edges of the bins, instead of energy_min, energy_max and bins; each above the one before"),
-    WHOLE(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
+    INT(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
     NUMBERS(radii, "M", 1, 1e6, TRANSFER, "radii, instead of rings; between inner and outer"),
-    WHOLE(g_stars, 1, 1000, TRANSFER, "number of g* at each radius, the middles of as many equal parts of 0 to 1"),
+    INT(g_stars, 1, 1000, TRANSFER, "number of g* at each radius, the middles of as many equal parts of 0 to 1"),
     { "g_star", "", "numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars",
       KD_INTEGRAL_NUMBERS, AT(g_star), 0, 1, true, NULL, TRANSFER, false },
     REAL(mass_msun, "solar masses", 1e-5, 1e12, SPECTRUM, "mass of the hole"),
@@ -71,8 +71,8 @@ const struct kd_integral_field kd_integral_fields[] = {
             "volume.frequency_ghz"),
     OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME,
             "last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz"),
-    WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME,
-          "number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most"),
+    INT(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME,
+        "number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most"),
     NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME, "frequencies, instead of the three before"),
     { "u", "Gl", "baselines to the east, in units of 1e9 wavelengths; as many as v", KD_INTEGRAL_NUMBERS, AT(u), -1e15,
       1e15, false, NULL, VISIBILITY, false },
@@ -82,11 +82,10 @@ const struct kd_integral_field kd_integral_fields[] = {
     { "length_max", "Gl",
       "baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell",
       KD_INTEGRAL_REAL, AT(length_max), 1e-9, 1e15, false, "auto", VISIBILITY, true },
-    WHOLE(baselines, 2, KD_INTEGRAL_ROWS, VISIBILITY, "number of lengths from 0 to length_max"),
+    INT(baselines, 2, KD_INTEGRAL_ROWS, VISIBILITY, "number of lengths from 0 to length_max"),
     { "angles_deg", "deg", "position angles of baselines with lengths, from the north to the east; 0 and 90",
       KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
-    WHOLE(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY,
-          "number of image orders, from 0 on, whose light is told apart too"),
+    INT(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY, "number of image orders, from 0 on, whose light is told apart too"),
     WORDS(products, "amplitude|closure_phase|log_closure_amplitude", 1, COMPARE, "what is compared"),
     REAL(average_s, "s", 0, 86400, COMPARE,
          "visibilities are averaged in bins of so many seconds, counted from 1960-01-01; 0: they are not"),
@@ -111,8 +110,8 @@ const struct kd_integral_field kd_integral_fields[] = {
       "frequency, as amplitudes fit best",
       KD_INTEGRAL_REAL, AT(flux_jy), 1e-12, 1e12, false, "auto", COMPARE, true },
     WORDS(solve, "flux", 0, COMPARE, "what is chosen so that chi^2 of the amplitudes is least"),
-    WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
-          "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison"),
+    INT(pixels, 16, 2048, VOLUME | VISIBILITY | COMPARE,
+        "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility and of a comparison"),
     WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE,
          "what tells the error: the same picture with half as many pixels more along each side, or nothing"),
 };
@@ -204,7 +203,7 @@ void kd_integral_field_write(struct kd_json *json, const struct kd_integral_requ
     int word;
     switch (field->kind) {
     case KD_INTEGRAL_REAL: kd_json_number(json, own, *(const double *)(const void *)at); break;
-    case KD_INTEGRAL_WHOLE: kd_json_number(json, field->name, *(const uint32_t *)(const void *)at); break;
+    case KD_INTEGRAL_INT: kd_json_number(json, field->name, *(const uint32_t *)(const void *)at); break;
     case KD_INTEGRAL_WORD:
         memcpy(&word, at, sizeof word);
         write_word(json, field->name, field->words, word);
@@ -216,7 +215,7 @@ void kd_integral_field_write(struct kd_json *json, const struct kd_integral_requ
 
 static void add_range(struct kd_json *json, const struct kd_integral_field *f)
 {
-    kd_json_string(json, "type", f->kind == KD_INTEGRAL_WHOLE ? "integer" : "number");
+    kd_json_string(json, "type", f->kind == KD_INTEGRAL_INT ? "integer" : "number");
     kd_json_number(json, f->open ? "exclusiveMinimum" : "minimum", f->least);
     kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
 }

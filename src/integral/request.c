@@ -1,7 +1,7 @@
 #include "integral/internal.h"
 #include "integral/request.h"
 
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "scene/members.h"
 #include "scene/number.h"
 #include "scene/text.h"
@@ -35,7 +35,7 @@ static enum kd_status unknown(const struct kd_integral_request *request, const c
                               struct kd_error *error)
 {
     char shown[60], known[400] = ""; /* kd_error_field truncates longer text */
-    struct kd_slip_best meant = { 0 };
+    struct kd_spelling_best meant = { 0 };
     if (request->what == KD_INTEGRAL_SPECTRUM && !strcmp(name, "volume"))
         return kd_error_field(error, pointer,
                               "volume is given, and belongs to a scene: \"scene\": {\"volume\": ...}, or a preset such "
@@ -46,7 +46,7 @@ static enum kd_status unknown(const struct kd_integral_request *request, const c
         size_t used = strlen(known);
         if (!has(request, f))
             continue;
-        kd_slip_offer(&meant, name, f->name);
+        kd_spelling_offer(&meant, name, f->name);
         snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", f->name);
     }
     return kd_error_field(error, pointer, "there is no field %s here%s%s; known are %s", shown,
@@ -81,7 +81,7 @@ static void describe_allowed(const struct kd_integral_field *f, char out[KD_ALLO
         return;
     }
     snprintf(out, KD_ALLOWED_SIZE, f->open ? "%sa number above %s and below %s%s%s%s" : "%s%s to %s%s%s%s",
-             f->kind == KD_INTEGRAL_WHOLE ? "a whole number from " : "", low, high, f->words ? ", or \"" : "",
+             f->kind == KD_INTEGRAL_INT ? "a whole number from " : "", low, high, f->words ? ", or \"" : "",
              f->words ? f->words : "", f->words ? "\"" : "");
 }
 
@@ -137,7 +137,7 @@ static bool store(struct kd_integral_request *request, const struct kd_integral_
         if (inside(f, value))
             *(double *)at = value->number;
         return inside(f, value);
-    case KD_INTEGRAL_WHOLE:
+    case KD_INTEGRAL_INT:
         if (!inside(f, value) || value->number != floor(value->number))
             return false;
         *(uint32_t *)at = (uint32_t)value->number;

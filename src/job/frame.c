@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_crowd *crowd,
+enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_dynamic_bodies *crowd,
                                  double late, double most_s, const struct kd_capacity *capacity, struct kd_scene *scene,
                                  struct kd_plan *plan, struct kd_error *error)
 {

@@ -8,7 +8,7 @@
 /* Makes the scene of a frame and its plan. crowd: bodies of the playground that the frame shows, in their state `late`
  * M earlier; NULL: none. most_s: limit of the planned time; INFINITY: none. Errors name the frame and have a pointer
  * into the request; KD_ETOOBIG: the limit is exceeded. */
-enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_crowd *crowd,
+enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_dynamic_bodies *crowd,
                                  double late, double most_s, const struct kd_capacity *capacity, struct kd_scene *scene,
                                  struct kd_plan *plan, struct kd_error *error);
 

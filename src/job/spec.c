@@ -325,7 +325,7 @@ done:
 void kd_job_spec_finish(struct kd_job_spec *spec)
 {
     kd_timeline_finish(&spec->timeline);
-    kd_crowd_release(spec->first);
+    kd_dynamic_bodies_release(spec->first);
     kd_sweep_free(spec->sweep);
     *spec = (struct kd_job_spec) { 0 };
 }

@@ -24,7 +24,7 @@
 #include "playground/playground.h"
 #include "render/output/series.h"
 #include "scene/asset.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "scene/sweep.h"
 #include "scene/timeline.h"
 
@@ -36,11 +36,11 @@ struct kd_job_spec {
     unsigned frames;
     struct kd_timeline timeline; /* listed: a key for each frame; else the keyframes */
     bool listed;
-    struct kd_sweep *sweep;         /* NULL: no axes */
-    double every;                   /* of a film, time between frames, M; 0: not a film */
-    struct kd_crowd *first;         /* of a film, the bodies at its beginning, for planning; NULL afterwards */
-    const struct kd_series *series; /* "output": what the job makes of its frames */
-    bool one_exposure;              /* frames whose exposure is "auto" share one */
+    struct kd_sweep *sweep;          /* NULL: no axes */
+    double every;                    /* of a film, time between frames, M; 0: not a film */
+    struct kd_dynamic_bodies *first; /* of a film, the bodies at its beginning, for planning; NULL afterwards */
+    const struct kd_series *series;  /* "output": what the job makes of its frames */
+    bool one_exposure;               /* frames whose exposure is "auto" share one */
     struct {
         unsigned samples;
         double shutter;

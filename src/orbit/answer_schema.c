@@ -100,7 +100,7 @@ void kd_orbit_answer_schemas(struct kd_json *json)
     static const struct kd_schema_member path[] = {
         { "spin", NUMBER },
         { "fate", NULL, false, fate },
-        { "circular", KD_SCHEMA_TRUTH },
+        { "circular", KD_SCHEMA_BOOL },
         { "constants", KD_SCHEMA_REF("OrbitConstants") },
         { "turning_points", KD_SCHEMA_REF("OrbitTurningPoints") },
         { "shape", KD_SCHEMA_REF("OrbitShape"), true },

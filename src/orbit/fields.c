@@ -12,18 +12,18 @@
 enum { OPTIONAL, NEEDED };
 #define ANY KD_ORBIT_FORMS
 #define REAL KD_FIELD_IS_REAL
-#define WHOLE KD_FIELD_IS_WHOLE
-#define TRUTH KD_FIELD_IS_TRUTH
+#define INT KD_FIELD_IS_INT
+#define BOOL KD_FIELD_IS_BOOL
 #define WORD KD_FIELD_IS_WORD
 
 const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "of the hole, a/M" },
-    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE,
+    { "", "samples", INT, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE,
       .help = "of the path, both ends counted; 0 for none; of an orbit that is seen at most 20000" },
-    { "", "digits", WHOLE, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0,
+    { "", "digits", INT, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0,
       .help = "significant digits of the series as text" },
-    { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0,
+    { "", "steps", INT, AT(steps), 0, 100000000, 0, ANY, 0,
       .help = "in a radial period, instead of a tolerance; 0: by that" },
     { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0,
       .help = "relative error after a period, which chooses the step" },
@@ -31,11 +31,11 @@ const struct kd_orbit_field kd_orbit_settings[] = {
     { "", "r_max", REAL, AT(r_max), 2, 1e6, 0, ANY, 0, .help = "where what escapes is let go [M]" },
     { "", "mass_msun", REAL, AT(mass_msun), 1e-20, 1e20, 0, ANY, 0,
       .help = "of the hole [solar masses]: frequencies in Hz, the advance per century" },
-    { "", "series", TRUTH, AT(series), 0, 1, 0, ANY, 0, .help = "of a list: the samples of each, too" },
+    { "", "series", BOOL, AT(series), 0, 1, 0, ANY, 0, .help = "of a list: the samples of each, too" },
     { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0,
       .help = "radial periods, turns where r is constant" },
     { "duration", "time", REAL, AT(time), 0, 1e30, 0, ANY, 0, .help = "coordinate time [M]" },
-    { "duration", "or_end", TRUTH, AT(or_end), 0, 1, 0, ANY, 0,
+    { "duration", "or_end", BOOL, AT(or_end), 0, 1, 0, ANY, 0,
       .help = "what plunges or escapes, and has no periods, is followed to its end instead" },
     { "seen", "observer_r", REAL, AT(seen.r), 0, 1e7, 0, ANY, 0, .bound = KD_BOUND_RADIUS,
       .help = "of who sees it [M]; without it infinity" },
@@ -64,7 +64,7 @@ const struct kd_orbit_field kd_orbit_fields[] = {
       .help = "Carter's constant, per rest mass [M^2]; 0 in the equatorial plane" },
     { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_RADIUS,
       .help = "a radius on its way [M]" },
-    { "", "outward", TRUTH, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL,
+    { "", "outward", BOOL, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL,
       .help = "whether it moves outwards there" },
     { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED, .bound = KD_BOUND_RADIUS,
       .help = "radius [M]" },
@@ -108,8 +108,8 @@ static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALL
     kd_number_format(low, field->least);
     kd_number_format(high, field->most);
     switch (field->kind) {
-    case TRUTH: snprintf(out, KD_ALLOWED_SIZE, "true or false"); return;
-    case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "a whole number from %s to %s", low, high); return;
+    case BOOL: snprintf(out, KD_ALLOWED_SIZE, "true or false"); return;
+    case INT: snprintf(out, KD_ALLOWED_SIZE, "a whole number from %s to %s", low, high); return;
     case REAL: snprintf(out, KD_ALLOWED_SIZE, ranges[field->open], low, high); return;
     case WORD:
         for (int i = 0; kd_orbit_field_word(field, i) && used < KD_ALLOWED_SIZE; i++)
@@ -136,12 +136,12 @@ static bool store(void *to, const struct kd_orbit_field *field, const struct kd_
         if (good)
             *(double *)at = value->number;
         return good;
-    case WHOLE:
+    case INT:
         if (!good || value->number != floor(value->number))
             return false;
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
-    case TRUTH:
+    case BOOL:
         if (value->kind != KD_VALUE_BOOL)
             return false;
         *(bool *)at = value->number != 0;
@@ -166,5 +166,5 @@ enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, 
     kd_value_describe(value, given);
     describe_allowed(field, allowed);
     return kd_error_field(error, pointer, "%s is %s%s; it must be %s", field->name, given,
-                          field->kind == REAL || field->kind == WHOLE ? kd_value_unwanted(value) : "", allowed);
+                          field->kind == REAL || field->kind == INT ? kd_value_unwanted(value) : "", allowed);
 }

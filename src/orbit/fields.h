@@ -6,7 +6,7 @@
 #include "orbit/asked.h"
 #include "scene/value.h"
 
-enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_WHOLE, KD_FIELD_IS_TRUTH, KD_FIELD_IS_WORD };
+enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_INT, KD_FIELD_IS_BOOL, KD_FIELD_IS_WORD };
 enum kd_orbit_words { NO_WORDS, WAY_WORDS, FRAME_WORDS, CASE_WORDS };
 enum kd_orbit_open { KD_CLOSED, KD_OPEN_ABOVE, KD_OPEN };
 /* Constraints on a number besides its range that hold for every request, so that a schema can express them. Stricter

@@ -1,7 +1,7 @@
 #include "orbit/request.h"
 
 #include "base/decimal.h"
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "orbit/cases.h"
 #include "orbit/fields.h"
 #include "physics/math/angle.h"
@@ -78,7 +78,7 @@ static enum kd_status unknown(const struct target *t, const char *section, const
                               struct kd_error *error)
 {
     char shown[60], known[240] = "";
-    struct kd_slip_best meant = { 0 };
+    struct kd_spelling_best meant = { 0 };
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_orbit_field *f = &t->fields[i];
@@ -86,7 +86,7 @@ static enum kd_status unknown(const struct target *t, const char *section, const
              inner = !*section && *f->section && (!i || strcmp(f[-1].section, f->section));
         size_t used = strlen(known);
         if (own || inner)
-            kd_slip_offer(&meant, name, own ? f->name : f->section);
+            kd_spelling_offer(&meant, name, own ? f->name : f->section);
         if (own || inner)
             snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", own ? f->name : f->section);
     }

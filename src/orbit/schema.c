@@ -11,7 +11,7 @@ static void add_range(struct kd_json *json, const struct kd_orbit_field *f)
 {
     double least = f->bound == KD_BOUND_RADIUS ? 1 : f->bound == KD_BOUND_POSITIVE ? 0 : f->least;
     bool above = f->open == KD_OPEN || f->bound == KD_BOUND_RADIUS;
-    kd_json_string(json, "type", f->kind == KD_FIELD_IS_WHOLE ? "integer" : "number");
+    kd_json_string(json, "type", f->kind == KD_FIELD_IS_INT ? "integer" : "number");
     kd_json_number(json, above ? "exclusiveMinimum" : "minimum", least);
     kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
     if (f->bound == KD_BOUND_NOT_ONE)
@@ -21,7 +21,7 @@ static void add_range(struct kd_json *json, const struct kd_orbit_field *f)
 static void add_field(struct kd_json *json, const struct kd_orbit_field *f)
 {
     kd_json_object(json, f->name);
-    if (f->kind == KD_FIELD_IS_TRUTH) {
+    if (f->kind == KD_FIELD_IS_BOOL) {
         kd_json_string(json, "type", "boolean");
     } else if (f->kind == KD_FIELD_IS_WORD) {
         kd_json_array(json, "enum");

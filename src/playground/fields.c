@@ -27,12 +27,12 @@ static bool store(void *at, const struct kd_playground_setting *row, const struc
         if (inside)
             *(double *)at = value->number;
         return inside;
-    case KD_SETTING_WHOLE:
+    case KD_SETTING_INT:
         if (!inside || value->number != floor(value->number))
             return false;
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
-    case KD_SETTING_TRUTH:
+    case KD_SETTING_BOOL:
         if (value->kind == KD_VALUE_BOOL)
             *(bool *)at = value->number != 0;
         return value->kind == KD_VALUE_BOOL;
@@ -56,10 +56,10 @@ static void allowed(const struct kd_playground_setting *row, char out[KD_ALLOWED
     kd_number_format(above, row->above_0);
     if (row->above_0 > 0)
         snprintf(out, KD_ALLOWED_SIZE, "%s, or %s to %s", low, above, high);
-    else if (row->kind == KD_SETTING_TRUTH)
+    else if (row->kind == KD_SETTING_BOOL)
         snprintf(out, KD_ALLOWED_SIZE, "true or false");
     else if (row->kind != KD_SETTING_WORD)
-        snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_WHOLE ? "a whole number from " : "", low,
+        snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_INT ? "a whole number from " : "", low,
                  high);
     size_t words = 0;
     while (row->kind == KD_SETTING_WORD && kd_playground_word(row->words, (int)words, word, sizeof word))
@@ -77,7 +77,7 @@ enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *r
     kd_value_describe(value, given);
     allowed(row, may);
     return kd_error_field(error, pointer, "%s is %s%s; it must be %s", row->name, given,
-                          row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE ? kd_value_unwanted(value) : "",
+                          row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_INT ? kd_value_unwanted(value) : "",
                           may);
 }
 
@@ -87,8 +87,8 @@ void kd_playground_tell(const void *from, const struct kd_playground_setting *ro
     char word[40];
     switch (row->kind) {
     case KD_SETTING_REAL: kd_json_number(json, row->name, *(const double *)at); break;
-    case KD_SETTING_WHOLE: kd_json_number(json, row->name, *(const uint32_t *)at); break;
-    case KD_SETTING_TRUTH: kd_json_bool(json, row->name, *(const bool *)at); break;
+    case KD_SETTING_INT: kd_json_number(json, row->name, *(const uint32_t *)at); break;
+    case KD_SETTING_BOOL: kd_json_bool(json, row->name, *(const bool *)at); break;
     case KD_SETTING_WORD:
         if (kd_playground_word(row->words, *(const int *)at, word, sizeof word))
             kd_json_string(json, row->name, word);

@@ -7,10 +7,10 @@
 
 #define AT(name) offsetof(struct kd_playground_params, name)
 #define REAL(name, value, least, most, help) { #name, KD_SETTING_REAL, AT(name), value, least, most, 0, NULL, help },
-#define WHOLE(name, value, least, most, help) { #name, KD_SETTING_WHOLE, AT(name), value, least, most, 0, NULL, help },
-#define TRUTH(name, value, help) { #name, KD_SETTING_TRUTH, AT(name), value, 0, 1, 0, NULL, help },
+#define INT(name, value, least, most, help) { #name, KD_SETTING_INT, AT(name), value, least, most, 0, NULL, help },
+#define BOOL(name, value, help) { #name, KD_SETTING_BOOL, AT(name), value, 0, 1, 0, NULL, help },
 #define WORD(name, value, words, help) { #name, KD_SETTING_WORD, AT(name), value, 0, 0, 0, words, help },
-const struct kd_playground_setting kd_playground_settings[] = { KD_PLAYGROUND_SETTINGS(REAL, WHOLE, TRUTH, WORD) };
+const struct kd_playground_setting kd_playground_settings[] = { KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) };
 #undef AT
 const size_t kd_playground_n_settings = sizeof kd_playground_settings / sizeof *kd_playground_settings;
 

@@ -12,9 +12,9 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 #define KD_PLAYGROUND_BODIES_MAX 4096u
 #define KD_PLAYGROUND_DEBRIS_MAX 1000000u
 
-/* REAL and WHOLE(NAME, default, least, most, help), TRUTH(NAME, default, help), WORD(NAME, default, "a|b", help).
+/* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help).
  * gravity and spin are fixed when a playground is made. */
-#define KD_PLAYGROUND_SETTINGS(REAL, WHOLE, TRUTH, WORD) \
+#define KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) \
     WORD( \
         gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
         "the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies") \
@@ -22,20 +22,20 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
     REAL(softening, 0.05, 1e-4, 1e3, "length in M within which the pull of bodies on one another is softened") \
     REAL(h_max, 1, 1e-6, 1e6, "longest sub-step in M; debris moves on so often") \
     REAL(safety, 0.03, 1e-4, 0.2, "C of the sub-step's bound C (r - 2), and of the same for two bodies") \
-    WHOLE(budget, 20000, 1, 100000000, \
-          "most sub-steps of one advance; when they are spent, less time has gone by than was asked for") \
-    TRUTH(mergers, true, "bodies that touch become one") \
-    TRUTH(tides, true, "the hole's tide sheds a star's mass, and tears it apart") \
-    TRUTH(waves, false, "bodies lose energy to gravitational waves") \
+    INT(budget, 20000, 1, 100000000, \
+        "most sub-steps of one advance; when they are spent, less time has gone by than was asked for") \
+    BOOL(mergers, true, "bodies that touch become one") \
+    BOOL(tides, true, "the hole's tide sheds a star's mass, and tears it apart") \
+    BOOL(waves, false, "bodies lose energy to gravitational waves") \
     REAL(amplification, 1, 0, 1e9, "by how much that loss is exaggerated; 1 is the real one") \
-    TRUTH(feeds, true, "debris that has come back is counted and leaves, as part of the disk; else it goes on") \
-    WHOLE(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, \
-          "pieces of debris there may be; a new one takes the place of the oldest") \
-    WHOLE(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
+    BOOL(feeds, true, "debris that has come back is counted and leaves, as part of the disk; else it goes on") \
+    INT(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, \
+        "pieces of debris there may be; a new one takes the place of the oldest") \
+    INT(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
     REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the black body that debris shines as in pictures") \
     REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
     REAL(albedo, 0, 0, 1, "share of the disk's light that bodies throw back in pictures; 0: that is not looked for") \
-    WHOLE(seed, 1, 0, 4294967295u, "of the directions that debris takes")
+    INT(seed, 1, 0, 4294967295u, "of the directions that debris takes")
 
 struct kd_playground_params {
 #define KD_REAL_(name, ...) double name;
@@ -50,7 +50,7 @@ struct kd_playground_params {
 };
 
 /* Also used for the table of a body's fields, except "position" and "velocity". */
-enum kd_playground_kind { KD_SETTING_REAL, KD_SETTING_WHOLE, KD_SETTING_TRUTH, KD_SETTING_WORD };
+enum kd_playground_kind { KD_SETTING_REAL, KD_SETTING_INT, KD_SETTING_BOOL, KD_SETTING_WORD };
 struct kd_playground_setting {
     const char *name;
     enum kd_playground_kind kind;

@@ -31,7 +31,7 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
 {
-    static const struct kd_playground_setting id_row = { "id", KD_SETTING_WHOLE, 0, 0, 1, UINT32_MAX, 0, NULL, NULL };
+    static const struct kd_playground_setting id_row = { "id", KD_SETTING_INT, 0, 0, 1, UINT32_MAX, 0, NULL, NULL };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(item))
         return kd_error_field(error, pointer, "a body is an object");

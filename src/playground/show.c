@@ -110,11 +110,11 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
 /* Chooses the smallest cells that leave enough pieces in each occupied cell. The estimate is from the coarsest grid;
  * a stream of debris is narrower than its cells, and so fills fewer small ones. A grid that does not go all round
  * has one more column of nodes at its end. */
-void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_debris *out)
+void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out)
 {
     struct taken taken;
     uint32_t first, columns, finer = 1;
-    *out = (struct kd_crowd_debris) { 0 };
+    *out = (struct kd_dynamic_bodies_debris) { 0 };
     if (!take(places, n, &taken) || !taken.pieces)
         return;
     beside_gap(taken.column, &first, &columns);
@@ -124,7 +124,7 @@ void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_
     while (finer < COARSER && mean >= PER_CELL * 4 * finer * finer &&
            (2 * finer * rows + 1) * (2 * finer * columns + 1) <= KD_SHOW_NODES)
         finer *= 2;
-    *out = (struct kd_crowd_debris) {
+    *out = (struct kd_dynamic_bodies_debris) {
         .turn = finer * KD_SHOW_TURN_LEAST,
         .rows = finer * (uint32_t)rows + 1,
         .columns = finer * columns + !round_,
@@ -156,7 +156,7 @@ static void seen_velocity(const struct kd_debris_piece *p, bool approximate, flo
 }
 
 void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n,
-                       const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_crowd_debris *to)
+                       const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_dynamic_bodies_debris *to)
 {
     const float scale = (float)to->turn / KD_SHOW_TURN_MOST, turn = (float)to->turn;
     const size_t width = KD_CROWD_NODE * (size_t)to->columns;
@@ -184,21 +184,21 @@ void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_sho
     to->thick = to->pieces ? thick / to->pieces : 0;
 }
 
-enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd **out, struct kd_error *error)
+enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out, struct kd_error *error)
 {
     const bool approximate = p->params.gravity == KD_GRAVITY_PACZYNSKI_WIITA;
     const size_t n = p->debris.used;
     float worth[KD_DEBRIS_SOURCES];
     struct kd_show_place *places = malloc((n + 1) * sizeof *places);
-    struct kd_crowd_debris grid = { 0 };
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies_debris grid = { 0 };
+    struct kd_dynamic_bodies *crowd = NULL;
     enum kd_status status =
         places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
     KD_TRY(status);
     kd_show_places(p->debris.pieces, n, places);
     if (p->debris.alive)
         kd_show_grid(places, n, &grid);
-    KD_TRY(kd_crowd_create(p->n, grid.rows, grid.columns, &crowd, error));
+    KD_TRY(kd_dynamic_bodies_create(p->n, grid.rows, grid.columns, &crowd, error));
     for (size_t i = 0; i < p->n; i++)
         show_body(&p->bodies[i], (uint32_t)i, approximate, p->params.albedo, &crowd->bodies[i]);
     grid.nodes = crowd->debris.nodes;
@@ -217,7 +217,7 @@ done:
     return status;
 }
 
-enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_crowd **out, struct kd_error *error)
+enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status;
@@ -225,7 +225,7 @@ enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_crowd
     status = kd_playground_write(p, true, &text);
     if (status) {
         kd_error_set(error, status, "out of memory for a snapshot");
-        kd_crowd_release(*out);
+        kd_dynamic_bodies_release(*out);
         *out = NULL;
         goto done;
     }

@@ -7,21 +7,23 @@
  * u/sqrt(1 + u^2) relative to that observer. For comparison, circular orbits have (gamma v)^2 = 1/(r - 3) in
  * Schwarzschild's metric, and u^2 = r/(r - 2)^2.
  *
- * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_crowd_debris). A piece counts as
- * its share of its body's mass, according to the number of pieces a body split into when it was torn off. */
+ * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_dynamic_bodies_debris). A piece
+ * counts as its share of its body's mass, according to the number of pieces a body split into when it was torn off. */
 #ifndef KD_PLAYGROUND_SHOW_H
 #define KD_PLAYGROUND_SHOW_H
 
 #include "playground/playground.h"
 #include "playground/preset.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "scene/scene.h"
 
 /* The caller gets a reference to *out. */
-enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd **out, struct kd_error *error);
+enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out,
+                                  struct kd_error *error);
 
 /* The same, with the hash of the state, for files of pictures. */
-enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_crowd **out, struct kd_error *error);
+enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
+                                        struct kd_error *error);
 
 /* KD_EINVAL if the scene cannot show this playground: with gravity "kerr" the spins must be equal. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
@@ -41,8 +43,8 @@ struct kd_show_place {
     float row, column;
 }; /* in cells of KD_SHOW_TURN_MOST a turn, column from 0; NAN: not in the picture */
 void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_show_place *out);
-void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_debris *out);
+void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out);
 void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n,
-                       const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_crowd_debris *to);
+                       const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_dynamic_bodies_debris *to);
 
 #endif

@@ -20,12 +20,12 @@
 struct number {
     const char *name;
     size_t offset;
-    enum { REAL, TIME, COUNT, COUNT32, TRUTH } kind;
+    enum { REAL, TIME, COUNT, COUNT32, BOOL } kind;
 };
 #define OF(type, member, kind) { #member, offsetof(struct type, member), kind }
 static const struct number whole[] = { OF(kd_playground, t, TIME),          OF(kd_playground, steps, COUNT),
                                        OF(kd_playground, last_id, COUNT32), OF(kd_playground, rate, REAL),
-                                       OF(kd_playground, random, COUNT),    OF(kd_playground, held, TRUTH) };
+                                       OF(kd_playground, random, COUNT),    OF(kd_playground, held, BOOL) };
 static const struct number spent[] = {
     OF(kd_playground_spent, captured_mass, REAL), OF(kd_playground_spent, captured_energy, REAL),
     OF(kd_playground_spent, merged, REAL),        OF(kd_playground_spent, capped, REAL),
@@ -33,11 +33,11 @@ static const struct number spent[] = {
     OF(kd_playground_spent, torn_energy, REAL),   OF(kd_playground_spent, given, REAL)
 };
 static const struct number body[] = {
-    OF(kd_playground_body, id, COUNT32),         OF(kd_playground_body, whole_mass, REAL),
-    OF(kd_playground_body, whole_radius, REAL),  OF(kd_playground_body, depth, REAL),
-    OF(kd_playground_body, shed, REAL),          OF(kd_playground_body, told, REAL),
-    OF(kd_playground_body, source, COUNT32),     OF(kd_playground_body, radiated, REAL),
-    OF(kd_playground_body, told_inspiral, TRUTH)
+    OF(kd_playground_body, id, COUNT32),        OF(kd_playground_body, whole_mass, REAL),
+    OF(kd_playground_body, whole_radius, REAL), OF(kd_playground_body, depth, REAL),
+    OF(kd_playground_body, shed, REAL),         OF(kd_playground_body, told, REAL),
+    OF(kd_playground_body, source, COUNT32),    OF(kd_playground_body, radiated, REAL),
+    OF(kd_playground_body, told_inspiral, BOOL)
 };
 static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32),
                                         OF(kd_playground_debris, next, COUNT32),
@@ -59,7 +59,7 @@ static void write_numbers(const void *from, const struct number *table, size_t n
         case TIME: kd_json_number(json, table[i].name, *(const double *)at); break;
         case COUNT: kd_json_number(json, table[i].name, (double)*(const uint64_t *)at); break;
         case COUNT32: kd_json_number(json, table[i].name, *(const uint32_t *)at); break;
-        case TRUTH: kd_json_number(json, table[i].name, *(const bool *)at); break;
+        case BOOL: kd_json_number(json, table[i].name, *(const bool *)at); break;
         }
     }
 }
@@ -144,7 +144,7 @@ static const struct range {
     bool whole;
 } ranges[] = {
     [REAL] = { -MOST, MOST, false },     [TIME] = { 0, LAST, false }, [COUNT] = { 0, WHOLE, true },
-    [COUNT32] = { 0, UINT32_MAX, true }, [TRUTH] = { 0, 1, true },
+    [COUNT32] = { 0, UINT32_MAX, true }, [BOOL] = { 0, 1, true },
 };
 
 static enum kd_status read_numbers(void *to, const struct number *table, size_t n, const cJSON *item,
@@ -166,7 +166,7 @@ static enum kd_status read_numbers(void *to, const struct number *table, size_t 
         case TIME: *(double *)at = x; break;
         case COUNT: *(uint64_t *)at = (uint64_t)x; break;
         case COUNT32: *(uint32_t *)at = (uint32_t)x; break;
-        case TRUTH: *(bool *)at = x != 0; break;
+        case BOOL: *(bool *)at = x != 0; break;
         }
     }
     return KD_OK;

@@ -2,7 +2,7 @@
 #include "quantity/quantity.h"
 
 #include "base/decimal.h"
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "scene/number.h"
 #include "scene/text.h"
 
@@ -125,10 +125,10 @@ static enum kd_status unknown(const struct kd_quantity *quantity, const char *po
 {
     char given[64], known[300];
     size_t used = 0;
-    struct kd_slip_best meant = { 0 };
+    struct kd_spelling_best meant = { 0 };
     kd_text_clip(given, sizeof given, name);
     for (size_t i = 0; i < quantity->n_parameters; i++)
-        kd_slip_offer(&meant, name, quantity->parameters[i].name);
+        kd_spelling_offer(&meant, name, quantity->parameters[i].name);
     for (size_t i = 0; i < quantity->n_parameters && used < sizeof known; i++)
         used +=
             (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", quantity->parameters[i].name);

@@ -1,6 +1,6 @@
 #include "scene/hint.h"
 
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "scene/table.h"
 #include "scene/text.h"
 
@@ -26,27 +26,28 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
 /* Writes "; did you mean camera.r?" or "; known are ...". */
 static void hint(const char *section, size_t index, const char *name, char out[HINT_SIZE])
 {
-    int best = KD_SLIP_FAR;
+    int best = KD_SPELLING_FAR;
     char meant[KD_PATH_SIZE] = "";
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
         /* Another section adds one: the same name there is as near as a misspelt name here. */
-        int score = kd_slip(name, field->name) + (strcmp(section, field->section) ? 1 : 0) +
-                    (kd_slip_distance(section, field->section) > 2 ? 1 : 0);
+        int score = kd_spelling_score(name, field->name) + (strcmp(section, field->section) ? 1 : 0) +
+                    (kd_spelling_distance(section, field->section) > 2 ? 1 : 0);
         if (score < best) {
             best = score;
             kd_field_path(field, strcmp(section, field->section) ? 0 : index, meant);
         }
     }
     for (size_t i = 0; !*section && i + 1 < KD_SECTION_COUNT; i++) {
-        int score = kd_slip(name, kd_section_member(&kd_sections[i])) + (strchr(kd_sections[i].name, '.') ? 1 : 0);
+        int score =
+            kd_spelling_score(name, kd_section_member(&kd_sections[i])) + (strchr(kd_sections[i].name, '.') ? 1 : 0);
         if (score < best) {
             best = score;
             snprintf(meant, sizeof meant, "%s", kd_sections[i].name);
         }
     }
     const struct kd_section *home = kd_section_find(section);
-    if (best < KD_SLIP_FAR)
+    if (best < KD_SPELLING_FAR)
         snprintf(out, HINT_SIZE, "; did you mean %s?", meant);
     else
         known_names(home ? home : &kd_sections[KD_SECTION_COUNT - 1], out);

@@ -1,7 +1,7 @@
 #include "scene/label.h"
 #include "scene/presets.h"
 
-#include "base/slip.h"
+#include "base/spelling.h"
 #include "scene/scene.h"
 #include "scene/text.h"
 
@@ -245,10 +245,10 @@ const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
 static enum kd_status unknown(const char *name, struct kd_error *error)
 {
     char known[480] = "", shown[48];
-    struct kd_slip_best meant = { 0 };
+    struct kd_spelling_best meant = { 0 };
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0, used = 0; i < kd_preset_count && used < sizeof known; i++) {
-        kd_slip_offer(&meant, name, kd_presets[i].name);
+        kd_spelling_offer(&meant, name, kd_presets[i].name);
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_presets[i].name);
     }
     if (meant.name)

@@ -44,11 +44,11 @@ struct kd_words {
 /* A member for each section: struct kd_camera camera, ... Members of the document itself are in `top`. A list is
  * struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots; elements from count on hold their defaults,
  * so that equal scenes have equal bytes. */
-struct kd_crowd;
+struct kd_dynamic_bodies;
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
     struct kd_scene_crowd {
-        const struct kd_crowd *at;
+        const struct kd_dynamic_bodies *at;
         uint64_t generation;
     } crowd; /* moving content shown beside the fields (scene/crowd.h); NULL and 0: none */
 };

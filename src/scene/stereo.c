@@ -61,7 +61,7 @@ static void along(const struct kd_vantage *at, const struct kd_covector *leg, bo
     out[2] += r * (leg->momentum - a * s * leg->energy + (a == 0 ? 0 : a * s * p / delta)) / sigma;
 }
 
-static void step_aside(const struct kd_scene *scene, const double local[3], double out[3])
+static void leave_background_render(const struct kd_scene *scene, const double local[3], double out[3])
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     struct kd_vantage at = kd_scene_vantage(scene);
@@ -99,7 +99,7 @@ struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side)
     double aside[3], local[3];
     for (int i = 0; i < 3; i++)
         local[i] = 0.5 * side * c->eye_distance * v.right[i];
-    step_aside(scene, local, aside);
+    leave_background_render(scene, local, aside);
     aside[0] += at.r;
     const struct vec place = outwards(&here, aside);
     const double rho = hypot(place.x[0], place.x[1]), azimuth = atan2(place.x[1], place.x[0]);

@@ -10,7 +10,7 @@
 #include "server/http/library.h"
 #include "server/http/measures.h"
 #include "server/http/negotiate.h"
-#include "server/http/prompt.h"
+#include "server/http/sched_slice.h"
 #include "server/http/request_log.h"
 #include "server/answers/orbits.h"
 #include "server/asset/store.h"
@@ -52,7 +52,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_prompt_thread(); /* no earlier code of ours runs on a daemon's thread */
+            kd_sched_short_slices(); /* no earlier code of ours runs on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -126,7 +126,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     kd_particles_job_destroy(request->particles);
     kd_task_destroy(request->task);
     kd_live_abandon(request);
-    kd_play_abandon(request);
+    kd_playground_session_abandon(request);
     kd_once_end(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);

@@ -5,9 +5,9 @@
 #include "server/asset/store.h"
 #include "server/http/access.h"
 #include "server/http/cors.h"
-#include "server/http/guesses.h"
+#include "server/http/auth_throttle.h"
 #include "server/http/descriptors.h"
-#include "server/keeper.h"
+#include "server/reaper.h"
 #include "server/http/library.h"
 #include "server/http/listen.h"
 #include "server/http/measures.h"
@@ -16,7 +16,7 @@
 #include "server/http/request.h"
 #include "server/http/service.h"
 #include "server/job/jobs.h"
-#include "server/openapi/kept.h"
+#include "server/openapi/cached_documents.h"
 #include "server/playground/plays.h"
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
@@ -101,11 +101,11 @@ static enum kd_status start_http(struct kd_server *server, int listener, unsigne
     return kd_front_create(&front, &server->front, error);
 }
 
-static enum kd_status start_keeper(struct kd_server *server, struct kd_error *error)
+static enum kd_status start_reaper(struct kd_server *server, struct kd_error *error)
 {
-    if (pthread_create(&server->keeper, NULL, kd_keeper_main, server))
-        return kd_error_set(error, KD_ENOMEM, "the keeper thread could not be started");
-    server->keeper_runs = true;
+    if (pthread_create(&server->reaper, NULL, kd_reaper_main, server))
+        return kd_error_set(error, KD_ENOMEM, "the reaper thread could not be started");
+    server->reaper_runs = true;
     return KD_OK;
 }
 
@@ -143,7 +143,7 @@ static enum kd_status start_plays(struct kd_server *server, const struct kd_serv
 {
     const unsigned most = or_default(params->playgrounds, 16);
     const size_t bytes = params->playgrounds_kib ? (size_t)params->playgrounds_kib << 10 : KD_PLAYS_BYTES;
-    const struct kd_plays_params plays = {
+    const struct kd_playground_sessions_params plays = {
         .sessions = server->sessions,
         .renders = server->renders,
         .limit = most,
@@ -152,7 +152,7 @@ static enum kd_status start_plays(struct kd_server *server, const struct kd_serv
         .bytes = bytes,
         .client_bytes = (size_t)bytes_share_of(params, bytes),
     };
-    return kd_plays_create(&plays, &server->plays, error);
+    return kd_playground_sessions_create(&plays, &server->plays, error);
 }
 
 static enum kd_status start_jobs(struct kd_server *server, const struct kd_server_params *params,
@@ -232,13 +232,13 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
-    if (params->token_file && !(server->guesses = kd_guesses_create()))
+    if (params->token_file && !(server->auth_throttle = kd_auth_throttle_create()))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     if (params->cors_origins || params->embed_origins)
         KD_TRY(kd_cors_create(params->cors_origins, params->embed_origins, &server->cors, error));
     KD_TRY(kd_public_url_make(params->public_url, &server->base, &server->public_url, &public_host, error));
     KD_TRY(collect_hosts(server, address, public_host, params->hosts, error));
-    KD_TRY(kd_kept_create(server->base.path, server->access != NULL, &server->kept, error));
+    KD_TRY(kd_cached_documents_create(server->base.path, server->access != NULL, &server->kept, error));
     /* Opens the socket first: opening a device takes long, and "address in use" is the most common failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);
@@ -250,8 +250,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     set_etag_tail(server);
     const struct kd_renderer_params renderer = renderer_params(server, params);
     KD_TRY(kd_thumbnails_create(server, &renderer, &server->thumbnails, error));
-    KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->rays, error));
-    KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->turns, error));
+    KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->rays, error));
+    KD_TRY(kd_scheduler_create(tasks, share_of(params, tasks), &server->turns, error));
     KD_TRY(start_sessions(server, params, error));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
@@ -261,7 +261,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     const int listening = fd;
     fd = -1; /* from here on closed by the front */
     KD_TRY(start_http(server, listening, connections, error));
-    KD_TRY(start_keeper(server, error));
+    KD_TRY(start_reaper(server, error));
 done:
     free(public_host);
     if (fd >= 0)
@@ -296,7 +296,7 @@ void kd_server_stop(struct kd_server *server)
     uint64_t one = 1;
     atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
     if (write(server->stop_fd, &one, sizeof one) < 0) {
-        /* The counter is full, so the keeper has been woken. */
+        /* The counter is full, so the reaper has been woken. */
     }
 }
 
@@ -313,10 +313,10 @@ void kd_server_destroy(struct kd_server *server)
 {
     if (!server)
         return;
-    if (server->keeper_runs) {
+    if (server->reaper_runs) {
         atomic_store(&server->abandon, true);
         kd_server_stop(server);
-        pthread_join(server->keeper, NULL);
+        pthread_join(server->reaper, NULL);
     } else {
         kd_front_destroy(server->front);
         if (server->daemon)
@@ -327,12 +327,12 @@ void kd_server_destroy(struct kd_server *server)
     if (server->sessions)
         kd_sessions_close(server->sessions);
     if (server->plays)
-        kd_plays_close(server->plays);
+        kd_playground_sessions_close(server->plays);
     if (server->jobs)
         kd_jobs_close(server->jobs);
-    kd_plays_destroy(server->plays);
-    kd_turns_destroy(server->turns);
-    kd_turns_destroy(server->rays);
+    kd_playground_sessions_destroy(server->plays);
+    kd_scheduler_destroy(server->turns);
+    kd_scheduler_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
     kd_sessions_destroy(server->sessions); /* after the queue, whose last frames refer to sessions */
@@ -341,7 +341,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_connections_destroy(server->connections);
     kd_bytes_destroy(server->bodies);
     kd_bytes_destroy(server->replies);
-    kd_kept_destroy(server->kept);
+    kd_cached_documents_destroy(server->kept);
     kd_measures_destroy(server->measures);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);
@@ -349,7 +349,7 @@ void kd_server_destroy(struct kd_server *server)
     free(server->public_url);
     kd_names_free(server->own);
     kd_access_free(server->access);
-    kd_guesses_destroy(server->guesses);
+    kd_auth_throttle_destroy(server->auth_throttle);
     kd_cors_destroy(server->cors);
     if (server->stop_fd >= 0)
         close(server->stop_fd);

@@ -45,7 +45,7 @@ static bool is_small(const struct kd_playground *p)
 
 static void check(struct kd_playground *p)
 {
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies *crowd = NULL;
     struct kd_error error = { 0 };
     for (size_t i = 0; i < p->n; i++)
         for (int k = 0; k < 3; k++)
@@ -58,7 +58,7 @@ static void check(struct kd_playground *p)
     const enum kd_status status = kd_playground_show(p, &crowd, &error);
     if (status)
         kd_fuzz_refused(status, &error);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
 }
 
 static void change(struct kd_playground **p, const struct kd_fuzz_text *patch)
@@ -77,7 +77,7 @@ static void step(struct kd_playground *p, const struct kd_fuzz_text *text)
     struct kd_error error = { 0 };
     struct kd_playground_run run;
     double by = 0;
-    const enum kd_status status = kd_play_read_step(text->at, text->size, &by, &error);
+    const enum kd_status status = kd_playground_session_read_step(text->at, text->size, &by, &error);
     if (status) {
         kd_fuzz_refused(status, &error);
         return;

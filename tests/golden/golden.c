@@ -147,11 +147,11 @@ static void sky_shot(size_t i, char name[64], char json[640], struct shot *out)
     *out = (struct shot) { .name = name, .json = json };
 }
 
-static struct kd_crowd *crowd_of(const struct shot *shot)
+static struct kd_dynamic_bodies *crowd_of(const struct shot *shot)
 {
     struct kd_playground_progress progress;
     struct kd_playground *p = NULL;
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies *crowd = NULL;
     struct kd_error error;
     enum kd_status status = kd_playground_read(shot->playground, strlen(shot->playground), &p, &error);
     if (!status)
@@ -171,11 +171,11 @@ static struct kd_crowd *crowd_of(const struct shot *shot)
 static struct kd_frame render(const struct shot *shot, const struct kd_scene *scene)
 {
     struct kd_scene shown = *scene;
-    struct kd_crowd *crowd = shot->playground ? crowd_of(shot) : NULL;
+    struct kd_dynamic_bodies *crowd = shot->playground ? crowd_of(shot) : NULL;
     if (crowd)
         kd_scene_show(&shown, crowd);
     struct kd_frame frame = studio_render(&shown);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     return frame;
 }
 

@@ -111,8 +111,8 @@ struct judged {
 };
 
 /* A picture of one image: each pixel shows the body where the oracle says so, or one that the ray met before. */
-static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t which, const double at[2], double size,
-                  struct judged *sum)
+static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *crowd, uint32_t which, const double at[2],
+                  double size, struct judged *sum)
 {
     char set[64];
     const double field = 5 * size, step = field / WIDTH;
@@ -157,7 +157,7 @@ static void test_places(void **state)
     struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70},\"spacetime\":{\"spin\":0.7},\"disk\":{"
                                      "\"inner\":5,\"outer\":5.001},\"image\":{\"layers\":[\"rgb\",\"temperature\"]}}");
     struct kd_playground *p = many(scene.spacetime.spin);
-    struct kd_crowd *crowd;
+    struct kd_dynamic_bodies *crowd;
     struct judged first = { 0 }, second = { 0 };
     OK(kd_playground_may_show(p, &scene, &error));
     OK(kd_playground_show(p, &crowd, &error));
@@ -190,13 +190,13 @@ static void test_places(void **state)
            first.images, first.shown, first.hidden, first.worst, second.images, second.shown, second.hidden,
            second.worst);
     assert_true(first.images >= 30 && second.images >= 5 && first.worst < 0.5 && second.worst < 0.5);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
 }
 
-static struct kd_crowd *one(const struct kd_seen_body *body, size_t n)
+static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
 {
-    struct kd_crowd *crowd;
-    OK(kd_crowd_create(n, 0, 0, &crowd, &error));
+    struct kd_dynamic_bodies *crowd;
+    OK(kd_dynamic_bodies_create(n, 0, 0, &crowd, &error));
     for (size_t i = 0; i < n; i++)
         crowd->bodies[i] = *body;
     return crowd;
@@ -217,15 +217,15 @@ static void test_as_a_scene_has_it(void **state)
                  phases[k]);
         struct kd_scene own = scene_of(json), other = own;
         const struct kd_body *b = &own.bodies.at[0];
-        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = b->r,
-                                                              .u = cos(65 * M_PI / 180),
-                                                              .s = sin(65 * M_PI / 180),
-                                                              .phi = phases[k] * M_PI / 180,
-                                                              .radius = b->radius,
-                                                              .temperature_k = b->temperature_k,
-                                                              .brightness = 1,
-                                                              .limb_darkening = b->limb_darkening },
-                                     1);
+        struct kd_dynamic_bodies *crowd = one(&(struct kd_seen_body) { .r = b->r,
+                                                                       .u = cos(65 * M_PI / 180),
+                                                                       .s = sin(65 * M_PI / 180),
+                                                                       .phi = phases[k] * M_PI / 180,
+                                                                       .radius = b->radius,
+                                                                       .temperature_k = b->temperature_k,
+                                                                       .brightness = 1,
+                                                                       .limb_darkening = b->limb_darkening },
+                                              1);
         other.bodies.at[0].radius = 0;
         kd_scene_show(&other, crowd);
         struct kd_frame a = rendered(&own), c = rendered(&other);
@@ -240,7 +240,7 @@ static void test_as_a_scene_has_it(void **state)
         assert_true(lit > 20);
         kd_frame_finish(&a);
         kd_frame_finish(&c);
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
 }
 
@@ -262,7 +262,7 @@ static void test_dark(void **state)
                                            .temperature_k = k == 1 ? 0 : 6000,
                                            .brightness = k == 1 ? 1 : 0,
                                            .limb_darkening = 0.6 };
-        struct kd_crowd *crowd = one(&body, 1);
+        struct kd_dynamic_bodies *crowd = one(&body, 1);
         struct kd_capacity c;
         struct kd_plan plan;
         kd_scene_show(&scene, crowd);
@@ -273,7 +273,7 @@ static void test_dark(void **state)
         for (size_t i = 0; i < plan.n_approximations; i++)
             told |= strstr(plan.approximations[i].text, "they have no radius") != NULL;
         assert_true(told == (k == 2));
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
     int hidden = 0;
     for (int i = 0; i < PIXELS; i++) {
@@ -315,9 +315,9 @@ static void test_debris(void **state)
                      "\"orders\":1},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         const double cell = 2 * M_PI / 512, worth = 3e-5, kelvin = 5000, *v = velocities[k];
         const int32_t from = (int32_t)floor(log(4) / cell);
-        struct kd_crowd *crowd;
+        struct kd_dynamic_bodies *crowd;
         const uint32_t rows = (uint32_t)ceil(log(18) / cell) - (uint32_t)from;
-        OK(kd_crowd_create(0, rows, 512, &crowd, &error));
+        OK(kd_dynamic_bodies_create(0, rows, 512, &crowd, &error));
         crowd->debris.turn = 512;
         crowd->debris.first_row = from;
         crowd->debris.depth = 1;
@@ -356,7 +356,7 @@ static void test_debris(void **state)
         printf("debris of velocity %g, %g: %d pixels, worst %.2g\n", v[0], v[1], lit, worst);
         assert_true(lit > 60 && worst < 1e-3);
         kd_frame_finish(&frame);
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
 }
 
@@ -396,8 +396,8 @@ static void test_lit_moving(void **state)
     struct kd_scene scene =
         scene_of("{\"spacetime\":{\"spin\":0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0}}");
     const double r = 60, u = 0.6, s = 0.8, inner = kd_disk_inner(&scene), dr = (25 - inner) / FINE;
-    struct kd_lit lit;
-    assert_true(kd_lit_of(&scene, &lit));
+    struct kd_illumination lit;
+    assert_true(kd_illumination_of(&scene, &lit));
     for (int k = 0; k < 3; k++) {
         const double *v = velocities[k], v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], gamma = 1 / sqrt(1 - v2);
         const struct kd_seen_body body = {
@@ -405,7 +405,7 @@ static void test_lit_moving(void **state)
         };
         double sums[10] = { 0 };
         float got[12];
-        kd_lit_body(&lit, &body, sqrt(1 - 2 / r), got);
+        kd_illumination_body(&lit, &body, sqrt(1 - 2 / r), got);
         for (int i = 0; i < FINE * FINE; i++) {
             const double at = inner + dr * (i / FINE + 0.5), phi = 2 * M_PI * (i % FINE + 0.5) / FINE,
                          t = kd_disk_heat(&scene, at);
@@ -458,14 +458,14 @@ static void test_lit(void **state)
                                          "\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         const double theta = polar[k] * M_PI / 180, phi = 2.6, r = 150, i = 70 * M_PI / 180, step = 30.0 / WIDTH;
         const double at[3] = { r * sin(theta) * cos(phi), r * sin(theta) * sin(phi), r * cos(theta) };
-        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = r,
-                                                              .u = cos(theta),
-                                                              .s = sin(theta),
-                                                              .phi = phi,
-                                                              .radius = 6,
-                                                              .temperature_k = 5000,
-                                                              .albedo = 0.5 },
-                                     1);
+        struct kd_dynamic_bodies *crowd = one(&(struct kd_seen_body) { .r = r,
+                                                                       .u = cos(theta),
+                                                                       .s = sin(theta),
+                                                                       .phi = phi,
+                                                                       .radius = 6,
+                                                                       .temperature_k = 5000,
+                                                                       .albedo = 0.5 },
+                                              1);
         /* Weakly bent: a first guess of its place is enough, since the picture is wide. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
@@ -489,7 +489,7 @@ static void test_lit(void **state)
                most);
         assert_true(want > 0 && fabs(sum / want - 1) < 0.1);
         kd_frame_finish(&frame);
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
 }
 
@@ -506,8 +506,9 @@ static void test_adversarial(void **state)
         body.velocity[0] = k == 4 ? 1 : k == 5 ? -0.9999999 : 0;
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
-        struct kd_crowd *crowd = one(&body, k == 5 ? 64 : MANY); /* so fast that it is drawn out: no ray misses it */
-        for (size_t i = 0; k == 7 && i < MANY; i++) {            /* bodies everywhere */
+        struct kd_dynamic_bodies *crowd =
+            one(&body, k == 5 ? 64 : MANY);           /* so fast that it is drawn out: no ray misses it */
+        for (size_t i = 0; k == 7 && i < MANY; i++) { /* bodies everywhere */
             crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             crowd->bodies[i].phi = 1e3 * chance();
             crowd->bodies[i].radius = 1e3 * pow(chance(), 9);
@@ -520,7 +521,7 @@ static void test_adversarial(void **state)
         printf("crowd %d: march %.3g ms, %llu given up\n", k, timing_of(&frame, "march"),
                (unsigned long long)frame.accuracy.undecided);
         kd_frame_finish(&frame);
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
 }
 
@@ -529,7 +530,8 @@ static void test_off(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of("{\"disk\":{\"model\":\"novikov-thorne\"}}"), shown = scene;
-    struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000 }, 0);
+    struct kd_dynamic_bodies *crowd =
+        one(&(struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000 }, 0);
     struct kd_capacity c;
     struct kd_plan without, with;
     kd_scene_show(&shown, crowd);
@@ -539,7 +541,7 @@ static void test_off(void **state)
     assert_memory_equal(without.traits, with.traits, sizeof with.traits);
     assert_string_equal(without.lens_key, with.lens_key);
     assert_true(!with.march.steps);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
 }
 
 int main(void)

@@ -5,7 +5,7 @@
 #include "render/device/internal.h"
 #include "render/frame/compilation.h"
 #include "render/rays/rays.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "vk/device.h"
 
 /* As test_pieces of test_march_rays.c. */
@@ -244,7 +244,7 @@ static void steps_of_a_pixel(void **state)
 }
 
 static struct lack {
-    int times, asides;
+    int times, background_renders;
     bool gives_up;
 } lack;
 
@@ -252,7 +252,7 @@ static bool lacks(void *user, struct kd_compilation *c, bool aside)
 {
     assert_ptr_equal(user, &lack);
     lack.times++;
-    lack.asides += aside;
+    lack.background_renders += aside;
     const uint32_t before = made();
     compiled(c);
     assert_int_equal(made(), before + 1);
@@ -276,7 +276,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
         compiled(kd_compilation_begin(renderer, &scene, &plan));
         struct kd_error why = { 0 };
         const enum kd_status status =
-            i == 1 ? kd_render_aside(renderer, &scene, &plan, goes_on, NULL, NULL, &frames[i], &why)
+            i == 1 ? kd_render_in_background(renderer, &scene, &plan, goes_on, NULL, NULL, &frames[i], &why)
                    : kd_render(renderer, &scene, &plan, NULL, NULL, &frames[i], &why);
         assert_int_equal(status, i == 2 ? KD_ECANCELLED : KD_OK);
         if (!lack.times) {
@@ -284,7 +284,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
             skip();
         }
         assert_int_equal(lack.times, 1);
-        assert_int_equal(lack.asides, i == 1);
+        assert_int_equal(lack.background_renders, i == 1);
     }
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error)); /* once more, now that it is there */
     assert_int_equal(lack.times, 1);
@@ -327,11 +327,11 @@ static void bodies_are_held_while_kernels_are_compiled(void **state)
     struct kd_scene scene;
     struct kd_plan plan;
     struct kd_capacity capacity;
-    struct kd_crowd *crowd;
+    struct kd_dynamic_bodies *crowd;
     kd_scene_smooth(&scene);
     scene.image.width = 67;
     scene.image.height = 36;
-    OK(kd_crowd_create(1, 0, 0, &crowd, &error));
+    OK(kd_dynamic_bodies_create(1, 0, 0, &crowd, &error));
     crowd->bodies[0] = (struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000, .brightness = 1 };
     kd_scene_show(&scene, crowd);
     kd_renderer_capacity(renderer, &capacity);
@@ -340,13 +340,13 @@ static void bodies_are_held_while_kernels_are_compiled(void **state)
     struct kd_compilation *c = kd_compilation_begin(renderer, &scene, &plan);
     assert_non_null(c);
     assert_int_equal(atomic_load(&crowd->holders), 2);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     OK(kd_compilation_run(c, goes_on, NULL, &error));
     assert_int_equal(atomic_load(&crowd->holders), 1);
-    kd_crowd_keep(crowd);
+    kd_dynamic_bodies_keep(crowd);
     kd_compilation_end(c);
     assert_int_equal(atomic_load(&crowd->holders), 1);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
 }
 
 int main(void)

@@ -192,10 +192,10 @@ static void test_profiles(void **state)
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);
     for (size_t k = 0; k < sizeof promises / sizeof *promises; k++) {
-        struct kd_wish wish = KD_WISH_NONE;
+        struct kd_accuracy_request asked_accuracy = KD_WISH_NONE;
         struct kd_setting by;
-        wish.profile = promises[k].profile;
-        OK(kd_setting_of(&wish, NULL, capacity.float64, &by, &error));
+        asked_accuracy.profile = promises[k].profile;
+        OK(kd_setting_of(&asked_accuracy, NULL, capacity.float64, &by, &error));
         params.engine = by.engine, params.precision = by.precision, params.steps = by.steps;
         OK(kd_rays_trace(renderer, &params, rays, RAYS, found, ends, NULL, NULL, &error));
         int n = 0, differ = 0;

@@ -70,9 +70,9 @@ struct judged {
 /* Both ends of each stretch of a ray. */
 static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged *all)
 {
-    static double places[2 * KD_TOLD_STRETCHES][2], want[2 * KD_TOLD_STRETCHES], off[2 * KD_TOLD_STRETCHES];
+    static double places[2 * KD_PROBED_STRETCHES][2], want[2 * KD_PROBED_STRETCHES], off[2 * KD_PROBED_STRETCHES];
     struct kd_frame frame = told_at(scene, x, y);
-    const struct kd_told_ray *told = &frame.told->middle;
+    const struct kd_probed_ray *told = &frame.told->middle;
     const double near_horizon = 1.05 * kd_scene_hole(scene)->outer;
     for (size_t i = 0; i < 2 * told->n_stretches; i++) {
         places[i][0] = 1 / (double)told->stretches[i / 2].w[i % 2];

@@ -2,7 +2,7 @@
  * of many loops one after the other. */
 #include "render_support.h"
 
-#include "render/frame/tell.h"
+#include "render/frame/probe.h"
 
 #include <math.h>
 #include <string.h>

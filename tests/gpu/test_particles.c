@@ -28,7 +28,7 @@ static struct kd_scene particle_scene(double spin, double epicycles)
 
 static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
 {
-    struct kd_own_work work;
+    struct kd_emitter_buffers_work work;
     scene->top.time = time;
     OK(kd_prepare_asked(renderer, KD_EMITTER_particles, &work, &error));
     OK(kd_particles_places(&work, scene, 5, 20000 / N, N, out, &error));

@@ -50,10 +50,10 @@ static void near(const char *what, double got, double want, double allowed)
 }
 
 /* Those in front of the crossing of that order. */
-static void add_stretches(const struct kd_told_ray *told, size_t *s, uint32_t order, double *through, double sum[3])
+static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t order, double *through, double sum[3])
 {
     for (; *s < told->n_stretches && told->stretches[*s].order <= order; ++*s) {
-        const struct kd_told_stretch *stretch = &told->stretches[*s];
+        const struct kd_probed_stretch *stretch = &told->stretches[*s];
         near("what comes through", (double)stretch->through[0], *through, 2e-6);
         for (int c = 0; c < 3; c++)
             sum[c] += (double)stretch->light[c];
@@ -62,12 +62,12 @@ static void add_stretches(const struct kd_told_ray *told, size_t *s, uint32_t or
 }
 
 /* All that emitters gave, as it arrives: by what they say of themselves, front to back. */
-static void add_up(const struct kd_told_ray *told, double sum[3])
+static void add_up(const struct kd_probed_ray *told, double sum[3])
 {
     double through = 1;
     size_t s = 0;
     for (size_t i = 0; i < told->n_places; i++) {
-        const struct kd_told_place *p = &told->places[i];
+        const struct kd_probed_place *p = &told->places[i];
         add_stretches(told, &s, p->order, &through, sum);
         near("what comes through", (double)p->through, through, 1e-6);
         for (size_t k = 0; k < p->n_glows; k++) {
@@ -86,7 +86,7 @@ static void add_up(const struct kd_told_ray *told, double sum[3])
 /* The sum that is told is the pixel's linear radiance. Returns how many emitters gave light. */
 static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
 {
-    const struct kd_told_ray *told = &frame->told->middle;
+    const struct kd_probed_ray *told = &frame->told->middle;
     const float *radiance = (const float *)kd_frame_layer(frame, "radiance")->data + 3 * (y * (size_t)frame->width + x);
     double sum[3] = { 0 }, size = 0;
     size_t n = told->n_ends;
@@ -109,13 +109,13 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
  * on the way from the kernel. Returns how many rays have other light than the first. */
 static uint32_t judge_rays(const struct kd_frame *frame)
 {
-    const struct kd_told *told = frame->told;
+    const struct kd_probed_pixel *told = frame->told;
     double sum[3] = { 0 }, size = 0;
     uint32_t others = 0;
     for (int c = 0; c < 3; c++)
         size = fmax(size, fabs((double)told->radiance[c]));
     for (uint32_t i = 0; i < told->rays; i++) {
-        const struct kd_told_ray *ray = &told->each[i];
+        const struct kd_probed_ray *ray = &told->each[i];
         double given[3] = { 0 };
         add_up(ray, given);
         assert_int_equal(ray->x / ray->steps_a_pixel, told->x);
@@ -190,7 +190,7 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
     if (isfinite(scene->camera.r) && !x.motion.within)
         judge_direction(scene, &x, plan->side, params);
     for (size_t i = 0; i < x.told->n_places; i++) {
-        const struct kd_told_place *p = &x.told->places[i];
+        const struct kd_probed_place *p = &x.told->places[i];
         const struct kd_ray_crossing *c = &x.crossings[p->order];
         if (p->order > 1 || p->order >= x.end.n_crossings || c->r > 100)
             continue;
@@ -300,7 +300,7 @@ static void layers(void **state)
         for (int i = 0; i < 6; i++)
             layer[i] = ((const float *)kd_frame_layer(&frame, names[i])->data)[19 * WIDTH + x];
         OK(kd_explain(&picture, &e, &error));
-        const struct kd_told_place *p = NULL;
+        const struct kd_probed_place *p = NULL;
         for (size_t i = 0; i < frame.told->middle.n_places && !p; i++)
             if (kd_explained_has_gas(&frame.told->middle.places[i]))
                 p = &frame.told->middle.places[i];
@@ -377,7 +377,7 @@ static void negative_energies(void **state)
         OK(kd_explain(&picture, &x, &error));
         assert_true(x.label.energy < 0);
         for (size_t k = 0; k < frame.told->middle.n_places; k++) {
-            const struct kd_told_place *p = &frame.told->middle.places[k];
+            const struct kd_probed_place *p = &frame.told->middle.places[k];
             const double r = p->order < x.end.n_crossings ? x.crossings[p->order].r : 0;
             if (kd_explained_has_gas(p) && r > 1.05 * kd_kerr_isco(kd_hole(0.998))) {
                 near("g of light whose energy is below 0", (double)p->g / x.crossings[p->order].g, 1, 1e-3);
@@ -429,7 +429,7 @@ static void many_rays(void **state)
             struct kd_plan plan;
             struct kd_frame frame = told_at(&scene, x, 18, &plan);
             const struct kd_picture picture = { &frame, &scene, &plan, "", 0 };
-            const struct kd_told *told = frame.told;
+            const struct kd_probed_pixel *told = frame.told;
             judge_sum(&frame, x, 18);
             others += judge_rays(&frame);
             most = told->rays > most ? told->rays : most;
@@ -441,7 +441,7 @@ static void many_rays(void **state)
                 assert_true(at[0] > x && at[0] < x + 1 && at[1] > 18 && at[1] < 19);
                 near("weight", e.weight, 1.0 / told->rays, 0);
                 for (size_t n = 0; n < e.told->n_places; n++) {
-                    const struct kd_told_place *p = &e.told->places[n];
+                    const struct kd_probed_place *p = &e.told->places[n];
                     const struct kd_ray_crossing *c = &e.crossings[p->order];
                     if (p->order == 0 && e.end.n_crossings && c->r < 60 && told->rays == plan.side * plan.side)
                         near("r of the picture over r", 1 / ((double)p->w * c->r), 1, 2e-4);
@@ -509,7 +509,7 @@ static void from_within(void **state)
             }
             dark += x.end.fate == KD_RAY_CAPTURED;
             for (size_t k = 0; k < x.told->n_places; k++) {
-                const struct kd_told_place *p = &x.told->places[k];
+                const struct kd_probed_place *p = &x.told->places[k];
                 const struct kd_ray_crossing *c = &x.crossings[p->order];
                 assert_true(p->order < x.end.n_crossings);
                 if (p->order > 1 || c->r > 100)
@@ -547,7 +547,7 @@ static void places(void **state)
 }
 
 /* The volume of that name in what is told; NULL: it is not there. */
-static const struct kd_told_volume *volume_of(const struct kd_frame *frame, const char *name)
+static const struct kd_probed_volume *volume_of(const struct kd_frame *frame, const char *name)
 {
     for (size_t i = 0; i < frame->told->middle.n_volumes; i++)
         if (!strcmp(kd_emitters[frame->told->middle.volumes[i].emitter]->name, name))
@@ -556,7 +556,7 @@ static const struct kd_told_volume *volume_of(const struct kd_frame *frame, cons
 }
 
 /* What each volume gave is all that they gave together. */
-static void judge_volumes(const struct kd_told_ray *told)
+static void judge_volumes(const struct kd_probed_ray *told)
 {
     double sum[3] = { 0 }, all[3] = { 0 }, depth = 0, passes = 1;
     for (size_t i = 0; i < told->n_volumes; i++) {
@@ -600,7 +600,7 @@ static void volumes(void **state)
                 struct kd_scene one = both;
                 OK(kd_scene_set(&one, k ? "volume.model" : "jets.brightness", k ? "none" : "0", &error));
                 struct kd_frame alone = told_at(&one, at[i][0], at[i][1], &plan);
-                const struct kd_told_volume *v = volume_of(&frame, names[k]);
+                const struct kd_probed_volume *v = volume_of(&frame, names[k]);
                 const double depth = -log((double)alone.told->middle.through);
                 near("its depth", (double)v->depth, depth, 2e-5 + 5e-4 * depth);
                 for (int c = 0; c < 3 && !hides; c++)

@@ -520,17 +520,17 @@ static void test_held(void **state)
     struct kd_scene scene =
         scene_of("riaf", "{\"volume\":{\"normalise_to_jy\":1.7},\"image\":{\"width\":32,\"height\":32}}");
     struct kd_needs needs = kd_needs_of(&scene);
-    needs.held = true;
+    needs.reuse_normalisation = true;
     double *const told[] = { &first, &turned, &exact };
     for (int i = 0; i < 3; i++) {
         struct kd_capacity capacity;
         struct kd_plan plan;
         struct kd_frame frame;
         scene.camera.inclination_deg = i ? 20 : 60;
-        needs.held = i < 2;
+        needs.reuse_normalisation = i < 2;
         kd_renderer_capacity(renderer, &capacity);
         OK(kd_plan_make_for(&scene, &needs, &capacity, &plan, &error));
-        assert_int_equal(plan.held, i < 2);
+        assert_int_equal(plan.reuse_normalisation, i < 2);
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         *told[i] = frame.density_scale;
         kd_frame_finish(&frame);

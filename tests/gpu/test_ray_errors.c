@@ -297,15 +297,16 @@ static struct held hold(const struct kd_setting *by, double tolerance, bool agai
 static void test_tolerance(void **state)
 {
     (void)state;
-    struct kd_wish wish = KD_WISH_NONE;
+    struct kd_accuracy_request asked_accuracy = KD_WISH_NONE;
     for (int k = 4; k <= 11; k++) {
         struct kd_setting by;
-        wish.tolerance = pow(10, -k);
-        OK(kd_setting_of(&wish, kd_accuracy_built_in(), kd_vk_info(renderer->vk)->float64, &by, &error));
-        const struct held once = hold(&by, wish.tolerance, false), held = hold(&by, wish.tolerance, true);
+        asked_accuracy.tolerance = pow(10, -k);
+        OK(kd_setting_of(&asked_accuracy, kd_accuracy_built_in(), kd_vk_info(renderer->vk)->float64, &by, &error));
+        const struct held once = hold(&by, asked_accuracy.tolerance, false),
+                          held = hold(&by, asked_accuracy.tolerance, true);
         print_message("%.0e, %s %s %u: %zu crossings, %zu beyond at first (%.3g %%), %zu after %zu of %zu rays were "
                       "followed again, %zu rays say so\n",
-                      wish.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps,
+                      asked_accuracy.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps,
                       once.crossings, once.off, 100.0 * (double)once.off / (double)once.crossings, held.off, held.again,
                       held.rays, held.beyond);
         assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* or the test proves nothing */

@@ -264,7 +264,7 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 static void test_glances(void **state)
 {
     (void)state;
-    static const struct kd_glance glance = { wanted, seen };
+    static const struct kd_preview_hook preview = { wanted, seen };
     const struct kd_capacity c = capacity();
     for (int k = 0; k < 6; k++) {
         struct kd_scene scene = small_scene();
@@ -289,7 +289,7 @@ static void test_glances(void **state)
         plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
         plan.lens_key[0] = 'x';         /* the one that is there shall not be found */
         struct glances glances = { .want = isinf(scene.style.exposure) ? NULL : &whole };
-        OK(kd_render_aside(renderer, &scene, &plan, NULL, &glance, &glances, &looked, &error));
+        OK(kd_render_in_background(renderer, &scene, &plan, NULL, &preview, &glances, &looked, &error));
         assert_in_range(glances.n, k ? 12 : 1, 20); /* a sampled map's slices are blocks of 64 rows */
         assert_same(&whole, &looked);
     }
@@ -312,7 +312,7 @@ static bool let_others(void *user, double fraction)
     (void)fraction;
     if (o->calls++ != 3)
         return true;
-    OK(kd_render_aside(o->r, &o->scenes[0], &o->plans[0], NULL, NULL, NULL, &o->frames[0], &error));
+    OK(kd_render_in_background(o->r, &o->scenes[0], &o->plans[0], NULL, NULL, NULL, &o->frames[0], &error));
     OK(kd_render(o->r, &o->scenes[1], &o->plans[1], NULL, NULL, &o->frames[1], &error));
     for (int i = 0; i < o->crowd; i++) {
         const struct kd_capacity c = capacity();
@@ -352,7 +352,7 @@ static void test_asides(void **state)
         o.scenes[i].disk.model = i ? KD_DISK_PARTICLES : o.scenes[i].disk.model;
         OK(kd_plan_make(&o.scenes[i], &c, &o.plans[i], &error));
     }
-    OK(kd_render_aside(o.r, &scene, &plan, let_others, NULL, &o, &beside, &error));
+    OK(kd_render_in_background(o.r, &scene, &plan, let_others, NULL, &o, &beside, &error));
     assert_true(o.calls > 10 && !beside.lens_reused);
     assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 &&
                 timing_of(&beside, "total") > 0);
@@ -369,7 +369,7 @@ static void test_asides(void **state)
         OK(kd_render(fresh, &o.scenes[i], &o.plans[i], NULL, NULL, &alone, &error));
         assert_same(&alone, &o.frames[i]);
     }
-    OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
+    OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
     assert_true(alone.lens_reused); /* and the other way round */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
@@ -392,11 +392,11 @@ static void test_a_map_that_is_handed_over(void **state)
     assert_true(plan.adaptive);
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
-    OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
+    OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
     assert_true(timing_of(&here, "kernels") > 0 &&
                 isnan(timing_of(&aside, "kernels"))); /* the first one had to make them */
     assert_true(aside.lens_reused && aside.accuracy.followed > 0);
-    kd_store_hand_over(&fresh->asides[0].store, &fresh->store, &plan);
+    kd_store_hand_over(&fresh->background_renders[0].store, &fresh->store, &plan);
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));
     assert_true(again.lens_reused);
     kd_frame_finish(&again);
@@ -477,12 +477,12 @@ static void test_what_idle_asides_keep_is_bounded(void **state)
     for (int i = 0; i <= VIEWS; i++) {
         scene.camera.inclination_deg = 33 + i % VIEWS + (i == VIEWS ? VIEWS - 1 : 0); /* the last one once more */
         OK(kd_plan_make(&scene, &c, &plan, &error));
-        OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &frame, &error));
+        OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &frame, &error));
         assert_int_equal(frame.lens_reused, i == VIEWS);
         kd_frame_finish(&frame);
         all = 0;
-        for (int k = 0; k < KD_ASIDES; k++)
-            all += kd_store_bytes(&fresh->asides[k].store);
+        for (int k = 0; k < KD_BACKGROUND_RENDERS; k++)
+            all += kd_store_bytes(&fresh->background_renders[k].store);
         one = i ? one : all;
     }
     kd_renderer_kept(fresh, kept);
@@ -542,7 +542,7 @@ static void test_asides_with_particles(void **state)
         o.scenes[i].top.time = 50 + 50 * i;
         OK(kd_plan_make(&o.scenes[i], &c, &o.plans[i], &error));
     }
-    OK(kd_render_aside(renderer, &scene, &plan, let_others, NULL, &o, &beside, &error));
+    OK(kd_render_in_background(renderer, &scene, &plan, let_others, NULL, &o, &beside, &error));
     assert_true(o.calls > 10);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &alone, &error));
     assert_same(&alone, &beside);

@@ -504,7 +504,7 @@ static void test_unseen(void **state)
         for (int unseen = 0; unseen < 2; unseen++) {
             struct kd_plan plan;
             struct kd_needs needs = kd_needs_of(&scene);
-            needs.unseen = unseen;
+            needs.no_image = unseen;
             OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
             assert_true(plan.light && (plan.bands > 1) == bands && (plan.host_bytes == 0) == unseen &&
                         (plan.bloom.levels == 0) == unseen);

@@ -526,8 +526,8 @@ static void another_sky_meanwhile(void **state)
     o.plan = plan_of(&o.scene, &c);
     const struct kd_plan plan = plan_of(&scene, &c), plan_turned = plan_of(&turned, &c);
     assert_true(plan.bands > 1 && plan.cacheable);
-    OK(kd_render_aside(renderer, &scene, &plan, render_other, NULL, &o, &first, &error));
-    OK(kd_render_aside(renderer, &turned, &plan_turned, NULL, NULL, NULL, &again, &error));
+    OK(kd_render_in_background(renderer, &scene, &plan, render_other, NULL, &o, &first, &error));
+    OK(kd_render_in_background(renderer, &turned, &plan_turned, NULL, NULL, NULL, &again, &error));
     struct kd_frame want = shot(&o.scene, &c);
     assert_true(o.times > 1 && again.lens_reused);
     assert_memory_equal(again.layers[1].data, want.layers[1].data, 12ull * WIDTH * HEIGHT);

@@ -140,7 +140,7 @@ static void test_plan(void **state)
     struct kd_plan other;
     OK(kd_plan_make(&scene, &c, &other, &error));
     assert_string_not_equal(plan.lens_key, other.lens_key);
-    const struct kd_needs needs = { .light = true, .unseen = true };
+    const struct kd_needs needs = { .light = true, .no_image = true };
     struct kd_error wrong = { 0 };
     assert_int_equal(kd_plan_make_for(&scene, &needs, &c, &plan, &wrong), KD_EINVAL);
     assert_string_equal(wrong.pointer, "/camera/stereo");

@@ -17,7 +17,7 @@
 #include "render/rays/device.h"
 #include "render/frame/compilation.h"
 #include "render/frame/frame.h"
-#include "render/frame/tell.h"
+#include "render/frame/probe.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -289,18 +289,18 @@ static enum kd_status mishap(double time, struct kd_error *error)
 }
 
 /* This tells of a pixel that its light and that of all its rays is a quarter, and nothing of what gave it. */
-static struct kd_told *tell(const struct kd_plan *plan)
+static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->side;
-    struct kd_told *told = plan->told.on ? calloc(1, sizeof *told) : NULL;
+    struct kd_probed_pixel *told = plan->told.on ? calloc(1, sizeof *told) : NULL;
     if (!told)
         return NULL;
-    *told = (struct kd_told) {
+    *told = (struct kd_probed_pixel) {
         .x = plan->told.x, .y = plan->told.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f }
     };
     told->each = malloc(told->rays * sizeof *told->each);
     for (uint32_t i = 0; told->each && i < told->rays; i++)
-        told->each[i] = (struct kd_told_ray) {
+        told->each[i] = (struct kd_probed_ray) {
             .steps_a_pixel = side,
             .x = told->x * side + i % side,
             .y = told->y * side + i / side,
@@ -315,7 +315,7 @@ static struct kd_told *tell(const struct kd_plan *plan)
                                      .same = true };
         told->steps->n = told->steps->steps != NULL;
     }
-    told->middle = told->each ? told->each[0] : (struct kd_told_ray) { .steps_a_pixel = side };
+    told->middle = told->each ? told->each[0] : (struct kd_probed_ray) { .steps_a_pixel = side };
     return told;
 }
 
@@ -417,7 +417,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
 
 struct aside {
     kd_progress_fn progress;
-    const struct kd_glance *glance;
+    const struct kd_preview_hook *preview;
     void *user;
     const struct kd_plan *plan;
 };
@@ -428,33 +428,35 @@ static bool go_on(void *user, double fraction)
     if (!a->progress(a->user, fraction))
         return false;
     uint32_t rows = (uint32_t)(fraction * a->plan->height);
-    if (a->glance && rows && a->glance->wanted(a->user)) {
+    if (a->preview && rows && a->preview->wanted(a->user)) {
         struct kd_frame frame = { .width = a->plan->width, .height = a->plan->height };
         if (!kd_frame_add_layer(&frame, "rgb", 3, KD_LAYER_U8, NULL)) {
             memset(kd_frame_pixels(&frame), 0, (size_t)3 * frame.width * frame.height);
             memset(kd_frame_pixels(&frame), 200, (size_t)3 * frame.width * rows);
-            a->glance->seen(a->user, &frame, rows);
+            a->preview->seen(a->user, &frame, rows);
         }
         kd_frame_finish(&frame);
     }
     return true;
 }
 
-enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, const struct kd_glance *glance, void *user,
-                               struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                       const struct kd_plan *plan, kd_progress_fn progress,
+                                       const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
+                                       struct kd_error *error)
 {
-    struct aside aside = { progress, glance, user, plan };
+    struct aside aside = { progress, preview, user, plan };
     return draw(renderer, scene, plan, true, go_on, &aside, out, error);
 }
 
 /* Nothing is made of the light of the others: it is black, as the picture's own. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
-                              const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
+                              const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
+                              struct kd_error *error)
 {
     (void)others;
-    return aside ? kd_render_aside(renderer, scene, plan, progress, glance, user, out, error)
+    return aside ? kd_render_in_background(renderer, scene, plan, progress, preview, user, out, error)
                  : kd_render(renderer, scene, plan, progress, user, out, error);
 }
 

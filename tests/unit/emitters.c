@@ -1,7 +1,7 @@
 /* The table of emitters holds together: none is left out of plan, approximations, motion or numbers. */
 #include "render/emit/emitter.h"
 #include "render/emit/motion.h"
-#include "render/emit/told.h"
+#include "render/emit/describe.h"
 #include "render/plan/plan.h"
 #include "render/rays/answer.h"
 #include "scene/table.h"

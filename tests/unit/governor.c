@@ -397,7 +397,7 @@ static void what_only_rings_keeps_its_size(void **state)
         assert_true(s.last.final == (before < 3));
         s.asked.motion.time_rate = 8;
         change(&s, false); /* a picture knows nothing of that */
-        assert_true(kd_governor_turn(&s.governor, s.now).wait_ms > 0);
+        assert_true(kd_governor_decide(&s.governor, s.now).wait_ms > 0);
         s.asked.style.ringdown = 1;
         for (int i = 0; i < 200; i++) {
             s.asked.top.time += 0.1;
@@ -501,7 +501,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
 static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
-    const struct kd_pace *pace = &s->governor.paces[kd_governor_turn(&s->governor, s->now).traced];
+    const struct kd_pace *pace = &s->governor.paces[kd_governor_decide(&s->governor, s->now).traced];
     double ms = pace->climbed || (pace->rung == 0 && !s->climbs) ? 90 : 3;
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
@@ -510,7 +510,7 @@ static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, co
 static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
-    const struct kd_pace *pace = &s->governor.paces[kd_governor_turn(&s->governor, s->now).traced];
+    const struct kd_pace *pace = &s->governor.paces[kd_governor_decide(&s->governor, s->now).traced];
     bool can_climb = pace->rung > (s->now - pace->failed_at < pace->retry_ms ? pace->ceiling : 0);
     double ms = can_climb ? 1 : pace->rung < last_rung(s) ? 37 : 1;
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
@@ -702,7 +702,7 @@ static double refine_to_rest(struct simulation *s, int *n)
 {
     struct kd_quality before = s->last;
     for (*n = 0; *n < 100; ++*n) {
-        struct kd_turn turn = kd_governor_turn(&s->governor, s->now);
+        struct kd_frame_decision turn = kd_governor_decide(&s->governor, s->now);
         if (isinf(turn.wait_ms)) {
             assert_true(turn.quality.final);
             break;
@@ -730,7 +730,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         double changed = s.now;
         assert_true(frame(&s)); /* at once, by the rung in force */
         const bool final = s.last.final, slow = s.now > changed + 150;
-        struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
+        struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
         if (!slow) { /* what is shown is in force */
             assert_int_equal(turn.quality.width, s.last.width);
             assert_int_equal(turn.quality.samples, s.last.samples);
@@ -743,8 +743,8 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         assert_true(s.last.final);
         for (int hour = 1; hour <= 10; hour++) {
             s.now += 3600e3;
-            assert_true(isinf(kd_governor_turn(&s.governor, s.now).wait_ms));
-            assert_true(kd_governor_turn(&s.governor, s.now).quality.final);
+            assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
+            assert_true(kd_governor_decide(&s.governor, s.now).quality.final);
         }
     }
 }
@@ -773,25 +773,25 @@ static void a_change_breaks_into_refinement(void **state)
     s.asked.accuracy.profile = KD_PROFILE_REFERENCE;
     run(&s, DRAG, 1e8);
     s.now += 200;
-    struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
+    struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
     assert_true(turn.refining && turn.wait_ms == 0 && turn.quality.samples == 1 &&
                 turn.quality.profile == KD_PROFILE_BALANCED);
     /* Not reported: it is offered again. */
-    assert_true(kd_governor_turn(&s.governor, s.now + 50).refining);
+    assert_true(kd_governor_decide(&s.governor, s.now + 50).refining);
     change(&s, true);
-    struct kd_turn next = kd_governor_turn(&s.governor, s.now);
+    struct kd_frame_decision next = kd_governor_decide(&s.governor, s.now);
     assert_true(!next.refining && next.wait_ms == 0 && next.quality.scale < 1);
     /* The old one comes in after all: not what is asked now, nor a measure of anything. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
     assert_same_pace(&pace, &s.governor.paces[1]);
-    assert_true(kd_governor_turn(&s.governor, s.now).wait_ms == 0);
+    assert_true(kd_governor_decide(&s.governor, s.now).wait_ms == 0);
     int frames;
     frame(&s);
     refine_to_rest(&s, &frames);
     assert_int_equal(frames, 5); /* 1, 2, 4, 8 rays a side; then in double precision */
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 }); /* of the old scene */
-    assert_true(isinf(kd_governor_turn(&s.governor, s.now).wait_ms));
+    assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
 }
 
 /* Where no lens map is kept, frames of a scene whose time alone goes on trace, too: the camera stands still, the eye
@@ -805,14 +805,14 @@ static void time_keeps_the_rays_at_the_curve(void **state)
     for (int k = 0; k < 60; k++) {
         s.now += 300;
         change(&s, false);
-        const struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
+        const struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
         kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 200, .total_ms = 205 });
         traced += turn.traced && turn.rung;
         assert_int_equal(turn.quality.critical, 0);
     }
     assert_true(traced > 0);
     change(&s, true);
-    const struct kd_turn dragged = kd_governor_turn(&s.governor, s.now);
+    const struct kd_frame_decision dragged = kd_governor_decide(&s.governor, s.now);
     assert_true(dragged.rung && dragged.quality.critical == 2);
 }
 
@@ -837,9 +837,9 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
         kd_quality_apply(&s.last, &s.asked, &scene);
         assert_int_equal(scene.image.critical_factor, fewer ? 2 : asked[k / 4]);
         change(&s, true);
-        assert_int_equal(kd_governor_turn(&s.governor, s.now).audit, k & 1 ? 4 : 1);
+        assert_int_equal(kd_governor_decide(&s.governor, s.now).audit, k & 1 ? 4 : 1);
         kd_governor_share(&s.governor, 0.5);
-        assert_int_equal(kd_governor_turn(&s.governor, s.now).audit, 4);
+        assert_int_equal(kd_governor_decide(&s.governor, s.now).audit, 4);
         kd_governor_share(&s.governor, 1);
         frame(&s);
         refine_to_rest(&s, &frames);
@@ -857,11 +857,11 @@ static void what_measures_nothing_is_not_counted(void **state)
     struct simulation s;
     begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 60, .reused = 12, .pixels = 10 });
     change(&s, true);
-    struct kd_turn first = kd_governor_turn(&s.governor, s.now);
+    struct kd_frame_decision first = kd_governor_decide(&s.governor, s.now);
     run(&s, DRAG, 3e3);
     assert_true(s.changes >= 1);
     struct kd_pace pace = s.governor.paces[1];
-    struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
+    struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
     const struct kd_frame_cost fine = { .total_ms = 9e5 }, bad[] = { { .total_ms = NAN },
                                                                      { .total_ms = INFINITY },
                                                                      { .total_ms = -1 },
@@ -895,7 +895,7 @@ static void whatever_happens_the_answer_is_sound(void **state)
         begin(&s, &params, 640, 360, some_truth());
         change(&s, true);
         for (int k = 0; k < 3000; k++) {
-            struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
+            struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
             struct kd_scene scene;
             kd_quality_apply(&turn.quality, &s.asked, &scene);
             assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
@@ -1023,7 +1023,7 @@ static void no_frame_is_less_than_the_least(void **state)
         kd_governor_least(&governor, least[k], INFINITY);
         for (int frame = 0; frame < 60; frame++) { /* far over the target, at any size */
             kd_governor_changed(&governor, now, &scene, true);
-            const struct kd_turn turn = kd_governor_turn(&governor, now);
+            const struct kd_frame_decision turn = kd_governor_decide(&governor, now);
             assert_true(turn.quality.scale >= least[k]);
             assert_int_equal(turn.quality.width, (int)round(1600 * turn.quality.scale));
             seen = fmin(seen, turn.quality.scale);
@@ -1044,7 +1044,7 @@ static double after_frames_of(struct kd_governor *governor, const struct kd_scen
     double scale = 1;
     for (int frame = 0; frame < frames; frame++) {
         kd_governor_changed(governor, *now, scene, true);
-        const struct kd_turn turn = kd_governor_turn(governor, *now);
+        const struct kd_frame_decision turn = kd_governor_decide(governor, *now);
         scale = turn.quality.scale;
         const double rays_ms = stays_ms + full_ms * scale * scale;
         *now += 1 + rays_ms;

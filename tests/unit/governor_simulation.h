@@ -109,7 +109,7 @@ static inline void change(struct simulation *s, bool lens)
 /* Render what the governor wants, if anything: whether it wanted. */
 static inline bool frame(struct simulation *s)
 {
-    struct kd_turn turn = kd_governor_turn(&s->governor, s->now);
+    struct kd_frame_decision turn = kd_governor_decide(&s->governor, s->now);
     if (turn.wait_ms > 0)
         return false;
     struct kd_scene scene;

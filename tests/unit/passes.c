@@ -76,7 +76,7 @@ static void words_stay(void **state)
         assert_true(kd_figures[i].guess > 0);
 }
 
-/* Asked for by whoever makes the plan: an emitter's wish is the same. */
+/* Asked for by whoever makes the plan: an emitter's asked_accuracy is the same. */
 static struct kd_plan with_footprints(const struct kd_capacity *c)
 {
     struct kd_scene scene;

@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static struct kd_crowd *shown(struct kd_playground *p)
+static struct kd_dynamic_bodies *shown(struct kd_playground *p)
 {
-    struct kd_crowd *crowd;
+    struct kd_dynamic_bodies *crowd;
     struct kd_error error = { 0 };
     if (kd_playground_show(p, &crowd, &error))
         fail_msg("%s", error.message);
@@ -27,7 +27,7 @@ static void bodies(void **state)
                        .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 0, 3, 4 }, .v = { -0.6, 0, 0.5 } });
     playground_put(p, (struct kd_playground_body) {
                           .mass = 1e-6, .radius = 0.2, .temperature_k = 9000, .x = { 2.5, 0, 0 }, .v = { -1, 0, 0 } });
-    struct kd_crowd *crowd = shown(p);
+    struct kd_dynamic_bodies *crowd = shown(p);
     const struct kd_seen_body *b = &crowd->bodies[0];
     double v2 = 0;
     for (int k = 0; k < 3; k++)
@@ -41,7 +41,7 @@ static void bodies(void **state)
                 crowd->bodies[1].which == 1);
     assert_true(fabs(crowd->bodies[1].velocity[0] + M_SQRT1_2) < 1e-12 && crowd->approximate && crowd->time == 0 &&
                 !crowd->debris.rows);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     kd_playground_destroy(p);
 
     struct kd_playground_params kerr = playground_quiet();
@@ -60,7 +60,7 @@ static void bodies(void **state)
     assert_string_equal(error.pointer, "/spacetime/spin");
     scene.spacetime.spin = 0.9;
     assert_int_equal(kd_playground_may_show(p, &scene, &error), KD_OK);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     kd_playground_destroy(p);
 }
 
@@ -82,16 +82,16 @@ static struct kd_debris_piece piece(double r, double phi, double z, double vr, d
     return p;
 }
 
-static struct kd_crowd *grid_of(const struct kd_debris_piece *pieces, size_t n, double worth)
+static struct kd_dynamic_bodies *grid_of(const struct kd_debris_piece *pieces, size_t n, double worth)
 {
     const float worths[KD_DEBRIS_SOURCES] = { (float)worth };
     struct kd_show_place *places = malloc(n * sizeof *places);
-    struct kd_crowd_debris grid;
-    struct kd_crowd *crowd;
+    struct kd_dynamic_bodies_debris grid;
+    struct kd_dynamic_bodies *crowd;
     assert_non_null(places);
     kd_show_places(pieces, n, places);
     kd_show_grid(places, n, &grid);
-    assert_int_equal(kd_crowd_create(0, grid.rows, grid.columns, &crowd, NULL), KD_OK);
+    assert_int_equal(kd_dynamic_bodies_create(0, grid.rows, grid.columns, &crowd, NULL), KD_OK);
     grid.nodes = crowd->debris.nodes;
     crowd->debris = grid;
     kd_show_share_out(pieces, places, n, worths, false, &crowd->debris);
@@ -100,7 +100,7 @@ static struct kd_crowd *grid_of(const struct kd_debris_piece *pieces, size_t n, 
 }
 
 struct sums { double worth, r, phi; };
-static struct sums sums_of(const struct kd_crowd_debris *d)
+static struct sums sums_of(const struct kd_dynamic_bodies_debris *d)
 {
     struct sums s = { 0 };
     for (size_t i = 0; i < (size_t)d->rows * d->columns; i++) {
@@ -139,8 +139,8 @@ static void debris_is_all_there(void **state)
             vr += u;
             vphi += w;
         }
-        struct kd_crowd *crowd = grid_of(pieces, n, 1.0 / N);
-        const struct kd_crowd_debris *d = &crowd->debris;
+        struct kd_dynamic_bodies *crowd = grid_of(pieces, n, 1.0 / N);
+        const struct kd_dynamic_bodies_debris *d = &crowd->debris;
         const struct sums s = sums_of(d);
         printf("shape %d: %u rows of %u of %u a turn\n", shape, d->rows, d->columns, d->turn);
         assert_int_equal(d->pieces, n - free_);
@@ -150,7 +150,7 @@ static void debris_is_all_there(void **state)
         assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
         if (shape != 1) /* there z is not 0, and the velocity along e_r not that along the plane */
             assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
     free(pieces);
 }
@@ -162,8 +162,8 @@ static void a_piece_is_at_its_place(void **state)
     for (int k = 0; k < 200; k++) {
         const double r = 3 * pow(1000, chance()), phi = 2 * M_PI * (k < 20 ? 1 - 1e-4 * k : chance());
         const struct kd_debris_piece one = piece(r, phi, 0, 0, 0);
-        struct kd_crowd *crowd = grid_of(&one, 1, 1);
-        const struct kd_crowd_debris *d = &crowd->debris;
+        struct kd_dynamic_bodies *crowd = grid_of(&one, 1, 1);
+        const struct kd_dynamic_bodies_debris *d = &crowd->debris;
         const double cell = 2 * M_PI / d->turn;
         double row = 0, x = 0, y = 0;
         for (uint32_t i = 0; i < d->rows * d->columns; i++) {
@@ -174,7 +174,7 @@ static void a_piece_is_at_its_place(void **state)
         }
         assert_true(fabs(cell * row - log(r)) < 1e-2 * cell);
         assert_true(fabs(remainder(atan2(y, x) - phi, 2 * M_PI)) < 2e-2 * cell);
-        kd_crowd_release(crowd);
+        kd_dynamic_bodies_release(crowd);
     }
 }
 
@@ -193,14 +193,14 @@ static void a_star_is_shown(void **state)
     assert_true(p->rate == rate && rate > 0);
     looks.debris_per_body = 500; /* of what is torn from now on: what there is is worth no more for that */
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
-    struct kd_crowd *crowd = shown(p);
+    struct kd_dynamic_bodies *crowd = shown(p);
     const struct sums s = sums_of(&crowd->debris);
     printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", crowd->debris.pieces,
            crowd->debris.rows, crowd->debris.columns, crowd->debris.turn, s.worth, crowd->debris.thick);
     assert_int_equal(crowd->debris.pieces, p->debris.alive);
     assert_true(fabs(s.worth - p->debris.alive / 50000.0) < 1e-4 && s.worth > 0.4 && s.worth < 0.7);
     assert_true(crowd->debris.depth == 3 && crowd->debris.temperature_k == 7000 && crowd->time == p->t);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     kd_playground_destroy(p);
 }
 
@@ -256,9 +256,9 @@ static void a_piece_keeps_its_worth(void **state)
     struct kd_playground_params params = p->params;
     params.debris_per_body = 500;
     assert_int_equal(kd_playground_set(p, &params, &error), KD_OK);
-    struct kd_crowd *crowd = shown(p);
+    struct kd_dynamic_bodies *crowd = shown(p);
     assert_true(fabs(sums_of(&crowd->debris).worth - first) < 1e-4 && first > 0.9);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     const uint32_t before = p->debris.alive;
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.47, .x = { 0, 60, 0 }, .v = { 0.15, -0.03, 0 } });
@@ -273,7 +273,7 @@ static void a_piece_keeps_its_worth(void **state)
         of[q->debris.pieces[i].source - 1] += q->debris.pieces[i].stage != KD_DEBRIS_FREE;
     assert_true(of[0] <= before && of[1] > 100);
     assert_true(fabs(sums_of(&crowd->debris).worth - of[0] / 4000.0 - of[1] / 500.0) < 1e-3);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
     kd_buffer_finish(&text);
     kd_playground_destroy(p);
     kd_playground_destroy(q);
@@ -290,10 +290,10 @@ static void nowhere(void **state)
     pieces[3].x[1] = NAN;
     pieces[4].x[0] = INFINITY;
     pieces[5].x[2] = 1e20;
-    struct kd_crowd *crowd = grid_of(pieces, 7, 1);
+    struct kd_dynamic_bodies *crowd = grid_of(pieces, 7, 1);
     assert_int_equal(crowd->debris.pieces + crowd->debris.hidden, 7);
     assert_true(crowd->debris.pieces == 2 && fabs(sums_of(&crowd->debris).worth - 2) < 1e-5);
-    kd_crowd_release(crowd);
+    kd_dynamic_bodies_release(crowd);
 }
 
 int main(void)

@@ -90,7 +90,7 @@ static void fields_by_name(void **state)
     assert_int_equal(kd_rays_request_set(&request, "r", "infinity", &error), KD_OK);
     assert_true(isinf(request.params.r));
     assert_int_equal(kd_rays_request_set(&request, "engine", "mino-rkn6", &error), KD_OK);
-    assert_int_equal(request.wish.engine, KD_ENGINE_MINO_RKN6);
+    assert_int_equal(request.asked_accuracy.engine, KD_ENGINE_MINO_RKN6);
     assert_int_equal(kd_rays_request_set(&request, "orders", "3.5", &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/orders");
     assert_int_equal(kd_rays_request_set(&request, "a/b", "1", &error), KD_EINVAL);

@@ -20,7 +20,7 @@ struct sharer {
     bool still;            /* what moves reuses its lens map, as time that goes on does */
     /* the simulation's own */
     double due; /* of the next request; INFINITY: a frame is in the queue */
-    struct kd_turn turn;
+    struct kd_frame_decision turn;
     struct kd_frame_cost cost;
     double left;             /* ms of the device that the frame still needs */
     double latest, gap;      /* the newest frame that was no refinement; the longest time between two in a drag */
@@ -96,7 +96,7 @@ static void request(struct device *d, struct sharer *s)
                                                                      .pixels_ms = sim->truth.pixels,
                                                                      .total_ms = sim->truth.fixed + sim->truth.traced +
                                                                                  sim->truth.pixels });
-    s->turn = kd_governor_turn(&sim->governor, d->now);
+    s->turn = kd_governor_decide(&sim->governor, d->now);
     if (s->turn.wait_ms > 0) {
         double next = next_drag(s, d->now);
         s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* not by a rounding before it */
@@ -140,7 +140,7 @@ static void finish(struct device *d, struct sharer *s)
     tell_share(d, s);
     kd_governor_frame(&s->sim.governor, d->now, &s->turn, &s->cost);
     count(d, s, &before);
-    s->hasty += !s->turn.refining && dragged(s, d->now) && !(kd_governor_turn(&s->sim.governor, d->now).wait_ms > 0);
+    s->hasty += !s->turn.refining && dragged(s, d->now) && !(kd_governor_decide(&s->sim.governor, d->now).wait_ms > 0);
     s->sim.frames++;
     s->due = d->now + s->pause * (0.5 + uniform());
 }

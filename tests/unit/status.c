@@ -15,7 +15,7 @@
 struct walk {
     int fails;          /* the step that does, N_STEPS: none */
     int taken[N_STEPS]; /* how often */
-    int let_go;
+    int unref;
 };
 
 static enum kd_status step(struct walk *walk, int i)
@@ -33,7 +33,7 @@ static enum kd_status steps(struct walk *walk)
         else
             KD_TRY(step(walk, i));
 done:
-    walk->let_go++;
+    walk->unref++;
     return status;
 }
 
@@ -43,7 +43,7 @@ static void each_once_until_one_fails(void **state)
     for (int fails = 0; fails <= N_STEPS; fails++) {
         struct walk walk = { .fails = fails };
         assert_int_equal(steps(&walk), fails < N_STEPS ? KD_EIO : KD_OK);
-        assert_int_equal(walk.let_go, 1);
+        assert_int_equal(walk.unref, 1);
         for (int i = 0; i < N_STEPS; i++)
             assert_int_equal(walk.taken[i], i <= fails);
     }

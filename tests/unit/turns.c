@@ -1,5 +1,5 @@
 /* Jobs that take turns: one that computes for long lets others go first in the midst of its turn. */
-#include "server/http/turns.h"
+#include "server/http/task_scheduler.h"
 
 #include "base/clock.h"
 #include "base/cores.h"
@@ -21,43 +21,43 @@ enum { LONG = 40, PIECES = 20 };
 static _Atomic bool over, destroyed;
 static _Atomic unsigned dones, begun, at_once, most_at_once, computing;
 
-static void count_done(struct kd_turns_job *job)
+static void count_done(struct kd_scheduler_job *job)
 {
     (void)job;
     atomic_fetch_add(&dones, 1);
 }
 
 /* Computes until another job has had its turn. */
-static enum kd_turn_end compute(struct kd_turns_job *job)
+static enum kd_slice_result compute(struct kd_scheduler_job *job)
 {
     (void)job;
     atomic_fetch_add(&computing, 1);
     for (const double since = kd_clock_ms(); !atomic_load(&over) && kd_clock_ms() - since < PATIENCE_MS;)
         kd_pause();
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
-static enum kd_turn_end end_all(struct kd_turns_job *job)
+static enum kd_slice_result end_all(struct kd_scheduler_job *job)
 {
     (void)job;
     atomic_store(&over, true);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 /* A piece of a shared job: some 40 ms. */
-static enum kd_turn_end piece(struct kd_turns_job *job)
+static enum kd_slice_result piece(struct kd_scheduler_job *job)
 {
     (void)job;
     const unsigned own = atomic_fetch_add(&begun, 1);
     if (own >= PIECES)
-        return KD_TURN_LAST;
+        return KD_SLICE_LAST;
     const unsigned n = atomic_fetch_add(&at_once, 1) + 1;
     if (n > atomic_load(&most_at_once))
         atomic_store(&most_at_once, n);
     for (const double since = kd_clock_ms(); kd_clock_ms() - since < 40;)
         kd_pause();
     atomic_fetch_sub(&at_once, 1);
-    return own + 1 == PIECES ? KD_TURN_LAST : KD_TURN_MORE;
+    return own + 1 == PIECES ? KD_SLICE_LAST : KD_SLICE_MORE;
 }
 
 static void wait_for(unsigned n)
@@ -67,13 +67,13 @@ static void wait_for(unsigned n)
     assert_int_equal(atomic_load(&dones), n);
 }
 
-static struct kd_turns *begin(void)
+static struct kd_scheduler *begin(void)
 {
-    struct kd_turns *turns = NULL;
+    struct kd_scheduler *turns = NULL;
     struct kd_error error;
     atomic_store(&over, false);
     atomic_store(&dones, 0);
-    assert_int_equal(kd_turns_create(LONG + 1, LONG + 1, &turns, &error), KD_OK);
+    assert_int_equal(kd_scheduler_create(LONG + 1, LONG + 1, &turns, &error), KD_OK);
     return turns;
 }
 
@@ -81,51 +81,51 @@ static struct kd_turns *begin(void)
 static void test_a_short_turn_comes_between_long_ones(void **state)
 {
     (void)state;
-    struct kd_turns *turns = begin();
-    static struct kd_turns_job jobs[LONG], last;
+    struct kd_scheduler *turns = begin();
+    static struct kd_scheduler_job jobs[LONG], last;
     for (int i = 0; i < LONG; i++) {
-        jobs[i] = (struct kd_turns_job) { .turn = compute, .done = count_done };
-        kd_turns_push(turns, &jobs[i]);
+        jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
+        kd_scheduler_push(turns, &jobs[i]);
     }
     const double since = kd_clock_ms();
-    last = (struct kd_turns_job) { .turn = end_all, .done = count_done };
-    kd_turns_push(turns, &last);
+    last = (struct kd_scheduler_job) { .turn = end_all, .done = count_done };
+    kd_scheduler_push(turns, &last);
     wait_for(LONG + 1);
     assert_true(kd_clock_ms() - since < PATIENCE_MS);
     assert_true(atomic_load(&over));
-    while (kd_turns_unfinished(turns))
+    while (kd_scheduler_unfinished(turns))
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
-    kd_turns_destroy(turns);
+    kd_scheduler_destroy(turns);
 }
 
 /* A job whose turns several workers take begins no more of them while it waits than there are workers. */
 static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
 {
     (void)state;
-    struct kd_turns *turns = begin();
-    static struct kd_turns_job shared, others[4];
+    struct kd_scheduler *turns = begin();
+    static struct kd_scheduler_job shared, others[4];
     atomic_store(&begun, 0);
-    shared = (struct kd_turns_job) { .turn = piece, .done = count_done, .shared = true };
-    kd_turns_push(turns, &shared);
+    shared = (struct kd_scheduler_job) { .turn = piece, .done = count_done, .shared = true };
+    kd_scheduler_push(turns, &shared);
     for (int i = 0; i < 4; i++) {
-        others[i] = (struct kd_turns_job) { .turn = compute, .done = count_done };
-        kd_turns_push(turns, &others[i]);
+        others[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
+        kd_scheduler_push(turns, &others[i]);
     }
     wait_for(1);
-    static struct kd_turns_job last;
-    last = (struct kd_turns_job) { .turn = end_all, .done = count_done };
-    kd_turns_push(turns, &last);
+    static struct kd_scheduler_job last;
+    last = (struct kd_scheduler_job) { .turn = end_all, .done = count_done };
+    kd_scheduler_push(turns, &last);
     wait_for(6);
     assert_true(atomic_load(&begun) >= PIECES);
     assert_in_range(atomic_load(&most_at_once), 1, kd_cores());
-    while (kd_turns_unfinished(turns))
+    while (kd_scheduler_unfinished(turns))
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
-    kd_turns_destroy(turns);
+    kd_scheduler_destroy(turns);
 }
 
 static void *destroy(void *turns)
 {
-    kd_turns_destroy(turns);
+    kd_scheduler_destroy(turns);
     atomic_store(&destroyed, true);
     return NULL;
 }
@@ -134,13 +134,13 @@ static void *destroy(void *turns)
 static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
 {
     (void)state;
-    struct kd_turns *turns = begin();
-    static struct kd_turns_job jobs[LONG];
+    struct kd_scheduler *turns = begin();
+    static struct kd_scheduler_job jobs[LONG];
     pthread_t thread;
     atomic_store(&computing, 0);
     for (int i = 0; i < LONG; i++) {
-        jobs[i] = (struct kd_turns_job) { .turn = compute, .done = count_done };
-        kd_turns_push(turns, &jobs[i]);
+        jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
+        kd_scheduler_push(turns, &jobs[i]);
     }
     while (atomic_load(&computing) <= kd_cores()) /* then one of them at least has paused */
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);

@@ -1,6 +1,6 @@
 /* Two threads that never sleep, on one core, wait half of the time each: what the kernel says of that is what
  * passes' costs are freed of. */
-#include "base/waiting.h"
+#include "base/cpu_pressure.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -35,12 +35,12 @@ static void shared_core(void **state)
             CPU_SET(i, &one);
     assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
     pthread_barrier_init(&done, NULL, 3);
-    struct kd_waiting before = kd_waiting_now();
+    struct kd_cpu_pressure before = kd_cpu_pressure_now();
     for (int i = 0; i < 2; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, spin, &done), 0);
     pthread_barrier_wait(&done);
-    double share = kd_waiting_share(&before);
-    const struct kd_waiting after = kd_waiting_now();
+    double share = kd_cpu_pressure_share(&before);
+    const struct kd_cpu_pressure after = kd_cpu_pressure_now();
     pthread_barrier_wait(&done);
     for (int i = 0; i < 2; i++)
         pthread_join(threads[i], NULL);
@@ -57,8 +57,8 @@ static void shared_core(void **state)
 static void nothing_known(void **state)
 {
     (void)state;
-    struct kd_waiting future = { 1e30, 1e30 }; /* as when threads have ended */
-    assert_true(kd_waiting_share(&future) == 1);
+    struct kd_cpu_pressure future = { 1e30, 1e30 }; /* as when threads have ended */
+    assert_true(kd_cpu_pressure_share(&future) == 1);
 }
 
 int main(void)

@@ -46,35 +46,40 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
 }
 
 /* The words of a scene's enumerations are "auto", then the names in the order of our enums (tests/unit/engine.c). */
-struct kd_wish kd_wish_of(const struct kd_scene *scene)
+struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene)
 {
     const struct kd_accuracy *a = &scene->accuracy;
-    return (struct kd_wish) { a->profile, a->engine - 1, a->precision - 1, (uint32_t)a->steps, a->tolerance };
+    return (struct kd_accuracy_request) { a->profile, a->engine - 1, a->precision - 1, (uint32_t)a->steps,
+                                          a->tolerance };
 }
 
-bool kd_wish_needs_device(const struct kd_wish *wish)
+bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy)
 {
-    return wish->engine > KD_ENGINE_CLOSED || (wish->engine < 0 && (wish->profile >= 0 || isfinite(wish->tolerance)));
+    return asked_accuracy->engine > KD_ENGINE_CLOSED ||
+           (asked_accuracy->engine < 0 && (asked_accuracy->profile >= 0 || isfinite(asked_accuracy->tolerance)));
 }
 
-static enum kd_status by_tolerance(const struct kd_wish *wish, const struct kd_accuracy_table *table, bool float64,
-                                   struct kd_setting *out, struct kd_error *error)
+static enum kd_status by_tolerance(const struct kd_accuracy_request *asked_accuracy,
+                                   const struct kd_accuracy_table *table, bool float64, struct kd_setting *out,
+                                   struct kd_error *error)
 {
     struct kd_accuracy_choice choice;
-    if (wish->steps)
+    if (asked_accuracy->steps)
         return kd_error_field(error, "/accuracy/steps",
-                              "steps is %u beside a tolerance, which chooses them: it must be 0", wish->steps);
-    if (wish->engine == KD_ENGINE_CLOSED)
+                              "steps is %u beside a tolerance, which chooses them: it must be 0",
+                              asked_accuracy->steps);
+    if (asked_accuracy->engine == KD_ENGINE_CLOSED)
         return kd_error_field(
             error, "/accuracy/tolerance",
             "tolerance is %.9g beside the engine \"closed\", which has one accuracy, that of its precision",
-            wish->tolerance);
-    const struct kd_accuracy_limits limits = { wish->engine, float64 ? wish->precision : KD_PRECISION_F32 };
-    enum kd_status status = kd_accuracy_choose(table, wish->tolerance, &limits, &choice, error);
+            asked_accuracy->tolerance);
+    const struct kd_accuracy_limits limits = { asked_accuracy->engine,
+                                               float64 ? asked_accuracy->precision : KD_PRECISION_F32 };
+    enum kd_status status = kd_accuracy_choose(table, asked_accuracy->tolerance, &limits, &choice, error);
     if (!status)
         *out = (struct kd_setting) { choice.engine, choice.precision, choice.steps, choice.error };
-    if (status == KD_EINVAL && wish->engine < 0 && wish->precision != KD_PRECISION_F32 &&
-        wish->tolerance >= KD_CLOSED_HOLDS && wish->tolerance < 1) {
+    if (status == KD_EINVAL && asked_accuracy->engine < 0 && asked_accuracy->precision != KD_PRECISION_F32 &&
+        asked_accuracy->tolerance >= KD_CLOSED_HOLDS && asked_accuracy->tolerance < 1) {
         *out =
             (struct kd_setting) { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64, .holds = KD_CLOSED_HOLDS };
         return KD_OK;
@@ -82,39 +87,42 @@ static enum kd_status by_tolerance(const struct kd_wish *wish, const struct kd_a
     return status;
 }
 
-static struct kd_setting by_profile(const struct kd_wish *wish, bool float64)
+static struct kd_setting by_profile(const struct kd_accuracy_request *asked_accuracy, bool float64)
 {
-    bool named = wish->profile >= 0, fine = !named || wish->profile == KD_PROFILE_REFERENCE;
+    bool named = asked_accuracy->profile >= 0, fine = !named || asked_accuracy->profile == KD_PROFILE_REFERENCE;
     struct kd_setting s = { .holds = NAN };
-    s.engine = wish->engine >= 0 ? (enum kd_engine)wish->engine : named ? KD_ENGINE_MINO_RKN6 : KD_ENGINE_CLOSED;
-    s.precision = wish->precision >= 0                   ? (enum kd_precision)wish->precision
+    s.engine = asked_accuracy->engine >= 0 ? (enum kd_engine)asked_accuracy->engine
+               : named                     ? KD_ENGINE_MINO_RKN6
+                                           : KD_ENGINE_CLOSED;
+    s.precision = asked_accuracy->precision >= 0         ? (enum kd_precision)asked_accuracy->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
                                                          : KD_PRECISION_F32;
     /* A precision and an engine that come from the profile may be replaced. */
-    if (s.precision == KD_PRECISION_F64 && !float64 && wish->precision < 0 && wish->engine < 0 && !wish->steps)
+    if (s.precision == KD_PRECISION_F64 && !float64 && asked_accuracy->precision < 0 && asked_accuracy->engine < 0 &&
+        !asked_accuracy->steps)
         s.engine = KD_ENGINE_CLOSED;
-    s.steps = wish->steps ? wish->steps
-              : named     ? engines[s.engine].profile[s.precision][wish->profile]
-                          : engines[s.engine].steps[s.precision];
+    s.steps = asked_accuracy->steps ? asked_accuracy->steps
+              : named               ? engines[s.engine].profile[s.precision][asked_accuracy->profile]
+                                    : engines[s.engine].steps[s.precision];
     return s;
 }
 
-enum kd_status kd_setting_of(const struct kd_wish *wish, const struct kd_accuracy_table *table, bool float64,
-                             struct kd_setting *out, struct kd_error *error)
+enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
+                             bool float64, struct kd_setting *out, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    if (isfinite(wish->tolerance))
-        status = by_tolerance(wish, table, float64, out, error);
+    if (isfinite(asked_accuracy->tolerance))
+        status = by_tolerance(asked_accuracy, table, float64, out, error);
     else
-        *out = by_profile(wish, float64);
+        *out = by_profile(asked_accuracy, float64);
     if (!status && out->precision == KD_PRECISION_F64 && !float64 && out->engine != KD_ENGINE_CLOSED)
         return kd_error_field(error, "/accuracy/precision",
                               "precision is f64, which this device has not: it must be f32, or "
                               "the engine \"closed\"");
-    if (!status && out->engine == KD_ENGINE_CLOSED && wish->steps)
+    if (!status && out->engine == KD_ENGINE_CLOSED && asked_accuracy->steps)
         return kd_error_field(error, "/accuracy/steps",
                               "the closed engine takes no steps: steps must be 0, or the engine another one");
-    if (!status && (wish->steps % 4 || wish->steps > kd_engine_most_steps(out->engine)))
-        return kd_engine_steps_error(out->engine, wish->steps, error);
+    if (!status && (asked_accuracy->steps % 4 || asked_accuracy->steps > kd_engine_most_steps(out->engine)))
+        return kd_engine_steps_error(out->engine, asked_accuracy->steps, error);
     return status;
 }

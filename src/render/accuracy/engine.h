@@ -37,7 +37,7 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
 struct kd_accuracy_table;
 
 /* A request for accuracy, as given by accuracy.* of a scene or of a list of rays. */
-struct kd_wish {
+struct kd_accuracy_request {
     int profile;    /* enum kd_profile; -1: none was named */
     int engine;     /* enum kd_engine; -1: any */
     int precision;  /* enum kd_precision; -1: any */
@@ -60,10 +60,10 @@ struct kd_setting {
 
 #define KD_WISH_NONE { .profile = -1, .engine = -1, .precision = -1, .tolerance = INFINITY }
 
-struct kd_wish kd_wish_of(const struct kd_scene *scene);
+struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 
 /* Whether the result depends on the device; false: the closed form fulfils it on any device. */
-bool kd_wish_needs_device(const struct kd_wish *wish);
+bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
 /* With a tolerance: picks the fastest row of the table that meets it, among the permitted engines and precisions;
  * steps must not be named. Without: each of engine, precision and steps that is not named comes from the profile;
@@ -71,7 +71,7 @@ bool kd_wish_needs_device(const struct kd_wish *wish);
  * profile that needs it falls back to the closed form if it has not; so does a tolerance that no row meets.
  * KD_EINVAL at /accuracy/... for a contradiction, a tolerance that cannot be met, or what this device cannot do.
  * table may be NULL if no tolerance is asked for. */
-enum kd_status kd_setting_of(const struct kd_wish *wish, const struct kd_accuracy_table *table, bool float64,
-                             struct kd_setting *out, struct kd_error *error);
+enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
+                             bool float64, struct kd_setting *out, struct kd_error *error);
 
 #endif

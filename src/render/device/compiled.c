@@ -11,7 +11,7 @@
 
 enum { MOST = 4096 }; /* numbers in the file; the oldest are dropped first */
 
-static uint64_t number_of(const struct kd_kernel_wish *w, uint64_t folder)
+static uint64_t number_of(const struct kd_kernel_request *w, uint64_t folder)
 {
     uint64_t hash = kd_hash(KD_HASH_BEGIN, &folder, sizeof folder);
     hash = kd_hash(hash, w->source->spirv, w->source->spirv_bytes);
@@ -35,7 +35,7 @@ static bool has(const struct kd_buffer *numbers, uint64_t number)
     return false;
 }
 
-bool kd_compiled_has(const struct kd_renderer *r, const struct kd_kernel_wishes *kernels)
+bool kd_compiled_has(const struct kd_renderer *r, const struct kd_kernel_requests *kernels)
 {
     const uint64_t folder = kd_vk_compiled_id(r->vk);
     struct kd_buffer numbers = { 0 };
@@ -49,7 +49,7 @@ bool kd_compiled_has(const struct kd_renderer *r, const struct kd_kernel_wishes 
     return all;
 }
 
-void kd_compiled_add(const struct kd_renderer *r, const struct kd_kernel_wishes *kernels)
+void kd_compiled_add(const struct kd_renderer *r, const struct kd_kernel_requests *kernels)
 {
     const uint64_t folder = kd_vk_compiled_id(r->vk);
     struct kd_buffer numbers = { 0 };

@@ -8,7 +8,7 @@
 
 struct kd_renderer;
 
-bool kd_compiled_has(const struct kd_renderer *renderer, const struct kd_kernel_wishes *kernels);
-void kd_compiled_add(const struct kd_renderer *renderer, const struct kd_kernel_wishes *kernels);
+bool kd_compiled_has(const struct kd_renderer *renderer, const struct kd_kernel_requests *kernels);
+void kd_compiled_add(const struct kd_renderer *renderer, const struct kd_kernel_requests *kernels);
 
 #endif

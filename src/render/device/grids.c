@@ -35,7 +35,7 @@ static enum kd_status read_asset(const struct kd_assets *assets, const char *has
 
 static const char *hash_of(const struct kd_scene *scene) { return *scene->volume.grid ? scene->volume.grid : "none"; }
 
-static struct kd_kept_grid *kept_of(struct kd_grids *all, const char *hash)
+static struct kd_cached_documents_grid *kept_of(struct kd_grids *all, const char *hash)
 {
     for (int i = 0; i < KD_GRIDS; i++)
         if (!strcmp(all->kept[i].of, hash))
@@ -47,7 +47,7 @@ static struct kd_kept_grid *kept_of(struct kd_grids *all, const char *hash)
 static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes,
                               struct kd_matter_grid **out, struct kd_error *error)
 {
-    struct kd_kept_grid *at = kept_of(&r->grids, hash_of(scene));
+    struct kd_cached_documents_grid *at = kept_of(&r->grids, hash_of(scene));
     enum kd_status status = KD_OK;
     if (!at || (nodes && !at->grid.nodes)) {
         if (!at)
@@ -65,7 +65,8 @@ done:
     return status;
 }
 
-static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
+                              struct kd_error *error)
 {
     struct own *own = work->own;
     struct kd_vk_buffer *staging = NULL;
@@ -74,7 +75,7 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     if (!is_grid(scene))
         return KD_OK;
     if (own->there && !strcmp(own->of, scene->volume.grid)) {
-        struct kd_kept_grid *at = kept_of(&work->renderer->grids, hash_of(scene));
+        struct kd_cached_documents_grid *at = kept_of(&work->renderer->grids, hash_of(scene));
         if (at) /* `tell` has read it already */
             kd_matter_grid_finish(&at->grid);
         return KD_OK;
@@ -82,7 +83,7 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     own->there = false;
     KD_TRY(grid_of(work->renderer, scene, true, &grid, error));
     const uint64_t bytes = (uint64_t)grid->rows * grid->columns * grid->layers * KD_MATTER_FLOATS * sizeof *grid->nodes;
-    KD_TRY(kd_own_at_least(work, &own->nodes, bytes, KD_VK_DEVICE, "matter on a grid", error));
+    KD_TRY(kd_emitter_buffers_at_least(work, &own->nodes, bytes, KD_VK_DEVICE, "matter on a grid", error));
     KD_TRY(kd_vk_buffer_create(work->vk, bytes, KD_VK_UPLOAD, "matter on a grid on the host", &staging, error));
     memcpy(kd_vk_buffer_map(staging), grid->nodes, bytes);
     KD_TRY(kd_vk_copy(work->vk, "upload", own->nodes, 0, staging, 0, bytes, error));
@@ -148,4 +149,6 @@ void kd_grids_finish(struct kd_grids *grids)
     *grids = (struct kd_grids) { 0 };
 }
 
-const struct kd_own kd_own_plasma = { sizeof(struct own), prepare, buffers, forget, finish, NULL, tell };
+const struct kd_emitter_buffers kd_emitter_buffers_plasma = {
+    sizeof(struct own), prepare, buffers, forget, finish, NULL, tell
+};

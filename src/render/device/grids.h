@@ -1,5 +1,6 @@
-/* Matter on a grid, on the device: reads volume.grid and uploads it when the asset has changed (kd_own_plasma of
- * render/emit/own.h). The renderer keeps the descriptions of recent grids without their nodes. Render thread only. */
+/* Matter on a grid, on the device: reads volume.grid and uploads it when the asset has changed
+ * (kd_emitter_buffers_plasma of render/emit/own.h). The renderer keeps the descriptions of recent grids without their
+ * nodes. Render thread only. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
 #define KD_RENDER_DEVICE_GRIDS_H
 
@@ -8,7 +9,7 @@
 
 enum { KD_GRIDS = 8 };
 struct kd_grids {
-    struct kd_kept_grid {
+    struct kd_cached_documents_grid {
         char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
         struct kd_matter_grid grid; /* nodes: present until uploaded, up to 64 MiB; otherwise NULL */
     } kept[KD_GRIDS];

@@ -18,8 +18,9 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-/* Working set of one kd_render_aside. Its lens maps stay cached for other pictures until their memory is needed. */
-struct kd_aside {
+/* Working set of one kd_render_in_background. Its lens maps stay cached for other pictures until their memory is
+ * needed. */
+struct kd_background_render {
     struct kd_store store;
     struct kd_prepared prepared;
     bool busy;
@@ -38,7 +39,7 @@ struct kd_renderer {
     struct kd_kernels kernels;
     struct kd_store store;
     struct kd_prepared prepared;
-    struct kd_aside asides[KD_ASIDES];
+    struct kd_background_render background_renders[KD_BACKGROUND_RENDERS];
     uint64_t asides_used;
     /* buffers of rays/device.c, reused for the next list: the list, its results, and both on the host */
     struct kd_vk_buffer *rays[2][3];

@@ -369,10 +369,10 @@ static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_v
     memcpy(oldest->constants, key, sizeof oldest->constants);
 }
 
-static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
-                 const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
+static void asked_accuracy(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
+                           const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
 {
-    struct kd_kernel_wishes *all = &kernels->wishes;
+    struct kd_kernel_requests *all = &kernels->wishes;
     for (size_t i = 0; i < all->n; i++)
         if (all->at[i].source == source && !memcmp(all->at[i].constants, key, sizeof all->at[i].constants))
             return;
@@ -381,8 +381,8 @@ static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params 
         known->used = ++kernels->clock; /* otherwise it might be evicted, and be made again for each frame */
     if (known || all->n == KD_KERNEL_WISHES || all->n == room_of(kernels))
         return;
-    struct kd_kernel_wish *w = &all->at[all->n++];
-    *w = (struct kd_kernel_wish) { .source = source, .n = n };
+    struct kd_kernel_request *w = &all->at[all->n++];
+    *w = (struct kd_kernel_request) { .source = source, .n = n };
     memcpy(w->constants, key, sizeof w->constants);
 }
 
@@ -395,7 +395,7 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
         key[i] = constants[i];
     *out = NULL;
     if (kernels->noting) {
-        wish(kernels, source, key, n);
+        asked_accuracy(kernels, source, key, n);
         return KD_OK;
     }
     struct kd_kernel_entry *known = find(kernels, source, key);
@@ -420,7 +420,7 @@ void kd_kernels_note(struct kd_kernels *kernels)
 }
 
 struct makers {
-    struct kd_kernel_wishes *wishes;
+    struct kd_kernel_requests *wishes;
     struct kd_vk *vk;
     atomic_size_t next;
 };
@@ -431,7 +431,7 @@ static void *make_wishes(void *user)
     struct kd_error error = { 0 }; /* the next kd_kernels_get reports it */
     size_t i;
     while ((i = atomic_fetch_add(&m->next, 1)) < m->wishes->n) {
-        struct kd_kernel_wish *w = &m->wishes->at[i];
+        struct kd_kernel_request *w = &m->wishes->at[i];
         if (make(m->vk, w->source, w->constants, w->n, &w->made, &error))
             w->made = NULL;
     }
@@ -441,19 +441,19 @@ static void *make_wishes(void *user)
 /* Longest SPIR-V first, as it takes longest: started last, it would keep one thread busy while the others are idle. */
 static int longer_first(const void *a, const void *b)
 {
-    const size_t x = ((const struct kd_kernel_wish *)a)->source->spirv_bytes,
-                 y = ((const struct kd_kernel_wish *)b)->source->spirv_bytes;
+    const size_t x = ((const struct kd_kernel_request *)a)->source->spirv_bytes,
+                 y = ((const struct kd_kernel_request *)b)->source->spirv_bytes;
     return (x < y) - (x > y);
 }
 
-void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_wishes *out)
+void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out)
 {
     kernels->noting = false;
     *out = kernels->wishes;
     kernels->wishes.n = 0;
 }
 
-void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk)
+void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk)
 {
     struct makers m = { .wishes = wishes, .vk = vk };
     pthread_t threads[MAKERS - 1];
@@ -468,9 +468,9 @@ void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk)
         pthread_join(threads[i], NULL);
 }
 
-void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_wishes *made)
+void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made)
 {
-    for (const struct kd_kernel_wish *w = made->at; w < made->at + made->n; w++)
+    for (const struct kd_kernel_request *w = made->at; w < made->at + made->n; w++)
         if (w->made && find(kernels, w->source, w->constants))
             kd_vk_pipeline_destroy(vk, w->made); /* another thread has made it meanwhile */
         else if (w->made)
@@ -480,9 +480,9 @@ void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct 
 
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
 {
-    struct kd_kernel_wishes wishes;
+    struct kd_kernel_requests wishes;
     kd_kernels_noted(kernels, &wishes);
-    kd_kernel_wishes_make(&wishes, vk);
+    kd_kernel_requests_make(&wishes, vk);
     kd_kernels_keep(kernels, vk, &wishes);
 }
 

@@ -77,14 +77,14 @@ struct kd_kernel_entry {
     uint64_t used;
 };
 /* Kernels that will be requested and do not exist yet. */
-struct kd_kernel_wish {
+struct kd_kernel_request {
     const struct kd_vk_pipeline_params *source;
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
     size_t n;
     struct kd_vk_pipeline *made;
 };
-struct kd_kernel_wishes {
-    struct kd_kernel_wish at[KD_KERNEL_WISHES];
+struct kd_kernel_requests {
+    struct kd_kernel_request at[KD_KERNEL_WISHES];
     size_t n;
 };
 struct kd_kernels {
@@ -92,7 +92,7 @@ struct kd_kernels {
     size_t kept; /* number of entries in use; 0: all. A test sets it before the first request */
     uint64_t clock;
     bool noting;
-    struct kd_kernel_wishes wishes;
+    struct kd_kernel_requests wishes;
     uint64_t noted; /* the clock when the last of them were made */
 };
 
@@ -113,9 +113,9 @@ void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
 /* kd_kernels_make in three steps: ends recording and hands out the noted kernels; makes them; adds them to the
  * cache. The second may run on any thread while another one uses the device, as long as the device stays open. */
-void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_wishes *out);
-void kd_kernel_wishes_make(struct kd_kernel_wishes *wishes, struct kd_vk *vk);
-void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_wishes *made);
+void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
+void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
+void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
 /* Whether a device reads the radiance of this many pixels as texels of four floats: software devices take a third of
  * the time for them, but differ in how many they bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);

@@ -4,21 +4,22 @@
 
 #include <stdlib.h>
 
-enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buffer **buffer, uint64_t bytes,
-                               enum kd_vk_memory memory, const char *name, struct kd_error *error)
+enum kd_status kd_emitter_buffers_at_least(const struct kd_emitter_buffers_work *work, struct kd_vk_buffer **buffer,
+                                           uint64_t bytes, enum kd_vk_memory memory, const char *name,
+                                           struct kd_error *error)
 {
     return kd_store_at_least(work->vk, buffer, bytes, memory, name, error);
 }
 
-enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel,
-                             const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
-                             struct kd_error *error)
+enum kd_status kd_emitter_buffers_kernel(const struct kd_emitter_buffers_work *work,
+                                         const struct kd_vk_pipeline_params *kernel, const uint32_t *constants,
+                                         size_t n, const struct kd_vk_pipeline **out, struct kd_error *error)
 {
     return kd_kernels_get_of(&work->renderer->kernels, work->vk, kernel, constants, n, out, error);
 }
 
 static enum kd_status work_of(struct kd_renderer *r, struct kd_prepared *prepared, enum kd_emitter_number number,
-                              const struct kd_capacity *c, struct kd_own_work *out, struct kd_error *error)
+                              const struct kd_capacity *c, struct kd_emitter_buffers_work *out, struct kd_error *error)
 {
     const struct kd_emitter *e = kd_emitters[number];
     const struct kd_pass *pass = kd_pass_find(e->name);
@@ -26,12 +27,12 @@ static enum kd_status work_of(struct kd_renderer *r, struct kd_prepared *prepare
         prepared->own[number] = calloc(1, e->own->bytes);
     if (!prepared->own[number])
         return kd_error_set(error, KD_ENOMEM, "out of memory for %s", e->title);
-    *out = (struct kd_own_work) { r, r->vk, prepared->own[number], pass ? c->ns[pass->figure] : 0 };
+    *out = (struct kd_emitter_buffers_work) { r, r->vk, prepared->own[number], pass ? c->ns[pass->figure] : 0 };
     return KD_OK;
 }
 
-enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number number, struct kd_own_work *out,
-                                struct kd_error *error)
+enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number number,
+                                struct kd_emitter_buffers_work *out, struct kd_error *error)
 {
     return work_of(r, &r->prepared, number, &r->capacity, out, error);
 }
@@ -57,7 +58,7 @@ done:
 enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
 {
-    struct kd_own_work work;
+    struct kd_emitter_buffers_work work;
     enum kd_status status = KD_OK;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         if (!kd_emitters[i]->own || !plan->traits[i])

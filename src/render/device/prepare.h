@@ -25,8 +25,8 @@ enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_sce
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);
 /* The working set of an emitter that has buffers, for requests other than frames. */
-enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number, struct kd_own_work *out,
-                                struct kd_error *error);
+enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number,
+                                struct kd_emitter_buffers_work *out, struct kd_error *error);
 /* Buffers for the kernels of light, by number; NULL for emitters that the scene does not have. */
 void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan,
                          struct kd_vk_buffer *out[KD_OWN_COUNT]);

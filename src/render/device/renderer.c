@@ -21,15 +21,15 @@ static uint64_t free_bytes(const struct kd_vk_info *info)
 /* Defaults until something has been measured: orders of magnitude per item for this type of device. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
-    uint64_t device = free_bytes(info), wish = kd_memory_main(memory_bytes);
-    bool narrower = memory_bytes && wish < device;
+    uint64_t device = free_bytes(info), asked_accuracy = kd_memory_main(memory_bytes);
+    bool narrower = memory_bytes && asked_accuracy < device;
     double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
     struct kd_capacity c = {
         .max_binding_bytes = info->max_binding_bytes,
         .max_allocation_bytes = info->max_allocation_bytes,
         .max_groups_x = info->max_groups_x,
         .max_groups_y = info->max_groups_y,
-        .memory_bytes = narrower ? wish : device,
+        .memory_bytes = narrower ? asked_accuracy : device,
         .memory_by = narrower ? "--memory" : NULL,
         .host_memory = info->type == KD_VK_CPU || info->type == KD_VK_INTEGRATED,
         .float64 = info->float64,
@@ -75,8 +75,8 @@ static enum kd_status open_device(struct kd_renderer *r, struct kd_error *error)
     if (status)
         return status;
     r->store.vk = r->vk;
-    for (size_t i = 0; i < KD_ASIDES; i++)
-        r->asides[i].store.vk = r->vk;
+    for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++)
+        r->background_renders[i].store.vk = r->vk;
     return KD_OK;
 }
 
@@ -88,9 +88,9 @@ static void close_device(struct kd_renderer *r)
     kd_kernels_finish(&r->kernels, r->vk);
     kd_store_empty(&r->store);
     kd_prepared_finish(&r->prepared, r->vk);
-    for (size_t i = 0; i < KD_ASIDES; i++) {
-        kd_store_empty(&r->asides[i].store);
-        kd_prepared_finish(&r->asides[i].prepared, r->vk);
+    for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++) {
+        kd_store_empty(&r->background_renders[i].store);
+        kd_prepared_finish(&r->background_renders[i].prepared, r->vk);
     }
     for (size_t i = 0; i < sizeof r->rays / sizeof **r->rays; i++)
         kd_vk_buffer_destroy(r->vk, r->rays[i / 3][i % 3]);

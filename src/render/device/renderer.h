@@ -27,8 +27,8 @@ struct kd_renderer_params {
     void (*sky_made)(void *user);
     void *sky_user;
     /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. aside: as in
-     * kd_render_aside, so that others may use the renderer before this returns. False: the picture is abandoned,
-     * KD_ECANCELLED. NULL: the thread with the device makes them. */
+     * kd_render_in_background, so that others may use the renderer before this returns. False: the picture is
+     * abandoned, KD_ECANCELLED. NULL: the thread with the device makes them. */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool aside);
     void *lacks_user;
     bool passing;          /* another renderer uses the same device: measured speeds are not stored */
@@ -101,7 +101,7 @@ struct kd_accuracy_report {
 };
 
 /* Pictures that may be rendered aside concurrently (render/frame/frame.h). */
-#define KD_ASIDES 8
+#define KD_BACKGROUND_RENDERS 8
 
 /* Called between slices of long work, with the completed fraction; return false to stop: KD_ECANCELLED. */
 typedef bool (*kd_progress_fn)(void *user, double fraction);

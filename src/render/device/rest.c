@@ -55,8 +55,8 @@ void kd_renderer_count(struct kd_renderer *r)
 {
     const uint64_t held = kd_vk_allocated(r->vk);
     uint64_t maps = kd_store_map_bytes(&r->store);
-    for (size_t i = 0; i < KD_ASIDES; i++)
-        maps += kd_store_map_bytes(&r->asides[i].store);
+    for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++)
+        maps += kd_store_map_bytes(&r->background_renders[i].store);
     atomic_store(&r->held, held);
     atomic_store(&r->kept_bytes[KD_KEPT_LENS_MAPS], maps);
     atomic_store(&r->kept_bytes[KD_KEPT_BUFFERS], held > maps ? held - maps : 0);
@@ -66,8 +66,8 @@ void kd_renderer_count(struct kd_renderer *r)
 
 static void empty_asides(struct kd_renderer *r)
 {
-    for (size_t i = 0; i < KD_ASIDES; i++) {
-        struct kd_aside *a = &r->asides[i];
+    for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++) {
+        struct kd_background_render *a = &r->background_renders[i];
         if (a->busy)
             continue;
         kd_store_empty(&a->store);

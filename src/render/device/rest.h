@@ -8,7 +8,7 @@
 #define KD_KEPT_KINDS(X) \
     X(LENS_MAPS, "lens_maps") \
     X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(HEAP, "heap") X(OTHER, "other")
-enum kd_kept_kind {
+enum kd_cached_documents_kind {
 #define KD_KEPT_ENUM(kind, word) KD_KEPT_##kind,
     KD_KEPT_KINDS(KD_KEPT_ENUM)
 #undef KD_KEPT_ENUM
@@ -20,8 +20,8 @@ enum kd_kept_kind {
 #define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map, or none if it is larger */
 #define KD_REST_KERNELS 16u              /* the latest ones: as many as one view and its refinement need */
 #define KD_REST_PANORAMAS 1u             /* the latest one, up to 45 MB */
-/* Limit for buffers of finished pictures that were rendered aside (kd_render_aside), besides those of the last one:
- * their lens maps may serve the next picture. */
+/* Limit for buffers of finished pictures that were rendered aside (kd_render_in_background), besides those of the last
+ * one: their lens maps may serve the next picture. */
 #define KD_IDLE_ASIDES_BYTES (128ull << 20)
 /* Lens maps kept besides the one in use. */
 #define KD_KEPT_MAPS_BYTES (512ull << 20)
@@ -33,7 +33,7 @@ enum kd_kept_kind {
                       for the limit itself */
 
 /* The label of a kind; NULL after the last. */
-static inline const char *kd_kept_word(size_t kind)
+static inline const char *kd_cached_documents_word(size_t kind)
 {
 #define KD_KEPT_WORD(kind, word) word,
     static const char *const words[] = { KD_KEPT_KINDS(KD_KEPT_WORD) };

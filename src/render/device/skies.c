@@ -115,7 +115,8 @@ static bool is_current(const struct kd_sky_buffers *b, const struct kd_scene *sc
            !strcmp(b->of.image, scene->sky.image);
 }
 
-static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
+                              struct kd_error *error)
 {
     struct kd_renderer *r = work->renderer;
     struct kd_sky_buffers *b = work->own;
@@ -174,4 +175,6 @@ static void finish(void *own, struct kd_vk *vk)
     *b = (struct kd_sky_buffers) { 0 };
 }
 
-const struct kd_own kd_own_sky = { sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish, begin, tell };
+const struct kd_emitter_buffers kd_emitter_buffers_sky = {
+    sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish, begin, tell
+};

@@ -120,10 +120,10 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 /* Whether some bodies reflect light of the disk, and the scene has one. */
 static bool is_lit(const struct kd_scene *scene)
 {
-    struct kd_lit lit;
+    struct kd_illumination lit;
     for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
         if (scene->crowd.at->bodies[i].albedo > 0)
-            return kd_lit_of(scene, &lit);
+            return kd_illumination_of(scene, &lit);
     return false;
 }
 
@@ -165,7 +165,7 @@ static void forget(void *own)
 }
 
 /* Uploads *words unless they are there already, and keeps them. */
-static enum kd_status send(const struct kd_own_work *work, float **words, size_t n, struct kd_error *error)
+static enum kd_status send(const struct kd_emitter_buffers_work *work, float **words, size_t n, struct kd_error *error)
 {
     struct own *o = work->own;
     const uint64_t bytes = n * sizeof **words;
@@ -173,8 +173,8 @@ static enum kd_status send(const struct kd_own_work *work, float **words, size_t
     if (o->there && o->words == n && !memcmp(o->there, *words, bytes))
         return KD_OK;
     forget(o);
-    KD_TRY(kd_own_at_least(work, &o->device, bytes, KD_VK_DEVICE, "bodies", error));
-    KD_TRY(kd_own_at_least(work, &o->staging, bytes, KD_VK_UPLOAD, "bodies on the host", error));
+    KD_TRY(kd_emitter_buffers_at_least(work, &o->device, bytes, KD_VK_DEVICE, "bodies", error));
+    KD_TRY(kd_emitter_buffers_at_least(work, &o->staging, bytes, KD_VK_UPLOAD, "bodies on the host", error));
     memcpy(kd_vk_buffer_map(o->staging), *words, bytes);
     KD_TRY(kd_vk_copy(work->vk, "upload", o->device, 0, o->staging, 0, bytes, error));
     KD_TRY(kd_vk_submit(work->vk, NULL, error));
@@ -185,13 +185,14 @@ done:
     return status;
 }
 
-static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
+                              struct kd_error *error)
 {
     struct kd_bodies_view view = view_of(scene);
-    struct kd_lit lit;
+    struct kd_illumination lit;
     size_t n;
     struct kd_seen_body *bodies = listed(scene, &n);
-    if (is_lit(scene) && kd_lit_of(scene, &lit))
+    if (is_lit(scene) && kd_illumination_of(scene, &lit))
         view.lit = &lit;
     float *words = malloc(kd_bodies_words(n) * sizeof *words);
     enum kd_status status = bodies && words ? kd_bodies_pack(bodies, n, &view, words, error)
@@ -217,7 +218,7 @@ static void finish(void *own, struct kd_vk *vk)
     *o = (struct own) { 0 };
 }
 
-const struct kd_own kd_own_bodies = {
+const struct kd_emitter_buffers kd_emitter_buffers_bodies = {
     .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
 };
 
@@ -305,7 +306,7 @@ const struct kd_emitter kd_emit_bodies = {
     .present = present,
     .traits = traits,
     .varies = varies,
-    .own = &kd_own_bodies,
+    .own = &kd_emitter_buffers_bodies,
     .device_bytes = device_bytes,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies),

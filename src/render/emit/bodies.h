@@ -5,7 +5,7 @@
 
 #include "physics/spacetime/hole.h"
 #include "render/emit/emission.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "scene/scene.h"
 
 #include <stddef.h>
@@ -15,20 +15,21 @@
 
 /* How the bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to
  * brightness 1 of the disk. */
-struct kd_lit;
+struct kd_illumination;
 struct kd_bodies_view {
     double spin, azimuth, peak_k;
-    const struct kd_lit *lit;
+    const struct kd_illumination *lit;
 }; /* lit: NULL if the disk does not illuminate them */
 
 /* The disk as a light source for bodies (bodies_lit.c). False if the scene has no thin disk. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
-struct kd_lit {
-    struct kd_lit_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];
+struct kd_illumination {
+    struct kd_illumination_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];
 };
-bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out);
+bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out);
 /* The light that a body reflects, in the kernels' layout; 3 us. lapse: at the body's position. */
-void kd_lit_body(const struct kd_lit *lit, const struct kd_seen_body *body, double lapse, float out[12]);
+void kd_illumination_body(const struct kd_illumination *lit, const struct kd_seen_body *body, double lapse,
+                          float out[12]);
 
 /* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
@@ -48,6 +49,6 @@ size_t kd_bodies_count(const struct kd_scene *scene);
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out);
 
 /* Brings the buffer up to date with a scene's bodies (emit/own.h). */
-extern const struct kd_own kd_own_bodies;
+extern const struct kd_emitter_buffers kd_emitter_buffers_bodies;
 
 #endif

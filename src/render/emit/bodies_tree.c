@@ -99,7 +99,7 @@ static void fill(float *w, const struct kd_seen_body *b, const struct kd_bodies_
     }
     for (int i = 0; i < 16; i++)
         w[12 + i] = (float)rest[i];
-    kd_lit_body(view->lit, b, g.lapse, w + 28);
+    kd_illumination_body(view->lit, b, g.lapse, w + 28);
 }
 
 static void swap(struct ball *a, struct ball *b)

@@ -1,5 +1,5 @@
 /* Debris of a playground as an emitter: shaders/emit/debris.glsl. */
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "render/emit/emitter.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #define REFERENCE 1000.0 /* M^2: the area over which one body's debris has the optical depth `depth` */
 
-static const struct kd_crowd_debris *of(const struct kd_scene *scene) { return &scene->crowd.at->debris; }
+static const struct kd_dynamic_bodies_debris *of(const struct kd_scene *scene) { return &scene->crowd.at->debris; }
 
 static bool present(const struct kd_scene *scene) { return scene->crowd.at && of(scene)->rows && of(scene)->depth > 0; }
 static uint32_t traits(const struct kd_scene *scene)
@@ -18,7 +18,7 @@ static uint32_t traits(const struct kd_scene *scene)
 static uint32_t needs(const struct kd_scene *scene) { return (void)scene, KD_LENS_W | KD_LENS_PHI | KD_LENS_SLOPE; }
 static unsigned varies(const struct kd_scene *scene) { return (void)scene, KD_MOVES_WITH_AZIMUTH; }
 
-static double radius(const struct kd_crowd_debris *d, double row)
+static double radius(const struct kd_dynamic_bodies_debris *d, double row)
 {
     return exp((d->first_row + row) * (2 * M_PI / d->turn));
 }
@@ -35,7 +35,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
              radius(of(scene), of(scene)->rows - 1.0));
 }
 
-static size_t words(const struct kd_crowd_debris *d) { return KD_CROWD_NODE * (size_t)d->rows * d->columns; }
+static size_t words(const struct kd_dynamic_bodies_debris *d) { return KD_CROWD_NODE * (size_t)d->rows * d->columns; }
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return 2 * sizeof(float) * words(of(scene));
@@ -44,7 +44,7 @@ static uint64_t device_bytes(const struct kd_scene *scene)
 /* The area of a node is r^2 (2 pi/turn)^2. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
-    const struct kd_crowd_debris *d = of(scene);
+    const struct kd_dynamic_bodies_debris *d = of(scene);
     const double cell = 2 * M_PI / d->turn;
     out->debris = (struct kd_debris_block) {
         .turn = d->turn,
@@ -65,7 +65,8 @@ struct own {
 
 static void forget(void *own) { ((struct own *)own)->generation = 0; }
 
-static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status prepare(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
+                              struct kd_error *error)
 {
     struct own *o = work->own;
     const uint64_t bytes = sizeof(float) * words(of(scene));
@@ -73,8 +74,8 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     if (o->generation == scene->crowd.generation)
         return KD_OK;
     forget(o);
-    KD_TRY(kd_own_at_least(work, &o->device, bytes, KD_VK_DEVICE, "debris", error));
-    KD_TRY(kd_own_at_least(work, &o->staging, bytes, KD_VK_UPLOAD, "debris on the host", error));
+    KD_TRY(kd_emitter_buffers_at_least(work, &o->device, bytes, KD_VK_DEVICE, "debris", error));
+    KD_TRY(kd_emitter_buffers_at_least(work, &o->staging, bytes, KD_VK_UPLOAD, "debris on the host", error));
     memcpy(kd_vk_buffer_map(o->staging), of(scene)->nodes, bytes);
     KD_TRY(kd_vk_copy(work->vk, "upload", o->device, 0, o->staging, 0, bytes, error));
     KD_TRY(kd_vk_submit(work->vk, NULL, error));
@@ -96,7 +97,7 @@ static void finish(void *own, struct kd_vk *vk)
     *o = (struct own) { 0 };
 }
 
-static const struct kd_own own = {
+static const struct kd_emitter_buffers own = {
     .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
 };
 

@@ -24,14 +24,16 @@ struct own {
     double time; /* and the time; slices of a list and refining frames find it up to date */
 };
 
-static enum kd_status guides(const struct kd_own_work *w, const struct kd_scene *scene,
+static enum kd_status guides(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene,
                              const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
     struct own *p = w->own;
     uint64_t bytes = kd_particle_tables_bytes(grid);
-    enum kd_status status = kd_own_at_least(w, &p->guides, bytes, KD_VK_DEVICE, "orbits of particles", error);
+    enum kd_status status =
+        kd_emitter_buffers_at_least(w, &p->guides, bytes, KD_VK_DEVICE, "orbits of particles", error);
     if (!status)
-        status = kd_own_at_least(w, &p->staging, bytes, KD_VK_UPLOAD, "orbits of particles on the host", error);
+        status =
+            kd_emitter_buffers_at_least(w, &p->staging, bytes, KD_VK_UPLOAD, "orbits of particles on the host", error);
     bool there = p->time == time && !memcmp(&p->of, scene, sizeof *scene);
     p->time = status ? NAN : time;
     if (status || there)
@@ -47,7 +49,7 @@ static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_S
 
 /* Runs the particles from push->first up to `end`, either falling or not: in a kernel with both branches lavapipe
  * executes both. */
-static enum kd_status share_out(const struct kd_own_work *w, const struct kd_scene *scene, bool plunge,
+static enum kd_status share_out(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene, bool plunge,
                                 struct kd_particles_push *push, uint32_t end, struct kd_error *error)
 {
     const struct own *p = w->own;
@@ -56,7 +58,7 @@ static enum kd_status share_out(const struct kd_own_work *w, const struct kd_sce
     enum kd_status status;
     double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(w->ns, 1e-3),
                                             (double)kd_vk_info(w->vk)->max_groups_x * KD_GROUP_SIZE));
-    KD_TRY(kd_own_kernel(w, &particles, &spec.SWING, sizeof spec / 4, &kernel, error));
+    KD_TRY(kd_emitter_buffers_kernel(w, &particles, &spec.SWING, sizeof spec / 4, &kernel, error));
     for (; push->first < end; push->first += push->count) {
         uint32_t left = end - push->first;
         push->count = left < slice ? left : (uint32_t)slice;
@@ -72,12 +74,12 @@ done:
 
 /* Converts weights to densities on one grid: it starts at byte `at` in both buffers, and the expected numbers of its
  * rows at byte `expected`. */
-static enum kd_status divide(const struct kd_own_work *w, uint64_t at, uint64_t expected, uint32_t rows,
+static enum kd_status divide(const struct kd_emitter_buffers_work *w, uint64_t at, uint64_t expected, uint32_t rows,
                              uint32_t columns, struct kd_error *error)
 {
     const struct own *p = w->own;
     const struct kd_vk_pipeline *kernel;
-    enum kd_status status = kd_own_kernel(w, &density, NULL, 0, &kernel, error);
+    enum kd_status status = kd_emitter_buffers_kernel(w, &density, NULL, 0, &kernel, error);
     if (status)
         return status;
     const struct kd_vk_dispatch d = {
@@ -90,7 +92,8 @@ static enum kd_status divide(const struct kd_own_work *w, uint64_t at, uint64_t 
     return kd_vk_dispatch(w->vk, &d, error);
 }
 
-static enum kd_status prepare(const struct kd_own_work *w, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status prepare(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene,
+                              struct kd_error *error)
 {
     struct own *p = w->own;
     const struct kd_particle_grid grid = kd_particle_grid(scene);
@@ -100,8 +103,8 @@ static enum kd_status prepare(const struct kd_own_work *w, const struct kd_scene
     struct kd_particles_push push = kd_particle_push(scene, &grid, time);
     enum kd_status status;
     KD_TRY(guides(w, scene, &grid, time, error));
-    KD_TRY(kd_own_at_least(w, &p->grid, bytes, KD_VK_DEVICE, "particles", error));
-    KD_TRY(kd_own_at_least(w, &p->density, bytes, KD_VK_DEVICE, "density of particles", error));
+    KD_TRY(kd_emitter_buffers_at_least(w, &p->grid, bytes, KD_VK_DEVICE, "particles", error));
+    KD_TRY(kd_emitter_buffers_at_least(w, &p->density, bytes, KD_VK_DEVICE, "density of particles", error));
     KD_TRY(kd_vk_fill(w->vk, PASS, p->grid, 0, bytes, 0, error));
     if (grid.plunging)
         KD_TRY(share_out(w, scene, true, &push, grid.plunging, error));
@@ -120,23 +123,24 @@ static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
     out[KD_OWN_density] = ((const struct own *)own)->density;
 }
 
-static enum kd_status list_kernel(const struct kd_own_work *w, const struct kd_scene *scene,
+static enum kd_status list_kernel(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene,
                                   const struct kd_vk_pipeline **out, struct kd_error *error)
 {
     const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0,
                                             .LIST = true,
                                             .PLUNGE = kd_particle_grid(scene).plunging > 0 };
-    return kd_own_kernel(w, &particles, &spec.SWING, sizeof spec / 4, out, error);
+    return kd_emitter_buffers_kernel(w, &particles, &spec.SWING, sizeof spec / 4, out, error);
 }
 
-enum kd_status kd_particles_ask(const struct kd_own_work *work, const struct kd_scene *scene)
+enum kd_status kd_particles_ask(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene)
 {
     const struct kd_vk_pipeline *later;
     return list_kernel(work, scene, &later, NULL);
 }
 
-enum kd_status kd_particles_places(const struct kd_own_work *w, const struct kd_scene *scene, uint32_t first,
-                                   uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error)
+enum kd_status kd_particles_places(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene,
+                                   uint32_t first, uint32_t stride, size_t n, struct kd_particle_place *out,
+                                   struct kd_error *error)
 {
     struct own *p = w->own;
     const struct kd_particle_grid grid = kd_particle_grid(scene);
@@ -147,8 +151,8 @@ enum kd_status kd_particles_places(const struct kd_own_work *w, const struct kd_
     push.count = (uint32_t)n;
     enum kd_status status;
     KD_TRY(guides(w, scene, &grid, scene->top.time, error));
-    KD_TRY(kd_own_at_least(w, &p->list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles",
-                           error));
+    KD_TRY(kd_emitter_buffers_at_least(w, &p->list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK,
+                                       "places of particles", error));
     KD_TRY(list_kernel(w, scene, &kernel, error));
     const struct kd_vk_dispatch d = {
         PASS, kernel, { { p->guides, 0, 0, false }, { p->list, 0, 0, true } }, &push, { groups(push.count) },
@@ -172,4 +176,4 @@ static void finish(void *own, struct kd_vk *vk)
     memset(p, 0, sizeof *p);
 }
 
-const struct kd_own kd_own_particles = { sizeof(struct own), prepare, buffers, forget, finish };
+const struct kd_emitter_buffers kd_emitter_buffers_particles = { sizeof(struct own), prepare, buffers, forget, finish };

@@ -8,13 +8,14 @@
 #include "render/emit/particles.h"
 
 /* Fills the density at scene->top.time minus kd_particle_delay, for the transfer pass. */
-extern const struct kd_own kd_own_particles;
+extern const struct kd_emitter_buffers kd_emitter_buffers_particles;
 
 /* Positions of n particles (first, first + stride, ...) at scene->top.time, as the device computes them:
  * Boyer-Lindquist r in M, phi in turns of 2^32, latitude in radians. */
-enum kd_status kd_particles_places(const struct kd_own_work *work, const struct kd_scene *scene, uint32_t first,
-                                   uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error);
+enum kd_status kd_particles_places(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
+                                   uint32_t first, uint32_t stride, size_t n, struct kd_particle_place *out,
+                                   struct kd_error *error);
 /* Requests the kernel that it uses, for kd_kernels_note. */
-enum kd_status kd_particles_ask(const struct kd_own_work *work, const struct kd_scene *scene);
+enum kd_status kd_particles_ask(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene);
 
 #endif

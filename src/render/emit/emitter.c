@@ -14,13 +14,13 @@ const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENT
                                                                              ENTRY) };
 
 /* Kinds of emitters, by their place in the list. */
-enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16, MET = 32 };
+enum kind { AT_CROSSING = 1, HELPER = 2, MODULATE = 4, AT_END = 8, ALONG = 16, SURFACE = 32 };
 #define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
-#define IS_PART(number, name) [number] = PART,
-#define IS_OVER(number, name) [number] = OVER,
+#define IS_PART(number, name) [number] = HELPER,
+#define IS_OVER(number, name) [number] = MODULATE,
 #define IS_AT_END(number, name) [number] = AT_END,
 #define IS_ALONG(number, name) [number] = ALONG,
-#define IS_MET(number, name) [number] = MET,
+#define IS_MET(number, name) [number] = SURFACE,
 static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END, IS_ALONG,
                                                                IS_MET) };
 
@@ -72,7 +72,7 @@ bool kd_emit_slow_along(const struct kd_scene *scene)
     return all & KD_TRAIT_SLOW;
 }
 
-bool kd_emit_met(const struct kd_scene *scene) { return any(scene, MET); }
+bool kd_emit_met(const struct kd_scene *scene) { return any(scene, SURFACE); }
 
 bool kd_emit_at_ends(const struct kd_scene *scene) { return any(scene, AT_END); }
 
@@ -85,7 +85,10 @@ static uint32_t all_traits(const struct kd_scene *scene)
     return all;
 }
 
-bool kd_emit_apart(const struct kd_scene *scene) { return all_traits(scene) & KD_TRAIT_APART; }
+bool kd_emit_separate_photometry(const struct kd_scene *scene)
+{
+    return all_traits(scene) & KD_TRAIT_SEPARATE_PHOTOMETRY;
+}
 bool kd_emit_points(const struct kd_scene *scene) { return all_traits(scene) & KD_TRAIT_POINTS; }
 
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene)
@@ -219,7 +222,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
 {
     struct kd_emission *numbers = &state->data.emission;
     double reach[2], along[2];
-    reach_of_all(scene, AT_CROSSING | PART, reach);
+    reach_of_all(scene, AT_CROSSING | HELPER, reach);
     reach_of_all(scene, ALONG, along);
     if (!state->colours)
         kd_colour_tables(&state->data.tables);

@@ -44,7 +44,7 @@ struct kd_emitter {
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies: what changes it; NULL: nothing */
     /* Its own device buffers, their bytes, and the invocations of the pass that fills them before light
      * (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the buffers. */
-    const struct kd_own *own;
+    const struct kd_emitter_buffers *own;
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
         const struct kd_scene *scene); /* host memory needed at most while they are made; NULL: little */
@@ -94,7 +94,7 @@ bool kd_emit_along(const struct kd_scene *scene);      /* whether there are volu
 bool kd_emit_slow_along(const struct kd_scene *scene); /* whether a volume is shown as it was when its light left it */
 bool kd_emit_met(const struct kd_scene *scene);        /* whether there are surfaces off the plane */
 bool kd_emit_at_ends(const struct kd_scene *scene);
-bool kd_emit_apart(const struct kd_scene *scene);
+bool kd_emit_separate_photometry(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);
 /* Bytes of all device buffers of the scene's emitters. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);

@@ -14,19 +14,21 @@
 struct kd_renderer;
 struct kd_scene;
 
-/* What an emitter works with. A long picture that lends the device has its own copy of `own` (kd_render_aside). */
-struct kd_own_work {
+/* What an emitter works with. A long picture that lends the device has its own copy of `own` (kd_render_in_background).
+ */
+struct kd_emitter_buffers_work {
     struct kd_renderer *renderer;
     struct kd_vk *vk;
-    void *own; /* kd_own.bytes bytes, zero at first */
+    void *own; /* kd_emitter_buffers.bytes bytes, zero at first */
     double ns; /* estimated cost of an invocation of its pass; 0: it has none */
 };
 
-struct kd_own {
+struct kd_emitter_buffers {
     size_t bytes; /* size of its state: the buffers, and a record of their contents */
     /* Records and submits the commands that bring the buffers up to date with the scene. They are timed under the
      * emitter's name. */
-    enum kd_status (*prepare)(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error);
+    enum kd_status (*prepare)(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
+                              struct kd_error *error);
     void (*buffers)(const void *own,
                     struct kd_vk_buffer *out[KD_OWN_COUNT]); /* sets its own entries, by KD_OWN_... (emission.h) */
     void (*forget)(void *own); /* recorded commands may not have run, because work was given up: contents are unknown */
@@ -40,16 +42,17 @@ struct kd_own {
 };
 
 /* Services of the renderer for `prepare`. *buffer, NULL at first, is replaced if it has fewer than `bytes` bytes. */
-enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buffer **buffer, uint64_t bytes,
-                               enum kd_vk_memory memory, const char *name, struct kd_error *error);
+enum kd_status kd_emitter_buffers_at_least(const struct kd_emitter_buffers_work *work, struct kd_vk_buffer **buffer,
+                                           uint64_t bytes, enum kd_vk_memory memory, const char *name,
+                                           struct kd_error *error);
 /* Finds or makes the pipeline of a kernel with specialisation constants 0..n-1. `kernel` points to constant data
  * without a specialisation of its own. */
-enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel,
-                             const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
-                             struct kd_error *error);
+enum kd_status kd_emitter_buffers_kernel(const struct kd_emitter_buffers_work *work,
+                                         const struct kd_vk_pipeline_params *kernel, const uint32_t *constants,
+                                         size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
 
 /* The sky's is in device/skies.c, which keeps panoramas for all pictures of a renderer. That of matter at a radio
  * frequency is in device/grids.c, which reads volume.grid. */
-extern const struct kd_own kd_own_sky, kd_own_plasma;
+extern const struct kd_emitter_buffers kd_emitter_buffers_sky, kd_emitter_buffers_plasma;
 
 #endif

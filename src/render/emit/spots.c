@@ -22,7 +22,7 @@ static bool present(const struct kd_scene *scene)
 static uint32_t traits(const struct kd_scene *scene)
 {
     const struct kd_spot *on[KD_SPOTS];
-    return kd_orbit_traits(scene) | KD_TRAIT_APART | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
+    return kd_orbit_traits(scene) | KD_TRAIT_SEPARATE_PHOTOMETRY | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
            (uint32_t)kd_scene_spots(scene, on) << KD_TRAIT_SPOTS_SHIFT;
 }
 

@@ -26,7 +26,7 @@ static void put_depth(struct kd_json *json, double through)
     kd_json_number(json, "optical_depth", through > 0 ? 0 - log(through) : INFINITY);
 }
 
-static double passed(const struct kd_told_stretch *s)
+static double passed(const struct kd_probed_stretch *s)
 {
     return s->through[0] > 0 ? (double)s->through[1] / (double)s->through[0] : 1;
 }
@@ -84,7 +84,7 @@ static void put_constants(struct kd_json *json, const struct kd_explained *x)
     kd_json_end(json);
 }
 
-static void put_glow(struct kd_json *json, const struct kd_told_glow *g, bool opacity)
+static void put_glow(struct kd_json *json, const struct kd_probed_glow *g, bool opacity)
 {
     kd_json_object(json, NULL);
     kd_json_string(json, "name", kd_emitters[g->emitter]->name);
@@ -100,7 +100,7 @@ static void put_glow(struct kd_json *json, const struct kd_told_glow *g, bool op
 }
 
 /* What emits or absorbs light at a place, as in the picture. */
-static void put_place(struct kd_json *json, const struct kd_explained *x, const struct kd_told_place *p)
+static void put_place(struct kd_json *json, const struct kd_explained *x, const struct kd_probed_place *p)
 {
     double left = 1;
     kd_json_object(json, "picture");
@@ -137,7 +137,7 @@ static void put_polarization(struct kd_json *json, const char *name, const doubl
     kd_json_end(json);
 }
 
-static void put_polarized_ray(struct kd_json *json, const struct kd_told_ray *ray)
+static void put_polarized_ray(struct kd_json *json, const struct kd_probed_ray *ray)
 {
     double stokes[KD_EXPLAINED_STOKES];
     const int n = kd_explained_stokes(ray, stokes);
@@ -146,7 +146,7 @@ static void put_polarized_ray(struct kd_json *json, const struct kd_told_ray *ra
 }
 
 /* The mean over the pixel's rays. */
-static void put_polarized_pixel(struct kd_json *json, const struct kd_told *pixel)
+static void put_polarized_pixel(struct kd_json *json, const struct kd_probed_pixel *pixel)
 {
     double stokes[KD_EXPLAINED_STOKES], sum[KD_EXPLAINED_STOKES] = { 0 };
     int n = 0;
@@ -164,7 +164,7 @@ static void put_crossing(struct kd_json *json, const struct kd_explained *x, uin
 {
     const bool has = n < x->end.n_crossings;
     const struct kd_ray_crossing *c = &x->crossings[n];
-    const struct kd_told_place *p = kd_explained_place(x, n);
+    const struct kd_probed_place *p = kd_explained_place(x, n);
     kd_json_object(json, NULL);
     kd_json_number(json, "order", n);
     kd_json_number(json, "r", has ? c->r : NAN);
@@ -195,7 +195,7 @@ static void put_crossings(struct kd_json *json, const struct kd_explained *x)
     kd_json_end(json);
 }
 
-static void put_volume(struct kd_json *json, const struct kd_told_volume *v)
+static void put_volume(struct kd_json *json, const struct kd_probed_volume *v)
 {
     kd_json_object(json, NULL);
     kd_json_string(json, "name", kd_emitters[v->emitter]->name);
@@ -205,7 +205,7 @@ static void put_volume(struct kd_json *json, const struct kd_told_volume *v)
     kd_json_end(json);
 }
 
-static void put_stretch(struct kd_json *json, const struct kd_explained *x, const struct kd_told_stretch *s)
+static void put_stretch(struct kd_json *json, const struct kd_explained *x, const struct kd_probed_stretch *s)
 {
     kd_json_object(json, NULL);
     kd_json_number(json, "order", s->order);
@@ -223,7 +223,7 @@ static void put_stretch(struct kd_json *json, const struct kd_explained *x, cons
 /* Volumes along the ray, if the scene has any. */
 static void put_along(struct kd_json *json, const struct kd_explained *x, bool stretches)
 {
-    const struct kd_told_ray *t = x->told;
+    const struct kd_probed_ray *t = x->told;
     float sum[3] = { 0 };
     double passes = 1;
     for (size_t i = 0; i < t->n_stretches; i++) {
@@ -260,7 +260,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x, bool s
 /* The opaque surface at which the visible part of the ray ends, if there is one. */
 static void put_met(struct kd_json *json, const struct kd_explained *x)
 {
-    const struct kd_told_met *m = &x->told->met;
+    const struct kd_probed_met *m = &x->told->met;
     if (!m->met)
         return;
     kd_json_object(json, "met");
@@ -282,7 +282,7 @@ static void put_met(struct kd_json *json, const struct kd_explained *x)
 
 static void put_end(struct kd_json *json, const struct kd_explained *x)
 {
-    const struct kd_told_ray *t = x->told;
+    const struct kd_probed_ray *t = x->told;
     kd_json_object(json, "end");
     kd_json_string(json, "fate", kd_ray_fate_name(x->end.fate));
     kd_json_string(json, "why", x->why);
@@ -337,8 +337,8 @@ static void put_ray(struct kd_json *json, const struct kd_picture *picture, cons
     kd_json_end(json);
 }
 
-static enum kd_status put_each(struct kd_json *json, const struct kd_picture *picture, const struct kd_told *pixel,
-                               struct kd_error *error)
+static enum kd_status put_each(struct kd_json *json, const struct kd_picture *picture,
+                               const struct kd_probed_pixel *pixel, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     kd_json_array(json, "each_ray");
@@ -353,7 +353,7 @@ static enum kd_status put_each(struct kd_json *json, const struct kd_picture *pi
 }
 
 /* The engine's steps, or why there are none; nothing unless they were requested. */
-static void put_trace(struct kd_json *json, const struct kd_picture *picture, const struct kd_told *told)
+static void put_trace(struct kd_json *json, const struct kd_picture *picture, const struct kd_probed_pixel *told)
 {
     if (!picture->plan->told.steps)
         return;

@@ -60,17 +60,17 @@ static void compare(struct kd_explained *x)
 {
     x->picture_error = x->told->n_places ? 0 : NAN;
     for (size_t i = 0; i < x->told->n_places; i++) {
-        const struct kd_told_place *p = &x->told->places[i];
+        const struct kd_probed_place *p = &x->told->places[i];
         const bool has = p->order < x->end.n_crossings;
         x->picture_error = fmax(x->picture_error, has ? fabs(1 / ((double)p->w * x->crossings[p->order].r) - 1) : 1);
     }
 }
 
 /* The opaque place of the ray; NULL if there is none or if a volume was opaque before. */
-static const struct kd_told_place *hiding(const struct kd_told_ray *told)
+static const struct kd_probed_place *hiding(const struct kd_probed_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {
-        const struct kd_told_place *p = &told->places[i];
+        const struct kd_probed_place *p = &told->places[i];
         float left = p->through;
         for (size_t k = 0; k < p->n_glows; k++)
             left *= 1 - p->glows[k].opacity;
@@ -85,7 +85,7 @@ static void say_why(struct kd_explained *x)
     int n = kd_ray_motion_why(&x->motion, x->end.fate, x->why, sizeof x->why);
 #define SAY(...) n += snprintf(x->why + n, sizeof x->why - (size_t)n, __VA_ARGS__)
     if (x->told->through <= 0 && !x->told->given_up) {
-        const struct kd_told_place *hides = hiding(x->told);
+        const struct kd_probed_place *hides = hiding(x->told);
         if (x->told->met.met)
             SAY(" Nothing of that is seen: it ends on a surface at r = %.6g M.", 1 / (double)x->told->met.w);
         else if (hides)
@@ -118,7 +118,7 @@ static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 }
 
 /* Computes everything except the path. */
-static enum kd_status explain(const struct kd_picture *picture, const struct kd_told_ray *ray, struct kd_explained *x,
+static enum kd_status explain(const struct kd_picture *picture, const struct kd_probed_ray *ray, struct kd_explained *x,
                               struct kd_error *error)
 {
     const bool pair = picture->plan->eyes == 2, right = pair && picture->plan->told.x >= picture->frame->width / 2;
@@ -174,7 +174,7 @@ void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_expla
     out[1] = window.top + (x->told->y + 0.5) / steps;
 }
 
-double kd_explained_sum_error(const struct kd_told *pixel)
+double kd_explained_sum_error(const struct kd_probed_pixel *pixel)
 {
     double off = 0, size = 0;
     for (int c = 0; c < 3; c++) {
@@ -192,14 +192,14 @@ static double luminance(const float light[3])
     return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2];
 }
 
-int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES])
+int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES])
 {
     bool polarized = false;
     out[0] = luminance(ray->light);
     for (int c = 0; c < 3; c++)
         out[1 + c] = (double)ray->stokes[c];
     for (size_t i = 0; i < ray->n_places; i++) {
-        const struct kd_told_place *p = &ray->places[i];
+        const struct kd_probed_place *p = &ray->places[i];
         polarized |= p->polarized;
         for (size_t k = 0; k < p->n_glows; k++)
             for (int c = 0; c < 2; c++)
@@ -215,7 +215,7 @@ double kd_explained_along_delay(const struct kd_explained *x)
 {
     double sum = 0, light = 0;
     for (size_t i = 0; i < x->told->n_stretches; i++) {
-        const struct kd_told_stretch *s = &x->told->stretches[i];
+        const struct kd_probed_stretch *s = &x->told->stretches[i];
         const double seen = luminance(s->light);
         sum += seen > 0 ? 0.5 * seen * ((double)s->delay[0] + (double)s->delay[1]) : 0;
         light += seen;
@@ -225,7 +225,7 @@ double kd_explained_along_delay(const struct kd_explained *x)
 
 void kd_explained_finish(struct kd_explained *x) { kd_ray_path_finish(&x->path); }
 
-const struct kd_told_place *kd_explained_place(const struct kd_explained *x, uint32_t order)
+const struct kd_probed_place *kd_explained_place(const struct kd_explained *x, uint32_t order)
 {
     for (size_t i = 0; i < x->told->n_places; i++)
         if (x->told->places[i].order == order)
@@ -233,7 +233,7 @@ const struct kd_told_place *kd_explained_place(const struct kd_explained *x, uin
     return NULL;
 }
 
-bool kd_explained_has_gas(const struct kd_told_place *p)
+bool kd_explained_has_gas(const struct kd_probed_place *p)
 {
     for (size_t i = 0; p && i < p->n_glows; i++)
         if (p->glows[i].opacity > 0)

@@ -8,18 +8,18 @@
 #define KD_RENDER_EXPLAIN_EXPLAIN_H
 
 #include "render/explain/motion.h"
-#include "render/frame/tell.h"
+#include "render/frame/probe.h"
 #include "render/output/format.h"
 #include "render/rays/rays.h"
 #include "render/view/camera.h"
 
 struct kd_explained {
-    const struct kd_told *pixel;
-    const struct kd_told_ray *told; /* the ray that this is about */
-    double weight;                  /* weight of its light in the pixel's: 0, or 1 over the number of rays */
-    const char *eye;                /* "left" or "right"; NULL: not a pair */
-    struct kd_scene scene;          /* scene of this eye */
-    struct kd_camera_label label;   /* energy: E at infinity, in units of the energy that the observer measures */
+    const struct kd_probed_pixel *pixel;
+    const struct kd_probed_ray *told; /* the ray that this is about */
+    double weight;                    /* weight of its light in the pixel's: 0, or 1 over the number of rays */
+    const char *eye;                  /* "left" or "right"; NULL: not a pair */
+    struct kd_scene scene;            /* scene of this eye */
+    struct kd_camera_label label;     /* energy: E at infinity, in units of the energy that the observer measures */
     struct kd_ray_motion motion;
     /* in closed form, with azimuths of the scene, and g as measured by the observer */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
@@ -39,11 +39,11 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 /* Where the ray passes through the picture, in pixels. */
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* Relative difference between the mean of the rays' light and the pixel's light. */
-double kd_explained_sum_error(const struct kd_told *pixel);
+double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
 /* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many are
  * known: without V if only light of the plane is polarised; 0 if the scene is not polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
-int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES]);
+int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES]);
 /* Angle of the electric field, and degree of polarisation; NAN if undefined. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
@@ -53,9 +53,9 @@ double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
 /* The reported place of the crossing of that order; NULL: its light is blocked, or nothing emits light there. */
-const struct kd_told_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
+const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* Whether there is gas with a known temperature and angle; place may be NULL. */
-bool kd_explained_has_gas(const struct kd_told_place *place);
+bool kd_explained_has_gas(const struct kd_probed_place *place);
 /* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
 

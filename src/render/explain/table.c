@@ -29,7 +29,7 @@ done:
     return status;
 }
 
-static enum kd_status put_glow(const struct kd_told_glow *g, const char *where, struct kd_buffer *out)
+static enum kd_status put_glow(const struct kd_probed_glow *g, const char *where, struct kd_buffer *out)
 {
     const double k = g->through;
     return kd_buffer_printf(out, "%-8s %-10s %11.4e %11.4e %11.4e   %11.4e %11.4e %11.4e %8.4f\n", where,
@@ -45,7 +45,7 @@ static enum kd_status put_crossings(const struct kd_explained *x, struct kd_buff
                             "g", "T (K)", "angle", "through"));
     for (uint32_t n = 0; n < x->end.n_crossings; n++) {
         const struct kd_ray_crossing *c = &x->crossings[n];
-        const struct kd_told_place *p = kd_explained_place(x, n);
+        const struct kd_probed_place *p = kd_explained_place(x, n);
         KD_TRY(kd_buffer_printf(out, "%5u %12.6f %10.3f %12.5f %9.5f", n, c->r, DEGREES * c->phi, c->delay, c->g));
         KD_TRY(kd_explained_has_gas(p)
                    ? kd_buffer_printf(out, " %9.1f %9.2f", (double)p->temperature, DEGREES * (double)p->angle)
@@ -55,7 +55,7 @@ static enum kd_status put_crossings(const struct kd_explained *x, struct kd_buff
     }
     double stokes[KD_EXPLAINED_STOKES];
     for (size_t i = 0; i < x->told->n_places; i++) {
-        const struct kd_told_place *p = &x->told->places[i];
+        const struct kd_probed_place *p = &x->told->places[i];
         const double own[3] = { 1, (double)p->stokes[0], (double)p->stokes[1] };
         if (p->polarized)
             KD_TRY(kd_buffer_printf(out, "order %u is polarised: EVPA %.4f deg, fraction %.5f\n", p->order,
@@ -77,7 +77,7 @@ done:
 
 static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *out)
 {
-    const struct kd_told_ray *t = x->told;
+    const struct kd_probed_ray *t = x->told;
     char where[16];
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "\n%-8s %-10s %35s   %35s %8s\n", "order", "emitter", "light there, linear RGB",
@@ -88,7 +88,7 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
             KD_TRY(put_glow(&t->places[i].glows[k], where, out));
         }
     for (size_t i = 0; i < t->n_volumes; i++) {
-        const struct kd_told_volume *v = &t->volumes[i];
+        const struct kd_probed_volume *v = &t->volumes[i];
         KD_TRY(kd_buffer_printf(out, "%-8s %-10s %35s   %11.4e %11.4e %11.4e   depth %.5g\n", "along",
                                 kd_emitters[v->emitter]->name, "", (double)v->light[0], (double)v->light[1],
                                 (double)v->light[2], (double)v->depth));
@@ -97,11 +97,11 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
         KD_TRY(kd_buffer_printf(out, "%-19s delay %.5g M, the mean over its light\n", "along",
                                 kd_explained_along_delay(x)));
     if (t->met.met) {
-        const struct kd_told_met *m = &t->met;
-        const struct kd_told_glow glow = { .emitter = m->emitter,
-                                           .light = { m->light[0], m->light[1], m->light[2] },
-                                           .opacity = 1,
-                                           .through = m->through };
+        const struct kd_probed_met *m = &t->met;
+        const struct kd_probed_glow glow = { .emitter = m->emitter,
+                                             .light = { m->light[0], m->light[1], m->light[2] },
+                                             .opacity = 1,
+                                             .through = m->through };
         snprintf(where, sizeof where, "after %u", m->order);
         KD_TRY(put_glow(&glow, where, out));
     }
@@ -141,8 +141,8 @@ done:
 }
 
 /* The rays whose mean is the pixel's light, if there are several. */
-static enum kd_status put_each(const struct kd_picture *picture, const struct kd_told *pixel, struct kd_buffer *out,
-                               struct kd_error *error)
+static enum kd_status put_each(const struct kd_picture *picture, const struct kd_probed_pixel *pixel,
+                               struct kd_buffer *out, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     if (pixel->rays > 1)

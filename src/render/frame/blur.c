@@ -60,13 +60,13 @@ static bool go_on(void *user, double fraction)
 
 static bool wanted(void *user)
 {
-    return ((const struct part *)user)->blurred->glance->wanted(((const struct part *)user)->blurred->user);
+    return ((const struct part *)user)->blurred->preview->wanted(((const struct part *)user)->blurred->user);
 }
 
 static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
     const struct kd_blurred *b = ((const struct part *)user)->blurred;
-    b->glance->seen(b->user, frame, rows);
+    b->preview->seen(b->user, frame, rows);
 }
 
 static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigned sample, struct kd_light_sum *sum,
@@ -89,7 +89,7 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
         KD_TRY(kd_error_set(error, KD_ETOOBIG,
                             "a picture of the blurred frame does not fit on the device in one any more"));
     bring_light(&plan);
-    KD_TRY(b->aside ? kd_render_aside(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
+    KD_TRY(b->aside ? kd_render_in_background(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
                     : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
     const float *light = frame.layers[1].data;
     for (size_t i = 0; i < (size_t)3 * frame.width * frame.height; i++)
@@ -103,7 +103,7 @@ done:
 
 enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *out, struct kd_error *error)
 {
-    static const struct kd_glance looks = { wanted, seen };
+    static const struct kd_preview_hook looks = { wanted, seen };
     struct part part = { b, 0 };
     const unsigned n = b->blur->samples;
     struct kd_light_sum others = { calloc((size_t)b->plan->width * b->plan->height, SUM) };
@@ -112,7 +112,7 @@ enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *ou
     for (; part.done < n - 1 && !status; part.done++)
         status = add(b, &part, n - 1 - part.done, &others, error);
     if (!status)
-        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->glance ? &looks : NULL,
+        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->preview ? &looks : NULL,
                                 &part, out, error);
     if (!status)
         out->others_traced = others.traced;

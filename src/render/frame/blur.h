@@ -22,7 +22,7 @@ struct kd_blur {
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error);
 
-/* Parameters for kd_render or, if `aside`, kd_render_aside. glance: previews sample 0, which is rendered last,
+/* Parameters for kd_render or, if `aside`, kd_render_in_background. preview: previews sample 0, which is rendered last,
  * without the others. */
 struct kd_blurred {
     struct kd_renderer *renderer;
@@ -31,7 +31,7 @@ struct kd_blurred {
     const struct kd_plan *plan;
     bool aside;
     kd_progress_fn progress;
-    const struct kd_glance *glance;
+    const struct kd_preview_hook *preview;
     void *user;
 };
 /* Errors as kd_render, and those of the callback. */

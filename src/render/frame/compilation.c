@@ -4,7 +4,7 @@
 #include "render/device/compiled.h"
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 
 #include <stdlib.h>
 
@@ -12,9 +12,9 @@ struct kd_compilation {
     struct kd_renderer *renderer;
     bool picture; /* a scene by a plan, which is rendered as a whole */
     struct kd_scene scene;
-    struct kd_crowd *crowd; /* playground of the scene, referenced: the requester may be gone by then */
+    struct kd_dynamic_bodies *crowd; /* playground of the scene, referenced: the requester may be gone by then */
     struct kd_plan plan;
-    struct kd_kernel_wishes wishes;
+    struct kd_kernel_requests wishes;
     kd_progress_fn progress;
     void *user;
     enum kd_status status;
@@ -61,8 +61,8 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
         return NULL;
     c->picture = true;
     c->scene = *scene;
-    c->crowd = (struct kd_crowd *)scene->crowd.at;
-    kd_crowd_keep(c->crowd);
+    c->crowd = (struct kd_dynamic_bodies *)scene->crowd.at;
+    kd_dynamic_bodies_keep(c->crowd);
     c->plan = *plan;
     c->plan.audit = 0; /* there is nothing to audit */
     return c;
@@ -76,7 +76,7 @@ static enum kd_status dispatch_each(struct kd_compilation *c, struct kd_renderer
     struct kd_vk_buffer *any = NULL;
     enum kd_status status;
     KD_TRY(kd_vk_buffer_create(own->vk, bytes, KD_VK_DEVICE, "of nothing", &any, error));
-    for (const struct kd_kernel_wish *w = c->wishes.at; w < c->wishes.at + c->wishes.n; w++) {
+    for (const struct kd_kernel_request *w = c->wishes.at; w < c->wishes.at + c->wishes.n; w++) {
         struct kd_vk_dispatch d = { .pass = "compile", .push = push };
         KD_TRY(kd_kernels_get_of(&own->kernels, own->vk, w->source, w->constants, w->n, &d.pipeline, error));
         for (uint32_t i = 0; i < w->source->n_buffers; i++)
@@ -130,7 +130,7 @@ enum kd_status kd_compilation_run(struct kd_compilation *c, kd_progress_fn progr
     const bool late = kd_vk_compiling(c->renderer->vk, dir) == KD_VK_COMPILES_LATE &&
                       !kd_compiled_has(c->renderer, &c->wishes),
                beside = late && !pthread_create(&thread, NULL, rehearse, c);
-    kd_kernel_wishes_make(&c->wishes, c->renderer->vk);
+    kd_kernel_requests_make(&c->wishes, c->renderer->vk);
     if (beside)
         pthread_join(thread, NULL);
     else if (late)
@@ -152,7 +152,7 @@ void kd_compilation_end(struct kd_compilation *c)
 
 void kd_compilation_drop(struct kd_compilation *c)
 {
-    kd_crowd_release(c->crowd);
+    kd_dynamic_bodies_release(c->crowd);
     free(c);
 }
 

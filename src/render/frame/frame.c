@@ -73,7 +73,7 @@ enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
             KD_TRY(kd_frame_trace_kernel(j, &lattices[i], &later));
             KD_TRY(kd_frame_footprint_kernel(j, i ? &lattices[i] : NULL, &later));
         }
-        if (!j->plan->unseen)
+        if (!j->plan->no_image)
             KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &later));
     }
     for (size_t i = 0; i < j->plan->n_layers; i++)
@@ -83,10 +83,10 @@ enum kd_status kd_frame_ask_kernels(struct kd_frame_job *j)
     if (j->plan->told.on && (j->plan->planes || j->plan->march.steps))
         KD_TRY(kd_frame_light_kernel(j, &lattices[0], KD_MAKES_TOLD, &later));
     if (j->plan->told.on)
-        KD_TRY(kd_frame_tell_ask(j));
+        KD_TRY(kd_frame_probe_ask(j));
     if (j->plan->points)
         KD_TRY(kd_frame_star_kernels(j));
-    if (!j->plan->unseen)
+    if (!j->plan->no_image)
         KD_TRY(kd_frame_post_kernel(j, &later));
 done:
     return status;
@@ -188,18 +188,18 @@ static enum kd_status run(struct kd_frame_job *j)
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
     j->refine_rows = j->plan->adaptive ? rows_of_refining(j, j->plan->height * (!reused + 1.0)) : 0;
-    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen) + j->refine_rows;
+    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->no_image) + j->refine_rows;
     KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
     KD_TRY(forget_lost(j));
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->adaptive)
         KD_TRY(refine(j));
-    KD_TRY(kd_frame_tell_pixel(j));
+    KD_TRY(kd_frame_probe_pixel(j));
     if (j->others)
         KD_TRY(kd_frame_mean(j));
     if (j->plan->light)
         KD_TRY(kd_frame_add_light(j));
-    if (!j->plan->unseen)
+    if (!j->plan->no_image)
         KD_TRY(kd_frame_show(j));
     KD_TRY(kd_frame_layers(j));
     if (j->plan->light)
@@ -218,7 +218,7 @@ static enum kd_status add_layers(const struct kd_frame_job *job, struct kd_frame
 {
     const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
     enum kd_status status;
-    if (!job->plan->unseen)
+    if (!job->plan->no_image)
         KD_TRY(kd_frame_add_layer(frame, "rgb", 3, type, job->error));
     KD_TRY(kd_frame_add_layers(frame, job->plan, job->error));
 done:

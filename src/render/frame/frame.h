@@ -25,8 +25,8 @@ struct kd_frame {
     uint32_t others_traced; /* lens maps traced for the other pictures of a mean (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
-    double density_scale; /* factor applied to the density (volume.normalise_to_jy); 1: none */
-    struct kd_told *told; /* light of the pixel that the plan names (frame/tell.h); NULL: none */
+    double density_scale;         /* factor applied to the density (volume.normalise_to_jy); 1: none */
+    struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/tell.h); NULL: none */
     /* passes that ran, by the names of plan/pass.h, "upload" and "fill"; "kernels" if some had to be made; "total" */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
@@ -45,7 +45,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
 /* Preview of a long picture, which is drawn from the top some rows at a time. Called between these. */
-struct kd_glance {
+struct kd_preview_hook {
     bool (*wanted)(void *user);
     /* frame: of full size, black from row `rows` on, with an exposure of its own if that is "auto", without timings
      * and accuracy. Its layers are valid only during the call. */
@@ -53,13 +53,14 @@ struct kd_glance {
 };
 
 /* The same with separate buffers. progress, called about every 100 ms, may let other threads use the renderer for
- * anything in this header before it returns; the picture's bytes do not depend on that. At most KD_ASIDES may run
- * concurrently, and the callers must limit their total memory, the plans' device_bytes; cached lens maps of finished
- * ones are evicted to make room. Timings exclude the time spent in progress. glance: NULL, or both functions, called
- * with `user`. */
-enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, const struct kd_glance *glance, void *user,
-                               struct kd_frame *out, struct kd_error *error);
+ * anything in this header before it returns; the picture's bytes do not depend on that. At most KD_BACKGROUND_RENDERS
+ * may run concurrently, and the callers must limit their total memory, the plans' device_bytes; cached lens maps of
+ * finished ones are evicted to make room. Timings exclude the time spent in progress. preview: NULL, or both functions,
+ * called with `user`. */
+enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                       const struct kd_plan *plan, kd_progress_fn progress,
+                                       const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
+                                       struct kd_error *error);
 
 /* Sum of the linear light of n other pictures of the same size: red, green and blue of each pixel, rows from the
  * top. */
@@ -67,11 +68,13 @@ struct kd_light_sum {
     double *sum;
     unsigned n, traced; /* traced: lens maps that were traced for them */
 };
-/* As kd_render (or kd_render_aside if `aside`), for a picture whose light is averaged with that of others; called by
- * frame/blur.h. plan->radiance must be true, and plan->eyes 1. The error of refined pixels is not measured. */
+/* As kd_render (or kd_render_in_background if `aside`), for a picture whose light is averaged with that of others;
+ * called by frame/blur.h. plan->radiance must be true, and plan->eyes 1. The error of refined pixels is not measured.
+ */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
-                              const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error);
+                              const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
+                              struct kd_error *error);
 
 /* Renders only the lens map: plan->planes planes of plan->rays floats each, rows from the top, in the order that
  * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */

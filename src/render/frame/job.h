@@ -3,7 +3,7 @@
 #ifndef KD_RENDER_FRAME_JOB_H
 #define KD_RENDER_FRAME_JOB_H
 
-#include "base/waiting.h"
+#include "base/cpu_pressure.h"
 #include "render/device/internal.h"
 #include "render/frame/frame.h"
 #include "render/view/critical_pixels.h"
@@ -29,16 +29,16 @@ struct kd_frame_job {
     double listed_ms, audit_ms;    /* the host's time for these rays; for the audit */
     double kernels_ms;             /* the host's time for making missing kernels before they first run */
     kd_progress_fn progress;
-    const struct kd_glance *glance;
+    const struct kd_preview_hook *preview;
     void *user;
     double done, weight; /* rows done so far, over all passes; rows in total */
     /* the rows that refinement counts for and that are not yet reported; rays that it is expected to trace */
     double refine_rows, refine_rays;
-    uint32_t lit;              /* rows of pixels from the top whose light is complete */
-    bool looking;              /* a preview is being made */
-    uint8_t *kinds;            /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;              /* whether its times are measurements of the passes' costs */
-    struct kd_waiting waiting; /* time that its threads waited for a core, which is subtracted */
+    uint32_t lit;                   /* rows of pixels from the top whose light is complete */
+    bool looking;                   /* a preview is being made */
+    uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
+    bool teaches;                   /* whether its times are measurements of the passes' costs */
+    struct kd_cpu_pressure waiting; /* time that its threads waited for a core, which is subtracted */
     struct kd_frame *frame;
     struct kd_error *error;
 };
@@ -140,10 +140,10 @@ enum kd_status kd_frame_gather(struct kd_frame_job *job);
 
 /* Describes the light of the plan's pixel if it is in this band, whose lens map must exist; then, when all light is
  * complete, the pixel's result. */
-enum kd_status kd_frame_tell(struct kd_frame_job *job, uint32_t band);
-enum kd_status kd_frame_tell_pixel(struct kd_frame_job *job);
+enum kd_status kd_frame_probe(struct kd_frame_job *job, uint32_t band);
+enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
 /* Requests the kernels for its steps, if these are recorded. */
-enum kd_status kd_frame_tell_ask(struct kd_frame_job *job);
+enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 
 /* Follows rays through volumes again on a sample of this band's pixels, as in the picture and more finely. After all
  * bands, writes the differences into the frame's accuracy. Do nothing without volumes. */

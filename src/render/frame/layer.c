@@ -1,5 +1,5 @@
 #include "render/frame/frame.h"
-#include "render/frame/tell.h"
+#include "render/frame/probe.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,7 +37,7 @@ void kd_frame_drop_layers(struct kd_frame *frame)
     frame->n_layers = 0;
 }
 
-void kd_told_destroy(struct kd_told *told)
+void kd_probed_destroy(struct kd_probed_pixel *told)
 {
     if (told && told->steps)
         kd_rays_steps_finish(told->steps);
@@ -49,6 +49,6 @@ void kd_told_destroy(struct kd_told *told)
 void kd_frame_finish(struct kd_frame *frame)
 {
     kd_frame_drop_layers(frame);
-    kd_told_destroy(frame->told);
+    kd_probed_destroy(frame->told);
     *frame = (struct kd_frame) { 0 };
 }

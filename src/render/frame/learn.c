@@ -41,7 +41,7 @@ void kd_frame_learn_begin(struct kd_frame_job *job)
     job->teaches =
         !on_the_host(job->r) || job->r->probing || job->plan->estimate_ms > LONG_MS || job->r->frames++ % OFTEN == 0;
     if (job->teaches && on_the_host(job->r))
-        job->waiting = kd_waiting_now();
+        job->waiting = kd_cpu_pressure_now();
 }
 
 void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame)
@@ -51,7 +51,7 @@ void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame)
     struct kd_capacity *c = &renderer->capacity;
     if (!job->teaches)
         return;
-    const double share = on_the_host(renderer) ? kd_waiting_share(&job->waiting) : 1;
+    const double share = on_the_host(renderer) ? kd_cpu_pressure_share(&job->waiting) : 1;
     pthread_mutex_lock(&renderer->lock);
     for (size_t i = 0; i < plan->n_passes; i++)
         learn(c, job, &plan->passes[i], share * timing(frame, plan->passes[i].name));

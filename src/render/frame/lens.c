@@ -455,7 +455,7 @@ static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double tr
         if (p->points)
             KD_TRY(kd_frame_stars(j, band));
         KD_TRY(light_band(j, band, needed && !p->points, p->points ? transfer_ns : ns));
-        KD_TRY(kd_frame_tell(j, band));
+        KD_TRY(kd_frame_probe(j, band));
         KD_TRY(kd_frame_sample_march(j, band));
     }
 done:

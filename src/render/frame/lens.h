@@ -54,7 +54,7 @@ void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame
 enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_frame_part *part);
 
 /* Describes the light of the plan's pixel again, if it is in a part that has just been lit. */
-enum kd_status kd_frame_tell_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
+enum kd_status kd_frame_probe_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
 
 /* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band). The list of
  * open rays is emptied before rays are traced. Afterwards those on the list are traced again (settle.c):

@@ -197,7 +197,7 @@ enum kd_status kd_frame_light_list(struct kd_frame_job *j, const struct kd_frame
             if (makes == KD_MAKES_PICTURE ||
                 (kd_layer_kinds[j->plan->layers[makes].kind].of == KD_OF_LIGHT && !j->plan->march.steps))
                 KD_TRY(transfer_part(j, &part, makes, kd_plan_light_ns(j->plan, &c)));
-        KD_TRY(kd_frame_tell_listed(j, &part));
+        KD_TRY(kd_frame_probe_listed(j, &part));
     }
 done:
     return status;

@@ -213,7 +213,7 @@ enum kd_status kd_frame_normalise_ask(struct kd_renderer *renderer, const struct
     struct kd_normal wanted;
     enum kd_status status;
     KD_TRY(keys_of(&s, &wanted));
-    for (size_t i = 0; i < 2 && !(known(&renderer->normalised, &wanted, plan->held) > 0); i++) {
+    for (size_t i = 0; i < 2 && !(known(&renderer->normalised, &wanted, plan->reuse_normalisation) > 0); i++) {
         struct kd_scene own;
         struct kd_plan by;
         KD_TRY(plan_of(&s, sides[i], 0, &own, &by));
@@ -239,7 +239,7 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     if (!(*density_of(scene) > 0))
         return refuse(&s, "there is no matter, which has", 0);
     KD_TRY(keys_of(&s, &found));
-    found.scale = known(kept, &found, plan->held);
+    found.scale = known(kept, &found, plan->reuse_normalisation);
     if (!(found.scale > 0)) {
         s.most = log(DENSEST / *density_of(scene));
         KD_TRY(search(&s, &found.scale));

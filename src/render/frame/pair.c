@@ -61,7 +61,7 @@ static enum kd_status join(const struct kd_frame eyes[2], struct kd_frame *out, 
     memset(frame.layers, 0, sizeof frame.layers);
     frame.light = (struct kd_light_report) { 0 }; /* it would be of neither picture */
     frame.told = NULL;
-    kd_frame_tell_both(&frame, &eyes[1]);
+    kd_frame_probe_both(&frame, &eyes[1]);
     for (size_t i = 0; i < eyes[0].n_layers; i++) {
         const struct kd_layer *l = &eyes[0].layers[i];
         KD_TRY(kd_frame_add_layer(&frame, l->name, l->channels, l->type, error));

@@ -40,7 +40,7 @@ static struct kd_accuracy_report both(const struct kd_accuracy_report *l, const 
     };
 }
 
-void kd_frame_tell_both(struct kd_frame *to, const struct kd_frame *from)
+void kd_frame_probe_both(struct kd_frame *to, const struct kd_frame *from)
 {
     to->lens_reused = to->lens_reused && from->lens_reused;
     to->accuracy = both(&to->accuracy, &from->accuracy);
@@ -50,7 +50,7 @@ void kd_frame_tell_both(struct kd_frame *to, const struct kd_frame *from)
 enum kd_status kd_frame_render_part(const struct kd_parted *p, const struct kd_scene *scene, const struct kd_plan *plan,
                                     kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    return p->aside ? kd_render_aside(p->renderer, scene, plan, progress, NULL, user, out, error)
+    return p->aside ? kd_render_in_background(p->renderer, scene, plan, progress, NULL, user, out, error)
                     : kd_render(p->renderer, scene, plan, progress, user, out, error);
 }
 

@@ -10,7 +10,7 @@ struct kd_parted {
     struct kd_renderer *renderer;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    bool aside; /* as kd_render_aside; there are no previews */
+    bool aside; /* as kd_render_in_background; there are no previews */
     kd_progress_fn progress;
     void *user;
 };
@@ -30,7 +30,7 @@ enum kd_status kd_frame_render_part(const struct kd_parted *parted, const struct
 
 /* Merges the report of another part (times, accuracy, whether its lens map was cached) into that of a part: counts
  * are added, and the larger error is kept. */
-void kd_frame_tell_both(struct kd_frame *to, const struct kd_frame *from);
+void kd_frame_probe_both(struct kd_frame *to, const struct kd_frame *from);
 
 enum kd_status kd_frame_pair(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);
 enum kd_status kd_frame_tile(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);

@@ -12,13 +12,14 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
     const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band, because the whole may exceed a binding */
-    const struct kd_spec_photometry spec = {
-        .APART = p->apart, .FINITE = finite, .STOKES = p->stokes_words > 0, .STOKES_APART = kd_plan_stokes_apart(p)
-    };
+    const struct kd_spec_photometry spec = { .SEPARATE_PHOTOMETRY = p->apart,
+                                             .FINITE = finite,
+                                             .STOKES = p->stokes_words > 0,
+                                             .STOKES_APART = kd_plan_stokes_apart(p) };
     const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
     enum kd_status status;
-    KD_TRY(
-        kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error));
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.SEPARATE_PHOTOMETRY, sizeof spec / 4,
+                          &light, j->error));
     for (uint32_t band = 0; band < p->bands; band++) {
         const struct kd_light_push push = {
             .pixels_x = p->width,

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static enum kd_status glance(struct kd_frame_job *j)
+static enum kd_status preview(struct kd_frame_job *j)
 {
     size_t row = j->plan->width * kd_layer_pixel_bytes(&j->frame->layers[0]);
     memset((char *)kd_frame_pixels(j->frame) + row * j->lit, 0, row * (j->plan->height - j->lit));
@@ -16,7 +16,7 @@ static enum kd_status glance(struct kd_frame_job *j)
     enum kd_status status;
     KD_TRY(kd_frame_show(j));
     KD_TRY(kd_frame_layers(j));
-    j->glance->seen(j->user, j->frame, j->lit);
+    j->preview->seen(j->user, j->frame, j->lit);
 done:
     j->looking = false;
     return status;
@@ -91,8 +91,8 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
         return status;
     if (!go_on)
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
-    bool part = j->glance && !j->plan->unseen && !j->looking && j->lit && j->lit < j->plan->height;
-    return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
+    bool part = j->preview && !j->plan->no_image && !j->looking && j->lit && j->lit < j->plan->height;
+    return part && j->preview->wanted(j->user) ? preview(j) : KD_OK;
 }
 
 _Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 4,

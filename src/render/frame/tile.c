@@ -100,7 +100,7 @@ enum kd_status kd_frame_strips(const struct kd_parted *p, struct kd_frame *out, 
         const struct share share = { p, (double)rows / p->plan->height, (double)strip.tile.height / p->plan->height };
         KD_TRY(render_strip(p, &strip, rows, &share, &part, error));
         if (i)
-            kd_frame_tell_both(&frame, &part);
+            kd_frame_probe_both(&frame, &part);
         else
             KD_TRY(begin(&part, p->plan->height, &frame, error));
         put_rows(&part, rows, &frame);

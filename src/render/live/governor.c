@@ -468,38 +468,38 @@ void kd_governor_expect(struct kd_governor *g, const struct kd_frame_cost *cost)
 
 /* Decisions */
 
-static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn)
+static struct kd_frame_decision next_step(const struct kd_governor *g, struct kd_frame_decision decision)
 {
     size_t i = 0;
     while (i + 1 < g->ladder.n_steps && g->ladder.steps[i].rays <= g->shown_rays)
         i++;
-    turn.quality = g->ladder.steps[i].quality;
-    turn.rays = g->ladder.steps[i].rays;
-    turn.refining = true;
-    turn.audit = 1;
-    return turn;
+    decision.quality = g->ladder.steps[i].quality;
+    decision.rays = g->ladder.steps[i].rays;
+    decision.refining = true;
+    decision.audit = 1;
+    return decision;
 }
 
-struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
+struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double now)
 {
     const bool moves = now - g->lens_at < g->hold_ms, traced = moves || now < g->blind_until;
-    struct kd_turn turn = {
+    struct kd_frame_decision decision = {
         .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision
     };
-    turn.quality = g->ladder.rungs[turn.rung].quality;
-    turn.quality.bright = traced && turn.rung;
-    turn.quality.critical = moves && turn.rung ? DRAGGED_CRITICAL : 0;
-    turn.rays = g->ladder.rungs[turn.rung].rays;
-    turn.audit = turn.quality.final && g->share >= 1 ? 1 : MOVING_AUDIT;
+    decision.quality = g->ladder.rungs[decision.rung].quality;
+    decision.quality.bright = traced && decision.rung;
+    decision.quality.critical = moves && decision.rung ? DRAGGED_CRITICAL : 0;
+    decision.rays = g->ladder.rungs[decision.rung].rays;
+    decision.audit = decision.quality.final && g->share >= 1 ? 1 : MOVING_AUDIT;
     if (g->shown_revision != g->revision)
-        return turn;
+        return decision;
     double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at,
            left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
     if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end them slightly early */
-        return next_step(g, turn);
-    turn.quality = g->shown;
-    turn.wait_ms = g->shown.final ? INFINITY : left;
-    return turn;
+        return next_step(g, decision);
+    decision.quality = g->shown;
+    decision.wait_ms = g->shown.final ? INFINITY : left;
+    return decision;
 }
 
 /* Counts lens maps that should have been cached. One may be missing after a change of rung. If none are cached, for
@@ -519,24 +519,26 @@ static bool is_sane(const struct kd_frame_cost *c)
            isfinite(c->total_ms + c->fixed_ms);
 }
 
-void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *turn, const struct kd_frame_cost *cost)
+void kd_governor_frame(struct kd_governor *g, double now, const struct kd_frame_decision *decision,
+                       const struct kd_frame_cost *cost)
 {
-    if (turn->revision == g->revision) {
-        g->shown = turn->quality;
-        g->shown_revision = turn->revision;
-        g->shown_rays = turn->rays;
-        g->shown_at = turn->refining ? g->shown_at : now;
+    if (decision->revision == g->revision) {
+        g->shown = decision->quality;
+        g->shown_revision = decision->revision;
+        g->shown_rays = decision->rays;
+        g->shown_at = decision->refining ? g->shown_at : now;
     }
-    struct kd_pace *pace = &g->paces[turn->traced];
-    if (turn->ladder != g->ladders || !is_sane(cost))
+    struct kd_pace *pace = &g->paces[decision->traced];
+    if (decision->ladder != g->ladders || !is_sane(cost))
         return;
-    if (!cost->lens_reused && (turn->refining || !turn->traced)) {
-        const struct kd_rung of = { .rays = turn->rays, .pixels = (double)turn->quality.width * turn->quality.height };
+    if (!cost->lens_reused && (decision->refining || !decision->traced)) {
+        const struct kd_rung of = { .rays = decision->rays,
+                                    .pixels = (double)decision->quality.width * decision->quality.height };
         expect(g, cost, &of, ENOUGH - 1);
     }
-    if (turn->refining || turn->rung != pace->rung)
+    if (decision->refining || decision->rung != pace->rung)
         return;
-    if (!turn->traced) {
+    if (!decision->traced) {
         g->missed = cost->lens_reused ? 0 : g->missed;
         if (!cost->lens_reused) {
             miss(g, now);

@@ -7,16 +7,17 @@
  *     when a session opens, or its scene changes (a PATCH, a step of time):
  *         kd_governor_changed(&governor, now, &asked, lens);
  *     whenever the renderer is free:
- *         struct kd_turn turn = kd_governor_turn(&governor, now);
- *         if (turn.wait_ms > 0) wait for a change for at most that long, and ask again
- *         kd_quality_apply(&turn.quality, &asked, &scene); plan, render and encode `scene`; show it
- *         kd_governor_frame(&governor, now, &turn, &cost);
+ *         struct kd_frame_decision decision = kd_governor_decide(&governor, now);
+ *         if (decision.wait_ms > 0) wait for a change for at most that long, and ask again
+ *         kd_quality_apply(&decision.quality, &asked, &scene); plan, render and encode `scene`; show it
+ *         kd_governor_frame(&governor, now, &decision, &cost);
  *
- * One frame is in flight: ask for the next turn after the last was reported by kd_governor_frame, or was given up. A
- * frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with turn.refining as soon
- * as the scene changes: it may take long, and nobody waits for it any more.
+ * One frame is in flight: ask for the next decision after the last was reported by kd_governor_frame, or was given up.
+ * A frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with decision.refining as
+ * soon as the scene changes: it may take long, and nobody waits for it any more.
  *
- * turn.quality is the quality to report as in force. While nothing is rendered, it is that of the newest frame shown.
+ * decision.quality is the quality to report as in force. While nothing is rendered, it is that of the newest frame
+ * shown.
  *
  * The cost of a frame has a fixed part, a part for each ray, and a part for each pixel. Only the parts that depend on
  * size can be reduced. Their time budget is the target minus the fixed part, but at least half the target, and at least
@@ -95,7 +96,7 @@ struct kd_frame_cost {
     bool lens_reused; /* as in kd_frame */
 };
 
-struct kd_turn {
+struct kd_frame_decision {
     struct kd_quality quality; /* quality of the frame to render now; if there is none, of the picture shown */
     double wait_ms; /* 0: render now. Otherwise there is nothing to render for this long; INFINITY: the session rests */
     bool refining;  /* the scene rests, and this frame is a step upwards */
@@ -181,10 +182,10 @@ void kd_governor_changed(struct kd_governor *governor, double now, const struct 
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
 /* Decides what to do now. Call after kd_governor_changed. */
-struct kd_turn kd_governor_turn(const struct kd_governor *governor, double now);
+struct kd_frame_decision kd_governor_decide(const struct kd_governor *governor, double now);
 
-/* Reports that the frame of that turn was shown. */
-void kd_governor_frame(struct kd_governor *governor, double now, const struct kd_turn *turn,
+/* Reports that the frame of that decision was shown. */
+void kd_governor_frame(struct kd_governor *governor, double now, const struct kd_frame_decision *decision,
                        const struct kd_frame_cost *cost);
 
 #endif

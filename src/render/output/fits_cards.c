@@ -3,7 +3,7 @@
 
 #include "image/fits.h"
 #include "physics/spacetime/scale.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "scene/table.h"
 
 #include <math.h>

@@ -56,7 +56,7 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
         return status;
     struct kd_needs needs = kd_needs_of(scene);
     needs.light |= (format->carries & KD_CARRIES_LIGHT) != 0;
-    needs.unseen = format->carries == KD_CARRIES_LIGHT;
+    needs.no_image = format->carries == KD_CARRIES_LIGHT;
     needs.radiance = (format->carries & KD_CARRIES_LAYERS) != 0;
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }

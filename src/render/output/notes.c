@@ -1,6 +1,6 @@
 #include "render/output/notes.h"
 
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "scene/sha256.h"
 
 #include <stdio.h>
@@ -78,7 +78,7 @@ static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_
  * shown, and cannot be read back as a scene. */
 static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
-    const struct kd_crowd *crowd = picture->scene->crowd.at;
+    const struct kd_dynamic_bodies *crowd = picture->scene->crowd.at;
     struct kd_buffer *out = &notes->scene;
     enum kd_status status = kd_scene_to_json(picture->scene, out);
     if (status)

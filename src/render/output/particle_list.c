@@ -208,7 +208,7 @@ static void fill_row(double *row, const struct kd_particle_list *list, uint32_t 
 
 enum kd_status kd_particle_list_ask(struct kd_renderer *renderer, const struct kd_particle_list *list)
 {
-    struct kd_own_work work;
+    struct kd_emitter_buffers_work work;
     const enum kd_status status = kd_prepare_asked(renderer, KD_EMITTER_particles, &work, NULL);
     return status ? status : kd_particles_ask(&work, &list->scene);
 }
@@ -220,7 +220,7 @@ enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct 
     if (!places)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu particles", n);
     uint32_t first = list->first + (uint32_t)from * list->stride;
-    struct kd_own_work work;
+    struct kd_emitter_buffers_work work;
     enum kd_status status = kd_prepare_asked(renderer, KD_EMITTER_particles, &work, error);
     if (!status)
         status = kd_particles_places(&work, &list->scene, first, list->stride, n, places, error);

@@ -38,7 +38,7 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     const struct kd_scene left = kd_scene_eye(scene, -1), right = kd_scene_eye(scene, 1);
     struct kd_plan plan, next;
     enum kd_status status;
-    if (needs->light && needs->unseen)
+    if (needs->light && needs->no_image)
         KD_TRY(kd_error_field(
             error, "/camera/stereo",
             "camera.stereo is \"pair\"; it must be \"none\" where light is measured: there is one flux for each eye"));

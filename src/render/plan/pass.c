@@ -143,7 +143,7 @@ static uint64_t refined(const struct kd_plan *plan, const struct kd_scene *scene
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(layered, plan->n_layers *pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
-INVOCATIONS(shown, plan->unseen ? 0 : pixels(plan, scene))
+INVOCATIONS(shown, plan->no_image ? 0 : pixels(plan, scene))
 /* Refinement examines the whole picture before its first round and after each. */
 INVOCATIONS(posted, shown(plan, scene) * (plan->adaptive ? 1 + KD_PLAN_REFINING_LOOKS : 1))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)

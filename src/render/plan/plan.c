@@ -42,8 +42,8 @@ WHEN(near_beam, plan->beam.cell && !plan->numbers && isfinite(scene->camera.r))
 WHEN(near_flux, kd_scene_is_radio_alone(scene) && isfinite(scene->camera.r))
 WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers &&
                !kd_plan_is_map(plan))
-WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->held)
-WHEN(held, plan->held)
+WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->reuse_normalisation)
+WHEN(held, plan->reuse_normalisation)
 WHEN(maps, plan->n_layers > 0)
 WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
@@ -237,16 +237,16 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
 /* Rays of a ring pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve. Unless an engine or
  * steps are named, the closed form is used: it needs no device and meets each tolerance that a picture may ask for.
  * The table's rows were measured on other rays. */
-static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
+static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
-    if (wish->precision == KD_PRECISION_F32)
+    if (asked_accuracy->precision == KD_PRECISION_F32)
         return kd_error_field(error, "/accuracy/precision",
                               "accuracy.precision is \"f32\", and in the ring projection must be \"f64\" or \"auto\"");
-    wish->precision = KD_PRECISION_F64;
-    wish->profile = KD_PROFILE_REFERENCE;
-    if (wish->engine < 0 && !wish->steps) {
-        wish->engine = KD_ENGINE_CLOSED;
-        wish->tolerance = INFINITY;
+    asked_accuracy->precision = KD_PRECISION_F64;
+    asked_accuracy->profile = KD_PROFILE_REFERENCE;
+    if (asked_accuracy->engine < 0 && !asked_accuracy->steps) {
+        asked_accuracy->engine = KD_ENGINE_CLOSED;
+        asked_accuracy->tolerance = INFINITY;
     }
     return KD_OK;
 }
@@ -263,8 +263,8 @@ static bool within_horizon(const struct kd_scene *scene) { return scene->camera.
 /* Inside the horizon only lens_map.comp traces light. Its steps are per half turn, which takes longer the nearer the
  * observer is to the centre: w'' = 3K w^2 is faster there by sqrt(6w) than at w = 1/2, for which the steps were
  * chosen. */
-static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_wish *wish,
-                                  struct kd_error *error)
+static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene,
+                                  const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
     struct kd_setting *by = &plan->setting;
     if (kd_emit_slow_along(scene))
@@ -279,7 +279,7 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
             "accuracy.engine is \"%s\" in %s; within the horizon, camera.r %.9g, it must be a Mino engine in "
             "f32, without delay of light",
             kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);
-    for (double quicker = (1 + 6 / scene->camera.r) / 4; quicker > 1.2 && !wish->steps && by->steps < 1024;
+    for (double quicker = (1 + 6 / scene->camera.r) / 4; quicker > 1.2 && !asked_accuracy->steps && by->steps < 1024;
          quicker /= 4)
         by->steps *= 2;
     return KD_OK;
@@ -288,38 +288,39 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
 static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {
-    struct kd_wish wish = kd_wish_of(scene);
+    struct kd_accuracy_request asked_accuracy = kd_accuracy_request_of(scene);
     struct kd_setting *by = &plan->setting;
     /* lens_closed.comp can trace it */
     bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY);
-    bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
-    if (wish.tolerance < KEPT)
-        return too_fine(wish.tolerance, c, error);
-    enum kd_status status = plan->ring ? ring(&wish, error) : KD_OK;
+    bool closed32 = asked_accuracy.engine == KD_ENGINE_CLOSED && asked_accuracy.precision == KD_PRECISION_F32;
+    if (asked_accuracy.tolerance < KEPT)
+        return too_fine(asked_accuracy.tolerance, c, error);
+    enum kd_status status = plan->ring ? ring(&asked_accuracy, error) : KD_OK;
     if (!status)
-        status = kd_setting_of(&wish, c->accuracy, c->float64, by, error);
+        status = kd_setting_of(&asked_accuracy, c->accuracy, c->float64, by, error);
     if (status)
         return status;
-    if (isfinite(scene->accuracy.tolerance) && isinf(wish.tolerance))
+    if (isfinite(scene->accuracy.tolerance) && isinf(asked_accuracy.tolerance))
         by->holds = KEPT;
     if (plan->ring && by->precision == KD_PRECISION_F32)
         return kd_error_field(
             error, "/accuracy/tolerance",
             "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; it must be "
             "\"profile\"",
-            wish.tolerance);
+            asked_accuracy.tolerance);
     if (closed32 && !closed_form)
         return kd_error_field(error, "/accuracy/precision",
                               "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of "
                               "light, and knows no delay of light: it must be f64",
                               beyond_orbits(scene));
-    if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
+    if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || asked_accuracy.engine < 0) &&
+        !asked_accuracy.steps) {
         plan->path = KD_LENS_CLOSED;
         by->engine = KD_ENGINE_CLOSED;
         by->steps = 0;
         return KD_OK;
     }
-    if (!outside(scene) && by->precision == KD_PRECISION_F64 && wish.engine < 0 && !wish.steps) {
+    if (!outside(scene) && by->precision == KD_PRECISION_F64 && asked_accuracy.engine < 0 && !asked_accuracy.steps) {
         by->engine = KD_ENGINE_CLOSED;
         by->steps = 0;
     }
@@ -329,7 +330,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
     plan->ingoing = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(scene->camera.r);
     if (within_horizon(scene))
-        return from_within(plan, scene, &wish, error);
+        return from_within(plan, scene, &asked_accuracy, error);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene) && !scene->disk.slow_light)
         return kd_error_field(error, "/image/layers",
                               "image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g",
@@ -369,16 +370,16 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.height = kd_scene_window(scene).height;
     plan.side = (uint32_t)kd_scene_side(scene);
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
-    if (!needs->unseen)
+    if (!needs->no_image)
         plan.bloom =
             kd_bloom_of(plan.width, plan.height, scene->style.bloom, kd_camera_sight(scene) == KD_SIGHT_SPHERE);
     plan.light = needs->light;
-    plan.unseen = needs->unseen;
+    plan.no_image = needs->no_image;
     plan.numbers = needs->radiance;
-    plan.held = needs->held && scene->volume.normalise_to_jy > 0;
+    plan.reuse_normalisation = needs->reuse_normalisation && scene->volume.normalise_to_jy > 0;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     kd_emit_traits(scene, plan.traits);
-    plan.apart = kd_emit_apart(scene);
+    plan.apart = kd_emit_separate_photometry(scene);
     plan.points = kd_emit_points(scene);
     plan.bright = plan.points && needs->bright;
     plan.quantities = needs->quantities;
@@ -389,12 +390,12 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
     plan.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan, KD_LENS_SKY);
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
-    plan.n_layers = needs->unseen ? 0 : plan.n_layers;
+    plan.n_layers = needs->no_image ? 0 : plan.n_layers;
     if (plan.bright && !plan.n_layers &&
         !kd_plan_is_spread(&plan)) /* for bright images the differences used in their search are enough */
         plan.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
-    plan.radiance = needs->radiance && plan.picture && !needs->unseen;
-    if (!needs->unseen && !kd_plan_is_map(&plan))
+    plan.radiance = needs->radiance && plan.picture && !needs->no_image;
+    if (!needs->no_image && !kd_plan_is_map(&plan))
         plan.beam = kd_beam_of(scene);
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && !kd_scene_is_flat(scene))
@@ -459,7 +460,7 @@ struct kd_needs kd_needs_of(const struct kd_scene *scene)
 {
     return (struct kd_needs) {
         .quantities = kd_emit_needs(scene) | kd_layers_needs(scene),
-        .light = (kd_emit_apart(scene) || kd_scene_is_radio_alone(scene)) && kd_scene_is_flat(scene),
+        .light = (kd_emit_separate_photometry(scene) || kd_scene_is_radio_alone(scene)) && kd_scene_is_flat(scene),
     };
 }
 

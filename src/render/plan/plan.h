@@ -98,14 +98,14 @@ struct kd_plan {
     struct kd_bloom bloom;    /* glare of the lens */
     bool light;               /* flux and centroid are measured */
     /* density of matter of a given flux: one found from another viewpoint may be reused (frame/normalise.h) */
-    bool held;
+    bool reuse_normalisation;
     struct {
         uint32_t width, height;
-    } shape;      /* picture shape for finding that density; 0: its own, which is subject to rounding to pixels */
-    bool unseen;  /* no pixels are made of the radiance */
-    bool numbers; /* the frame is for a file of numbers: processing after the light is not part of it */
-    bool ring;    /* rays are listed, round the critical curve */
-    bool ingoing; /* the observer falls, in coordinates that are regular at the outer horizon */
+    } shape;       /* picture shape for finding that density; 0: its own, which is subject to rounding to pixels */
+    bool no_image; /* no pixels are made of the radiance */
+    bool numbers;  /* the frame is for a file of numbers: processing after the light is not part of it */
+    bool ring;     /* rays are listed, round the critical curve */
+    bool ingoing;  /* the observer falls, in coordinates that are regular at the outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* layers besides the picture */
     size_t n_layers;
     bool picture;              /* image.layers contains the picture */
@@ -332,14 +332,15 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
 /* Requirements on the plan. kd_plan_make derives them from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
-    uint32_t quantities; /* KD_LENS_... quantities of the lens map */
-    bool light;          /* measure flux and centroid; always on if some luminance is kept separate */
-    bool unseen;         /* make no pixels and no layers, whatever image.layers says */
-    bool radiance;       /* make linear light a layer, if the picture is requested */
-    bool followed;       /* trace every ray, even if the profile would interpolate */
-    bool sketch;         /* march through volumes as coarsely as kd_march_sketch */
-    bool bright;         /* search points of light as kd_plan.bright says */
-    bool held; /* for volume.normalise_to_jy, reuse the density found for the same matter from any viewpoint */
+    uint32_t quantities;      /* KD_LENS_... quantities of the lens map */
+    bool light;               /* measure flux and centroid; always on if some luminance is kept separate */
+    bool no_image;            /* make no pixels and no layers, whatever image.layers says */
+    bool radiance;            /* make linear light a layer, if the picture is requested */
+    bool followed;            /* trace every ray, even if the profile would interpolate */
+    bool sketch;              /* march through volumes as coarsely as kd_march_sketch */
+    bool bright;              /* search points of light as kd_plan.bright says */
+    bool reuse_normalisation; /* for volume.normalise_to_jy, reuse the density found for the same matter from any
+                                 viewpoint */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,

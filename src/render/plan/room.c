@@ -89,7 +89,7 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
     uint64_t row_light = (kd_plan_pixel_bytes(plan) + (plan->march.steps ? 4 : 0)) * plan->width,
-             row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+             row_out = plan->no_image ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     /* refinement chooses pixels by values of 16 bits */
     uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out;
     uint64_t row_layers = 4ull * plan->n_layers * plan->width;
@@ -154,7 +154,7 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
 
 void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
-    if (!kd_scene_adapts(scene) || plan->ring || plan->unseen || !plan->picture || !plan->planes)
+    if (!kd_scene_adapts(scene) || plan->ring || plan->no_image || !plan->picture || !plan->planes)
         return;
     plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
     plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES),

@@ -86,13 +86,13 @@ double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *sc
                                          [KD_PROFILE_BALANCED] = 2e-6,
                                          [KD_PROFILE_HIGH] = 0,
                                          [KD_PROFILE_REFERENCE] = 0 };
-    const struct kd_wish wish = kd_wish_of(scene);
-    if (plan->path == KD_LENS_LISTED || !plan->planes || wish.engine >= 0 || wish.steps || wish.precision >= 0 ||
-        (uint64_t)plan->width * plan->side > MOST_COLUMNS - 2 * KD_CELL_BLOCK)
+    const struct kd_accuracy_request asked_accuracy = kd_accuracy_request_of(scene);
+    if (plan->path == KD_LENS_LISTED || !plan->planes || asked_accuracy.engine >= 0 || asked_accuracy.steps ||
+        asked_accuracy.precision >= 0 || (uint64_t)plan->width * plan->side > MOST_COLUMNS - 2 * KD_CELL_BLOCK)
         return 0;
-    if (isfinite(wish.tolerance))
-        return wish.tolerance >= HOLDS ? by_profile[KD_PROFILE_BALANCED] : 0;
-    return by_profile[wish.profile];
+    if (isfinite(asked_accuracy.tolerance))
+        return asked_accuracy.tolerance >= HOLDS ? by_profile[KD_PROFILE_BALANCED] : 0;
+    return by_profile[asked_accuracy.profile];
 }
 
 void kd_plan_follow_all(struct kd_plan *plan)

@@ -59,7 +59,7 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
         return kd_error_field(
             error, "/image/samples",
             "image.samples is \"auto\"; in a tile it must be 1 to 8: rays are chosen by what the whole picture shows");
-    if (needs->unseen)
+    if (needs->no_image)
         return kd_error_field(
             error, "/image/tile/width",
             "image.tile.width is %d; it must be 0 where light is measured: it is that of the whole picture",

@@ -9,7 +9,7 @@
 enum kd_rays_kind {
     KD_RAYS_REAL,
     KD_RAYS_REAL_OR_WORD,
-    KD_RAYS_WHOLE,
+    KD_RAYS_INT,
     KD_RAYS_PROFILE,
     KD_RAYS_WORD_OR_AUTO,
     KD_RAYS_WORD_OR_NONE /* 0 if it is not given */

@@ -26,7 +26,7 @@ void kd_rays_request_init(struct kd_rays_request *request)
                     .fall_from = scene.camera.infall_from,
                     .fall_energy = scene.camera.infall_energy,
                     .orders = 3 },
-        .wish = KD_WISH_NONE,
+        .asked_accuracy = KD_WISH_NONE,
     };
 }
 
@@ -62,7 +62,7 @@ static bool store(struct kd_rays_request *request, const struct kd_rays_field *f
         if (number)
             *(double *)at = value->number;
         return number;
-    case KD_RAYS_WHOLE:
+    case KD_RAYS_INT:
         if (!number || value->number != floor(value->number) || value->number < 0 || value->number > 1e9)
             return false;
         *(uint32_t *)at = (uint32_t)value->number;
@@ -84,7 +84,7 @@ static enum kd_status put(struct kd_rays_request *request, const struct kd_rays_
     if (!field->allowed)
         kd_value_allowed(kd_rays_field_words(field), words);
     return kd_error_field(error, field->pointer, "%s is %s%s; it must be %s", field->name, given,
-                          field->kind == KD_RAYS_REAL || field->kind == KD_RAYS_WHOLE ? kd_value_unwanted(value) : "",
+                          field->kind == KD_RAYS_REAL || field->kind == KD_RAYS_INT ? kd_value_unwanted(value) : "",
                           field->allowed ? field->allowed : words);
 }
 
@@ -336,14 +336,15 @@ enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const str
 {
     struct kd_setting by;
     bool float64 = capacity && capacity->float64;
-    enum kd_status status = kd_setting_of(&request->wish, capacity ? capacity->accuracy : NULL, float64, &by, error);
+    enum kd_status status =
+        kd_setting_of(&request->asked_accuracy, capacity ? capacity->accuracy : NULL, float64, &by, error);
     if (status)
         return status;
     request->params.engine = by.engine;
     request->params.precision = by.precision;
     request->params.steps = by.steps;
     request->params.holds = by.holds > 0 ? by.holds : 0;
-    request->params.tolerance = isfinite(request->wish.tolerance) ? request->wish.tolerance : 0;
+    request->params.tolerance = isfinite(request->asked_accuracy.tolerance) ? request->asked_accuracy.tolerance : 0;
     return KD_OK;
 }
 

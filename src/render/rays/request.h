@@ -15,7 +15,7 @@
 
 struct kd_rays_request {
     struct kd_rays_params params; /* engine, precision and steps are set by kd_rays_request_settle */
-    struct kd_wish wish;
+    struct kd_accuracy_request asked_accuracy;
     double *alpha_beta; /* malloc'd, 2 n numbers */
     size_t n;
 };

@@ -20,7 +20,7 @@ static void add_words(struct kd_json *json, const struct kd_field *words)
 
 static void add_range(struct kd_json *json, const struct kd_rays_field *f)
 {
-    kd_json_string(json, "type", f->kind == KD_RAYS_WHOLE ? "integer" : "number");
+    kd_json_string(json, "type", f->kind == KD_RAYS_INT ? "integer" : "number");
     kd_json_number(json, f->open ? "exclusiveMinimum" : "minimum", f->least);
     kd_json_number(json, f->open == KD_RAYS_OPEN ? "exclusiveMaximum" : "maximum", f->most);
     if (f->multiple)

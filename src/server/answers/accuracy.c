@@ -13,13 +13,13 @@ struct reading {
 
 static void finish(struct kd_task *task) { kd_buffer_finish(&((struct reading *)task)->json); }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct reading *reading = (struct reading *)task;
     struct kd_error error = { 0 };
     (void)until_ms;
     kd_task_fail(task, kd_render_queue_accuracy_json(task->request->server->renders, &reading->json, &error), &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static enum MHD_Result deliver(struct kd_request *request)

@@ -90,7 +90,7 @@ static void finish(struct kd_task *task)
         kd_asset_release(server->assets, p->put.asset);
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     enum { AGAIN_MS = 10 };
     struct putting *p = (struct putting *)task;
@@ -106,7 +106,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
         status = kd_asset_put_go_on(&p->put, until_ms, &how, &error);
     kd_task_fail(task, status, &error);
     task->turns.due_ms = kd_clock_ms() + AGAIN_MS;
-    return status || how == KD_ASSET_OVER ? KD_TURN_LAST : how == KD_ASSET_WAIT ? KD_TURN_PARK : KD_TURN_MORE;
+    return status || how == KD_ASSET_OVER ? KD_SLICE_LAST : how == KD_ASSET_WAIT ? KD_SLICE_PARK : KD_SLICE_MORE;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct putting *p)
@@ -269,12 +269,12 @@ struct removing {
     bool was;
 };
 
-static enum kd_turn_end remove_work(struct kd_task *task, double until_ms)
+static enum kd_slice_result remove_work(struct kd_task *task, double until_ms)
 {
     struct removing *r = (struct removing *)task;
     (void)until_ms;
     r->was = kd_asset_store_remove(task->request->server->assets, r->asset);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static void remove_finish(struct kd_task *task)

@@ -90,7 +90,7 @@ static void rendered(struct kd_render_job *picture)
 {
     struct job *job = picture->user;
     kd_task_fail(&job->task, picture->status, &picture->error);
-    kd_turns_wake(job->task.queue, &job->task.turns);
+    kd_scheduler_wake(job->task.queue, &job->task.turns);
 }
 
 /* Pushes the next picture to the render queue. */
@@ -122,10 +122,10 @@ done:
 }
 
 /* Runs one piece. *end: more is to be done, or a picture is being rendered. */
-static enum kd_status piece(struct job *job, double until_ms, enum kd_turn_end *end, struct kd_error *error)
+static enum kd_status piece(struct job *job, double until_ms, enum kd_slice_result *end, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    *end = KD_TURN_MORE;
+    *end = KD_SLICE_MORE;
     if (job->stage == NEW)
         KD_TRY(begin(job, error));
     else if (job->stage == RENDERS)
@@ -137,23 +137,23 @@ static enum kd_status piece(struct job *job, double until_ms, enum kd_turn_end *
     if (job->run.picture < job->run.pictures) {
         KD_TRY(push_picture(job, error));
         job->stage = RENDERS;
-        *end = KD_TURN_AWAY;
+        *end = KD_SLICE_AWAY;
         return KD_OK;
     }
     if ((status = kd_integral_write(&job->run.answer, job->format, &job->text)))
         kd_error_set(error, status, "out of memory for %zu rows", job->run.answer.rows);
-    *end = KD_TURN_LAST;
+    *end = KD_SLICE_LAST;
 done:
     return status;
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
-    enum kd_turn_end end;
+    enum kd_slice_result end;
     struct kd_error error = { 0 };
     enum kd_status status = piece((struct job *)task, until_ms, &end, &error);
     kd_task_fail(task, status, &error);
-    return status ? KD_TURN_LAST : end;
+    return status ? KD_SLICE_LAST : end;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct job *job)

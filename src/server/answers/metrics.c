@@ -38,7 +38,7 @@ static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_count
 struct counts {
     struct kd_sessions_counts sessions;
     struct kd_jobs_counts jobs;
-    struct kd_plays_counts plays;
+    struct kd_playground_sessions_counts plays;
 };
 
 /* Runs on the thread of the health routes, which must not block: if a lock is held for long, for example while a job is
@@ -47,7 +47,7 @@ static struct counts count(struct kd_server *server)
 {
     struct counts now;
     bool sessions = kd_sessions_counts(server->sessions, &now.sessions), jobs = kd_jobs_counts(server->jobs, &now.jobs);
-    const bool plays = kd_plays_counts(server->plays, &now.plays);
+    const bool plays = kd_playground_sessions_counts(server->plays, &now.plays);
     pthread_mutex_lock(&server->lock);
     if (sessions)
         server->sessions_counts = now.sessions;
@@ -79,9 +79,9 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
           kd_render_queue_reopened(s->renders) },
         { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.",
           1e-3 * kd_render_queue_backlog_ms(s->renders) },
-        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_turns_unfinished(s->rays) },
+        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_scheduler_unfinished(s->rays) },
         { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.",
-          kd_turns_unfinished(s->turns) },
+          kd_scheduler_unfinished(s->turns) },
         { "sessions", "gauge", "Live sessions.", now.sessions.sessions },
         { "session_viewers", "gauge", "Requests and streams that follow sessions.", now.sessions.viewers },
         { "thumbnails_rendered_total", "counter", "Small pictures of presets rendered, each once.",

@@ -25,7 +25,7 @@ static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
 
 /* A job with two owners, the request and the scheduler; the last one to release it frees it. */
 struct kd_orbits_job {
-    struct kd_turns_job turns; /* first member */
+    struct kd_scheduler_job turns; /* first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
@@ -47,7 +47,7 @@ struct kd_orbits_job {
     bool malformed, quota; /* malformed: not JSON; quota: KD_EBUSY is due to the client's share */
 };
 
-static void let_go(struct kd_orbits_job *job)
+static void unref(struct kd_orbits_job *job)
 {
     if (atomic_fetch_sub(&job->holders, 1) != 1)
         return;
@@ -68,8 +68,8 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
     if (wake) /* the scheduler still has it; if it is being finished, nothing is parked */
-        kd_turns_wake(job->server->turns, &job->turns);
-    let_go(job);
+        kd_scheduler_wake(job->server->turns, &job->turns);
+    unref(job);
 }
 
 /* Called with the lock. */
@@ -136,7 +136,7 @@ static bool has_room(struct kd_orbits_job *job)
     return !job->full;
 }
 
-static enum kd_turn_end end(struct kd_orbits_job *job, enum kd_status status, const struct kd_error *error)
+static enum kd_slice_result end(struct kd_orbits_job *job, enum kd_status status, const struct kd_error *error)
 {
     pthread_mutex_lock(&job->lock);
     if (!job->status && status) {
@@ -145,10 +145,10 @@ static enum kd_turn_end end(struct kd_orbits_job *job, enum kd_status status, co
         job->error.status = status;
     }
     pthread_mutex_unlock(&job->lock);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
-static enum kd_turn_end one_piece(struct kd_orbits_job *job)
+static enum kd_slice_result one_piece(struct kd_orbits_job *job)
 {
     struct kd_error error = { 0 };
     struct kd_buffer piece = { 0 };
@@ -163,10 +163,10 @@ static enum kd_turn_end one_piece(struct kd_orbits_job *job)
     kd_buffer_finish(&piece);
     if (status || kd_orbit_feed_done(&job->feed))
         return end(job, status, &error);
-    return room ? KD_TURN_MORE : KD_TURN_PARK;
+    return room ? KD_SLICE_MORE : KD_SLICE_PARK;
 }
 
-static enum kd_turn_end take_turn(struct kd_turns_job *turns)
+static enum kd_slice_result take_turn(struct kd_scheduler_job *turns)
 {
     struct kd_orbits_job *job = (struct kd_orbits_job *)turns;
     struct kd_error error = { 0 };
@@ -176,15 +176,15 @@ static enum kd_turn_end take_turn(struct kd_turns_job *turns)
     if (status)
         return end(job, status, &error);
     if (job->state == RUNNING && job->request.many)
-        return kd_orbit_feed_help(&job->feed) ? KD_TURN_MORE : KD_TURN_LAST;
+        return kd_orbit_feed_help(&job->feed) ? KD_SLICE_MORE : KD_SLICE_LAST;
     if (job->state == RUNNING)
         return one_piece(job);
     job->state = RUNNING;
     status = read_body(job, &error);
-    return status ? end(job, status, &error) : KD_TURN_MORE;
+    return status ? end(job, status, &error) : KD_SLICE_MORE;
 }
 
-static void done(struct kd_turns_job *turns)
+static void done(struct kd_scheduler_job *turns)
 {
     struct kd_orbits_job *job = (struct kd_orbits_job *)turns;
     struct kd_error error = { 0 };
@@ -199,7 +199,7 @@ static void done(struct kd_turns_job *turns)
     job->finished = true;
     resume(job);
     pthread_mutex_unlock(&job->lock);
-    let_go(job);
+    unref(job);
 }
 
 /* Appends an error to the stream, since the status line was sent before. Called with the lock. */
@@ -234,7 +234,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     }
     pthread_mutex_unlock(&job->lock);
     if (wake)
-        kd_turns_wake(job->server->turns, &job->turns);
+        kd_scheduler_wake(job->server->turns, &job->turns);
     return over ? MHD_CONTENT_READER_END_OF_STREAM : (ssize_t)n;
 }
 
@@ -313,7 +313,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     request->orbits = job;
     /* Suspend first, because the job may be done before push returns. */
     MHD_suspend_connection(request->mhd);
-    kd_turns_push(server->turns, &job->turns);
+    kd_scheduler_push(server->turns, &job->turns);
     return MHD_YES;
 }
 

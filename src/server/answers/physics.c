@@ -106,7 +106,7 @@ static enum kd_status write_answer(struct job *job, struct kd_error *error)
 }
 
 /* Computes points until until_ms; after the last, formats the answer. */
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct job *job = (struct job *)task;
     struct kd_quantity_run *run = &job->run;
@@ -115,12 +115,12 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     while (run->point < run->answer.points) {
         KD_TRY(kd_quantity_run_next(run, &error));
         if (kd_clock_ms() > until_ms)
-            return KD_TURN_MORE;
+            return KD_SLICE_MORE;
     }
     KD_TRY(write_answer(job, &error));
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static enum MHD_Result deliver(struct kd_request *request)
@@ -160,7 +160,7 @@ static const struct kd_task_kind KIND = { "long quantities", sizeof(struct job),
 
 static enum MHD_Result begin(struct kd_request *request, const struct kd_quantity_request *asked, enum form form)
 {
-    struct kd_turns *workers = request->server->turns;
+    struct kd_scheduler *workers = request->server->turns;
     struct kd_error error = { 0 };
     enum MHD_Result refused;
     bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS && form != FORM_WAV;

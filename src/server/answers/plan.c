@@ -28,7 +28,7 @@ static void finish(struct kd_task *task)
     kd_buffer_finish(&s->json);
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct sweep *s = (struct sweep *)task;
     struct kd_server *server = task->request->server;
@@ -42,12 +42,12 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     kd_render_queue_capacity(server->renders, &capacity);
     KD_TRY(kd_cost_sweep(&s->cost, s->spec.series, s->spec.sweep, &capacity, until_ms, &error));
     if (s->cost.frames < s->spec.frames)
-        return KD_TURN_MORE;
+        return KD_SLICE_MORE;
     if (kd_cost_json(&s->cost, s->spec.sweep, &s->json))
         KD_TRY(kd_error_set(&error, KD_ENOMEM, "out of memory for the plan"));
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)

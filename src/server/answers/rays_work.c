@@ -66,7 +66,7 @@ static void device_done(struct kd_render_job *device)
 {
     struct kd_rays_job *job = device->user;
     kd_task_fail(&job->task, device->status, &device->error);
-    kd_turns_wake(job->task.queue, &job->task.turns);
+    kd_scheduler_wake(job->task.queue, &job->task.turns);
 }
 
 static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *error)
@@ -93,7 +93,7 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
     return KD_OK;
 }
 
-static enum kd_turn_end begin(struct kd_rays_job *job)
+static enum kd_slice_result begin(struct kd_rays_job *job)
 {
     struct kd_error error = { 0 };
     enum kd_status status = read_body(job, &error);
@@ -105,25 +105,25 @@ static enum kd_turn_end begin(struct kd_rays_job *job)
     if (device)
         status = push_to_device(job, &error);
     kd_task_fail(&job->task, status, &error);
-    return status ? KD_TURN_LAST : device ? KD_TURN_AWAY : KD_TURN_MORE;
+    return status ? KD_SLICE_LAST : device ? KD_SLICE_AWAY : KD_SLICE_MORE;
 }
 
-static enum kd_turn_end trace_slice(struct kd_rays_job *job)
+static enum kd_slice_result trace_slice(struct kd_rays_job *job)
 {
     struct kd_rays_answer *answer = &job->answer;
     struct kd_error error = { 0 };
     size_t first = atomic_fetch_add(&job->begun, SLICE);
     if (first >= answer->n)
-        return KD_TURN_LAST;
+        return KD_SLICE_LAST;
     size_t n = answer->n - first < SLICE ? answer->n - first : SLICE;
     struct kd_ray_crossing *crossings = answer->crossings + first * answer->params.orders;
     enum kd_status status = kd_rays_trace(NULL, &answer->params, answer->alpha_beta + 2 * first, n, crossings,
                                           answer->ends + first, NULL, NULL, &error);
     kd_task_fail(&job->task, status, &error);
-    return status || first + n == answer->n ? KD_TURN_LAST : KD_TURN_MORE;
+    return status || first + n == answer->n ? KD_SLICE_LAST : KD_SLICE_MORE;
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct kd_rays_job *job = (struct kd_rays_job *)task;
     (void)until_ms;
@@ -132,7 +132,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     case KD_RAYS_HERE: return trace_slice(job);
     case KD_RAYS_ON_DEVICE: break; /* finished */
     }
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static void last(struct kd_task *task)

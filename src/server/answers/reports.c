@@ -1,5 +1,5 @@
 /* Reports of the server on itself: health, device and cached documents. */
-#include "server/openapi/kept.h"
+#include "server/openapi/cached_documents.h"
 #include "server/http/reply.h"
 #include "server/http/representation.h"
 #include "server/http/request.h"
@@ -34,13 +34,13 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
     return kd_reply_json(request, status, &json, request->route->answer);
 }
 
-enum MHD_Result kd_handle_kept(struct kd_request *request)
+enum MHD_Result kd_handle_cached_document(struct kd_request *request)
 {
-    const struct kd_served *document = kd_kept_find(request->server->kept, request->target.path);
+    const struct kd_served *document = kd_cached_documents_find(request->server->kept, request->target.path);
     char preset[128];
     if (!document && request->rest &&
         snprintf(preset, sizeof preset, "/v1/presets/%s", kd_scene_preset_name_now(request->rest)) < (int)sizeof preset)
-        document = kd_kept_find(request->server->kept, preset);
+        document = kd_cached_documents_find(request->server->kept, preset);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     if (document)

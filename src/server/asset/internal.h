@@ -18,7 +18,7 @@ struct kd_asset {
     double used_ms;
     unsigned references; /* including the store's own */
     enum kd_asset_state state;
-    struct kd_turns_job removal; /* for kd_asset_store_remove_later */
+    struct kd_scheduler_job removal; /* for kd_asset_store_remove_later */
     struct kd_asset_store *store;
     struct kd_asset *next;
     uint8_t bytes[];
@@ -43,7 +43,7 @@ struct kd_asset *kd_asset_make(struct kd_asset_store *store, const struct kd_ass
 void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset);
 /* Removes it from the list and drops the store's reference. */
 void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset);
-void kd_asset_let_go(struct kd_asset *asset);
+void kd_asset_unref(struct kd_asset *asset);
 struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash); /* in any state */
 
 /* Removes the files of an asset in the state LEAVING, then the asset. Called without the lock; waits for the disk. */

@@ -131,7 +131,7 @@ static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asse
     asset->state = KD_ASSET_READY;
     if (status) {
         kd_asset_take_out(store, asset);
-        kd_asset_let_go(asset);
+        kd_asset_unref(asset);
     }
     pthread_mutex_unlock(&store->lock);
     return status;

@@ -38,7 +38,7 @@ void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset)
     store->bytes += asset->about.size;
 }
 
-void kd_asset_let_go(struct kd_asset *asset)
+void kd_asset_unref(struct kd_asset *asset)
 {
     if (!--asset->references)
         free(asset);
@@ -52,7 +52,7 @@ void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset)
     *at = asset->next;
     store->count--;
     store->bytes -= asset->about.size;
-    kd_asset_let_go(asset);
+    kd_asset_unref(asset);
 }
 
 struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash)
@@ -180,32 +180,32 @@ bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset)
     return was;
 }
 
-static enum kd_turn_end removal_turn(struct kd_turns_job *job)
+static enum kd_slice_result removal_turn(struct kd_scheduler_job *job)
 {
     (void)job;
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 /* Runs last, because it may free the asset that contains the job. */
-static void removal_done(struct kd_turns_job *job)
+static void removal_done(struct kd_scheduler_job *job)
 {
     struct kd_asset *asset = (struct kd_asset *)((char *)job - offsetof(struct kd_asset, removal));
     kd_asset_leave(asset->store, asset);
 }
 
-void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_turns *workers)
+void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_scheduler *workers)
 {
     if (!begin_to_leave(store, asset))
         return;
-    asset->removal = (struct kd_turns_job) { .turn = removal_turn, .done = removal_done };
+    asset->removal = (struct kd_scheduler_job) { .turn = removal_turn, .done = removal_done };
     snprintf(asset->removal.client, sizeof asset->removal.client, "%s", asset->client);
-    kd_turns_push(workers, &asset->removal);
+    kd_scheduler_push(workers, &asset->removal);
 }
 
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset)
 {
     pthread_mutex_lock(&store->lock);
-    kd_asset_let_go(asset);
+    kd_asset_unref(asset);
     pthread_mutex_unlock(&store->lock);
 }
 

@@ -10,7 +10,7 @@
 #include "scene/asset.h"
 #include "server/http/secret.h"
 #include "server/http/shares.h"
-#include "server/http/turns.h"
+#include "server/http/task_scheduler.h"
 
 #include <stdint.h>
 
@@ -73,7 +73,7 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
  * is for workers. The memory is freed with the last reference. Returns false if another thread has removed it. */
 bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
 /* The same on a worker, for callers that must not wait. */
-void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_turns *workers);
+void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_scheduler *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
 /* Counts the assets that can be found and their bytes, without those whose files are being written or removed. */
 void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);

@@ -4,7 +4,7 @@
 #include "base/clock.h"
 #include "base/hash.h"
 #include "server/http/cors.h"
-#include "server/http/guesses.h"
+#include "server/http/auth_throttle.h"
 #include "server/http/request.h"
 
 #include <errno.h>
@@ -212,23 +212,23 @@ static bool may_be_sessions(const char *bearer)
  * request->client is still the address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
-    struct kd_guesses *guesses = request->server->guesses;
+    struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
     uint64_t hash = KD_HASH_BEGIN; /* so that the same token has the same hash wherever it stands */
     /* known by its cookie, perhaps; a wrong bearer beside it counts as a guess unless it may be a session's token */
     if (request->visitor) {
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
         const unsigned wait =
-            tried ? kd_guesses_wrong(guesses, request->client,
-                                     kd_hash(hash, brought->bearer, strlen(brought->bearer) + 1), kd_clock_ms())
+            tried ? kd_auth_throttle_wrong(auth_throttle, request->client,
+                                           kd_hash(hash, brought->bearer, strlen(brought->bearer) + 1), kd_clock_ms())
                   : 0;
-        return wait ? wait : kd_guesses_right(guesses, request->client, request->visitor, kd_clock_ms());
+        return wait ? wait : kd_auth_throttle_right(auth_throttle, request->client, request->visitor, kd_clock_ms());
     }
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         hash = texts[i] ? kd_hash(hash, texts[i], strlen(texts[i]) + 1) : hash;
     for (size_t i = 0; !brought->alone && i < brought->n_cookies; i++)
         hash = kd_hash(hash, brought->cookies[i], strlen(brought->cookies[i]) + 1);
-    return hash == KD_HASH_BEGIN ? 0 : kd_guesses_wrong(guesses, request->client, hash, kd_clock_ms());
+    return hash == KD_HASH_BEGIN ? 0 : kd_auth_throttle_wrong(auth_throttle, request->client, hash, kd_clock_ms());
 }
 
 const char *kd_access_query(const struct kd_request *request)

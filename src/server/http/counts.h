@@ -9,7 +9,7 @@ struct kd_sessions_counts {
     uint64_t frames, bytes; /* totals since the start; bytes: each frame's size counted once */
 };
 
-struct kd_plays_counts {
+struct kd_playground_sessions_counts {
     unsigned plays, watchers;
     uint64_t bytes;         /* upper bound of the memory they use */
     uint64_t steps, events; /* totals since the start; steps: sub-steps of running playgrounds */

@@ -3,7 +3,7 @@
 #include "base/log.h"
 #include "server/http/client.h"
 #include "server/http/problem.h"
-#include "server/http/prompt.h"
+#include "server/http/sched_slice.h"
 #include "server/http/route.h"
 
 #include <errno.h>
@@ -177,7 +177,7 @@ static bool accept_one(struct kd_front *front)
 static void *run(void *user)
 {
     struct kd_front *front = user;
-    kd_prompt_thread();
+    kd_sched_short_slices();
     for (;;) {
         struct epoll_event events[BATCH];
         int n = epoll_wait(front->epoll, events, BATCH, -1);

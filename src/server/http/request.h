@@ -39,16 +39,16 @@ struct kd_request {
     struct sha256_ctx taken;      /* running hash of target and body, if it has a key */
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
-    size_t body_mark;                   /* size of body when its deadline was last extended */
-    const struct kd_format *format;     /* requested format of the picture; NULL: any, or no picture */
-    struct kd_render_job *job;          /* render under way; owned */
-    struct kd_request *also_waiting;    /* next request waiting for the same thumbnail */
-    bool waited;                        /* it has waited for a thumbnail */
-    struct kd_orbits_job *orbits;       /* orbits being computed; holds a reference */
-    struct kd_particles_job *particles; /* list of particles being made; owned */
-    struct kd_task *task;               /* work of the task scheduler; owned */
-    struct kd_viewer *viewer;           /* wait for a session's next frame; owned */
-    struct kd_play_watcher *watcher;    /* wait for a playground's next tick; owned */
+    size_t body_mark;                              /* size of body when its deadline was last extended */
+    const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
+    struct kd_render_job *job;                     /* render under way; owned */
+    struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
+    bool waited;                                   /* it has waited for a thumbnail */
+    struct kd_orbits_job *orbits;                  /* orbits being computed; holds a reference */
+    struct kd_particles_job *particles;            /* list of particles being made; owned */
+    struct kd_task *task;                          /* work of the task scheduler; owned */
+    struct kd_viewer *viewer;                      /* wait for a session's next frame; owned */
+    struct kd_playground_session_watcher *watcher; /* wait for a playground's next tick; owned */
     char etag[120];
     char file[96];      /* Content-Disposition if the answer is 200 (kd_reply_file) */
     size_t reply_bytes; /* size of a large reply, which extends its deadline */

@@ -99,9 +99,9 @@ enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports
 enum MHD_Result kd_handle_ready(struct kd_request *request);
 enum MHD_Result kd_handle_metrics(struct kd_request *request); /* answers/metrics.c */
 enum MHD_Result kd_handle_device(struct kd_request *request);
-enum MHD_Result kd_handle_kept(struct kd_request *request);   /* cached documents: openapi/kept.h */
-enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
-enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
+enum MHD_Result kd_handle_cached_document(struct kd_request *request); /* cached documents: openapi/kept.h */
+enum MHD_Result kd_handle_plan(struct kd_request *request);            /* answers/plan.c */
+enum MHD_Result kd_handle_render(struct kd_request *request);          /* render/renders.c */
 enum MHD_Result kd_handle_pixel(struct kd_request *request);
 enum MHD_Result kd_handle_shared_picture(struct kd_request *request);
 enum MHD_Result kd_handle_share(struct kd_request *request); /* answers/share.c */

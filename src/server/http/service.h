@@ -2,7 +2,7 @@
  *
  * Threads: the front (front.h) accepts connections. One libmicrohttpd thread runs the handlers of the health routes,
  * another all other handlers ("the HTTP thread"). The render queue has render threads and encoders, the task scheduler
- * (turns.h) its workers. The keeper (keeper.h) enforces deadlines, detects clients that have disconnected, and runs the
+ * (turns.h) its workers. The reaper (reaper.h) enforces deadlines, detects clients that have disconnected, and runs the
  * shutdown. */
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
@@ -13,7 +13,7 @@
 #include "server/http/connections.h"
 #include "server/http/counts.h"
 #include "server/http/front.h"
-#include "server/http/turns.h"
+#include "server/http/task_scheduler.h"
 
 #include <microhttpd.h>
 #include <pthread.h>
@@ -52,12 +52,12 @@ enum kd_phase {
 
 struct kd_access;
 struct kd_cors;
-struct kd_guesses;
+struct kd_auth_throttle;
 struct kd_asset_store;
 struct kd_jobs;
-struct kd_kept;
+struct kd_cached_documents;
 struct kd_measures;
-struct kd_plays;
+struct kd_playground_sessions;
 struct kd_render_queue;
 struct kd_request;
 struct kd_sessions;
@@ -75,39 +75,39 @@ struct kd_server {
     unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
-    struct kd_turns *rays;  /* scheduler of requests for rays */
-    struct kd_turns *turns; /* scheduler of orbits, long quantities, paths of sessions, checks of jobs */
+    struct kd_scheduler *rays;  /* scheduler of requests for rays */
+    struct kd_scheduler *turns; /* scheduler of orbits, long quantities, paths of sessions, checks of jobs */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client); /* NULL: no limit of device time */
     struct kd_sessions *sessions;
-    struct kd_plays *plays;
+    struct kd_playground_sessions *plays;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* cubes being downloaded (job/whole.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
-    struct kd_kept *kept;
+    struct kd_cached_documents *kept;
     struct kd_thumbnails *thumbnails;
     char etag_tail[20]; /* part of a picture's ETag besides the scene: version and device */
 
     _Atomic int phase;
-    _Atomic unsigned requests;         /* begun and not completely answered */
-    struct kd_bytes *bodies, *replies; /* memory budgets: bodies being received; answers not yet sent */
-    struct kd_access *access;          /* access tokens; NULL: everybody may send every request */
-    struct kd_guesses *guesses;        /* throttle of wrong tokens, used with access */
-    struct kd_cors *cors;              /* origins permitted besides our own; NULL: none */
-    bool cross_site;                   /* pages of other sites may send requests whose answers they cannot read */
-    struct kd_measures *measures;      /* durations of requests */
+    _Atomic unsigned requests;              /* begun and not completely answered */
+    struct kd_bytes *bodies, *replies;      /* memory budgets: bodies being received; answers not yet sent */
+    struct kd_access *access;               /* access tokens; NULL: everybody may send every request */
+    struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
+    struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
+    bool cross_site;                        /* pages of other sites may send requests whose answers they cannot read */
+    struct kd_measures *measures;           /* durations of requests */
     /* counts by the first digit of the status; 0: cut before a status */
     _Atomic unsigned long answers[KD_STATUS_CLASSES];
 
-    int stop_fd; /* eventfd that wakes the keeper */
-    pthread_t keeper;
-    bool keeper_runs;
+    int stop_fd; /* eventfd that wakes the reaper */
+    pthread_t reaper;
+    bool reaper_runs;
     _Atomic bool abandon; /* destroy without stop: do not wait */
     _Atomic bool ended;   /* drain_s after a stop request: remaining work is cancelled and its clients get an answer */
     pthread_mutex_t lock; /* for all members below */
     struct kd_sessions_counts sessions_counts; /* last values read */
     struct kd_jobs_counts jobs_counts;
-    struct kd_plays_counts plays_counts;
+    struct kd_playground_sessions_counts plays_counts;
     pthread_cond_t changed;
     bool stopped;
 };

@@ -15,8 +15,8 @@
 
 /* A task that moves a film's playground on to a frame. */
 struct stride {
-    struct kd_turns_job turns; /* first member */
-    struct kd_job *job;        /* a reference */
+    struct kd_scheduler_job turns; /* first member */
+    struct kd_job *job;            /* a reference */
     unsigned to;
     bool under_way; /* `run` has begun */
     struct kd_playground_run run;
@@ -25,7 +25,7 @@ struct stride {
 void kd_job_film_drop(struct kd_job *job)
 {
     struct kd_job_film *film = &job->film;
-    kd_crowd_release(film->crowd);
+    kd_dynamic_bodies_release(film->crowd);
     film->crowd = NULL;
     if (film->moving)
         return; /* a worker owns it and frees it */
@@ -74,13 +74,13 @@ static bool go_on(struct stride *s, double until_ms)
 /* Whether the job is still to be done by this server. Called with the lock. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
-static enum kd_turn_end turn(struct kd_turns_job *turns)
+static enum kd_slice_result turn(struct kd_scheduler_job *turns)
 {
     struct stride *s = (struct stride *)turns;
     struct kd_job *job = s->job;
     struct kd_jobs *all = job->all;
     struct kd_job_film *film = &job->film;
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies *crowd = NULL;
     struct kd_error error = { 0 };
     enum kd_status status = KD_OK;
     const double begun = kd_clock_ms();
@@ -98,7 +98,7 @@ static enum kd_turn_end turn(struct kd_turns_job *turns)
                               "its bodies have moved for %.0f s, as long as a job may take, up to frame %u",
                               all->params.longest_job_s, film->at);
     if (goes && !status && !there)
-        return KD_TURN_MORE;
+        return KD_SLICE_MORE;
     pthread_mutex_lock(&all->lock);
     film->moving = false;
     film->crowd = crowd;
@@ -108,10 +108,10 @@ static enum kd_turn_end turn(struct kd_turns_job *turns)
         kd_job_give_up(job, &error);
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
-static void done(struct kd_turns_job *turns)
+static void done(struct kd_scheduler_job *turns)
 {
     struct stride *s = (struct stride *)turns;
     kd_job_release(s->job);
@@ -121,23 +121,24 @@ static void done(struct kd_turns_job *turns)
 /* Starts a task that moves the playground to a frame. */
 static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_error *error)
 {
-    struct kd_turns *turns = job->all->params.turns;
-    struct stride *s = kd_turns_cancelled(turns) ? NULL : calloc(1, sizeof *s);
+    struct kd_scheduler *turns = job->all->params.turns;
+    struct stride *s = kd_scheduler_cancelled(turns) ? NULL : calloc(1, sizeof *s);
     if (!s)
-        return kd_turns_cancelled(turns) ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a film");
+        return kd_scheduler_cancelled(turns) ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a film");
     *s = (struct stride) { .turns = { .turn = turn, .done = done }, .job = job, .to = frame };
     memcpy(s->turns.client, job->client, sizeof s->turns.client);
-    kd_crowd_release(job->film.crowd);
+    kd_dynamic_bodies_release(job->film.crowd);
     job->film.crowd = NULL;
     job->film.to = frame;
     job->film.moving = true;
     kd_job_strike(job); /* moving bodies may crash the server as well */
     job->references++;
-    kd_turns_push(turns, &s->turns);
+    kd_scheduler_push(turns, &s->turns);
     return KD_OK;
 }
 
-enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_crowd **out, struct kd_error *error)
+enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dynamic_bodies **out,
+                              struct kd_error *error)
 {
     struct kd_job_film *film = &job->film;
     if (!job->all->filming)

@@ -6,14 +6,14 @@
 #include "server/job/jobs.h"
 #include "job/exposure.h"
 #include "render/plan/sweep_order.h"
-#include "server/http/turns.h"
+#include "server/http/task_scheduler.h"
 
 #include <pthread.h>
 
 struct kd_job_render; /* a frame in the render queue, or being planned */
 
-/* Preview of an unfinished frame (glance.c). */
-struct kd_job_glance {
+/* Preview of an unfinished frame (preview.c). */
+struct kd_job_preview_hook {
     struct kd_buffer png;
     unsigned frame;
     uint32_t rows, height;
@@ -31,8 +31,8 @@ struct kd_job_film {
     double spent_ms;         /* time spent on moving it */
     /* Always protected by the lock. */
     bool moving;
-    unsigned to;            /* target frame */
-    struct kd_crowd *crowd; /* bodies at the target frame, a reference; NULL: not reached yet */
+    unsigned to;                     /* target frame */
+    struct kd_dynamic_bodies *crowd; /* bodies at the target frame, a reference; NULL: not reached yet */
 };
 
 /* Common exposure of all frames, measured before the first of them (job/exposure.h). */
@@ -78,7 +78,7 @@ struct kd_job {
     bool keeping;   /* no frame begins before the record is written */
     bool measured;  /* `keeping` is because of the measured exposure */
     bool forgotten; /* its request is deleted from disk */
-    struct kd_job_glance glance;
+    struct kd_job_preview_hook preview;
     struct kd_job_watcher *watchers;
     struct kd_job *link;
 };
@@ -90,7 +90,7 @@ struct kd_jobs {
     pthread_mutex_t opening; /* held while that store is created */
     /* for all members below. Never held while a file is written or removed, because the HTTP thread takes it */
     pthread_mutex_t lock;
-    struct kd_turns_job writer;      /* scheduler job that writes records (records.c) */
+    struct kd_scheduler_job writer;  /* scheduler job that writes records (records.c) */
     bool writes, begun;              /* writes: the writer is under way; begun: other threads use the jobs */
     struct kd_job *first;            /* oldest first */
     struct kd_job *gone;             /* jobs whose files are to be removed */
@@ -142,14 +142,15 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 void kd_jobs_pump(struct kd_jobs *all);
 /* Frees the frame that waits to be planned. When no other thread uses the jobs. */
 void kd_jobs_drop_unplanned(struct kd_jobs *all);
-/* Finds the job of a frame from the user pointer of kd_job_glance; number may be NULL. Any thread. */
+/* Finds the job of a frame from the user pointer of kd_job_preview_hook; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
-extern const struct kd_glance kd_job_glance;
+extern const struct kd_preview_hook kd_job_preview_hook;
 /* Handles the failure of a frame or its scene: delays the job if memory or disk space is short, else ends it. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
 /* film.c: bodies that a frame of a film shows; owned by the job. NULL: not reached yet, or another film is being made;
  * kd_jobs_pump is called when they are. KD_ENOMEM. */
-enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_crowd **out, struct kd_error *error);
+enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dynamic_bodies **out,
+                              struct kd_error *error);
 /* Frees the playground, except while a worker owns it, and lets another film begin. */
 void kd_job_film_drop(struct kd_job *job);
 /* Cancels the frame of this job that is being rendered, if any; job NULL: of any job. */

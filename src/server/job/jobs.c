@@ -59,12 +59,12 @@ static void finish(struct kd_job *job)
     kd_job_spec_finish(&job->spec);
     kd_job_film_drop(job);
     kd_sweep_order_finish(&job->order);
-    kd_buffer_finish(&job->glance.png);
+    kd_buffer_finish(&job->preview.png);
     free(job->have);
     free(job);
 }
 
-static void let_go(struct kd_job *job)
+static void unref(struct kd_job *job)
 {
     if (--job->references)
         return;
@@ -131,7 +131,8 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
     job->all = all;
     job->references = 1; /* for the list */
     job->have = have;
-    kd_crowd_release(spec->first); /* planning is done, so the bodies of the first frame are not needed any more */
+    kd_dynamic_bodies_release(
+        spec->first); /* planning is done, so the bodies of the first frame are not needed any more */
     spec->first = NULL;
     job->spec = *spec;
     job->frames = spec->frames;
@@ -254,7 +255,7 @@ static void make_room(struct kd_jobs *all)
     if (kept <= all->params.kept || !oldest)
         return;
     kd_job_unlist(oldest);
-    let_go(oldest);
+    unref(oldest);
 }
 
 /* Adds the job to the list before its files are created, so that the lock is not held meanwhile. */
@@ -349,7 +350,7 @@ void kd_job_release(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
     pthread_mutex_lock(&all->lock);
-    let_go(job);
+    unref(job);
     pthread_mutex_unlock(&all->lock);
 }
 
@@ -370,7 +371,7 @@ void kd_job_drop(struct kd_job *job)
     pthread_mutex_lock(&all->lock);
     if (job->listed) {
         kd_job_unlist(job);
-        let_go(job);
+        unref(job);
         kd_jobs_pump(all);
     }
     pthread_mutex_unlock(&all->lock);

@@ -23,14 +23,14 @@ struct kd_job;
 
 struct kd_jobs_params {
     struct kd_render_queue *renders;
-    struct kd_turns *turns; /* scheduler whose workers move the bodies of films */
-    const char *state;      /* state folder, NULL: jobs end with the server */
-    unsigned limit, kept;   /* unfinished jobs; all jobs stored */
-    unsigned client_limit;  /* unfinished jobs of one client; 0: no separate limit */
-    unsigned longest_s;     /* longest frame, by its plan, in s */
-    double longest_job_s;   /* longest job, all frames together, in s */
-    uint64_t bytes;         /* limit of the frames of all jobs */
-    double keep_s;          /* time until a finished job is deleted */
+    struct kd_scheduler *turns; /* scheduler whose workers move the bodies of films */
+    const char *state;          /* state folder, NULL: jobs end with the server */
+    unsigned limit, kept;       /* unfinished jobs; all jobs stored */
+    unsigned client_limit;      /* unfinished jobs of one client; 0: no separate limit */
+    unsigned longest_s;         /* longest frame, by its plan, in s */
+    double longest_job_s;       /* longest job, all frames together, in s */
+    uint64_t bytes;             /* limit of the frames of all jobs */
+    double keep_s;              /* time until a finished job is deleted */
 };
 /* Loads the jobs of the state folder, if there is one. params->state may be freed afterwards. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);

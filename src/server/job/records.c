@@ -37,7 +37,7 @@ static struct kd_job *first_unwritten(const struct kd_jobs *all)
     return job;
 }
 
-static enum kd_turn_end turn(struct kd_turns_job *writer)
+static enum kd_slice_result turn(struct kd_scheduler_job *writer)
 {
     struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));
     struct kd_error error = { 0 };
@@ -50,18 +50,18 @@ static enum kd_turn_end turn(struct kd_turns_job *writer)
     }
     pthread_mutex_unlock(&all->lock);
     if (!job)
-        return KD_TURN_LAST;
+        return KD_SLICE_LAST;
     enum kd_status status = kd_job_store_update(all->store, &record, &error);
     pthread_mutex_lock(&all->lock);
     written(job, status, &error);
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
     kd_job_release(job);
-    return KD_TURN_MORE;
+    return KD_SLICE_MORE;
 }
 
 /* The scheduler has finished the writer, which may be pushed again. */
-static void done(struct kd_turns_job *writer)
+static void done(struct kd_scheduler_job *writer)
 {
     struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));
     pthread_mutex_lock(&all->lock);
@@ -76,8 +76,8 @@ void kd_jobs_begin_writing(struct kd_jobs *all)
     if (all->writes || !all->begun || all->closed || !first_unwritten(all))
         return;
     all->writes = true;
-    all->writer = (struct kd_turns_job) { .turn = turn, .done = done };
-    kd_turns_push(all->params.turns, &all->writer);
+    all->writer = (struct kd_scheduler_job) { .turn = turn, .done = done };
+    kd_scheduler_push(all->params.turns, &all->writer);
 }
 
 void kd_job_write(struct kd_job *job)

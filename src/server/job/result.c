@@ -2,7 +2,7 @@
 #include "server/job/formats.h"
 #include "server/job/routes.h"
 #include "server/job/table.h"
-#include "server/job/whole.h"
+#include "server/job/archive.h"
 #include "server/http/reply.h"
 #include "server/http/representation.h"
 #include "server/job/jobs.h"

@@ -121,7 +121,7 @@ static void finish(struct kd_task *task)
         kd_job_release(d->job);
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct draft *d = (struct draft *)task;
     struct kd_jobs *jobs = task->request->server->jobs;
@@ -136,11 +136,11 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
     if (d->draft.cost.frames < d->draft.spec.frames)
-        return KD_TURN_MORE;
+        return KD_SLICE_MORE;
     KD_TRY(kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &task->quota, &d->job, &error));
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static enum MHD_Result deliver(struct kd_request *request)
@@ -195,11 +195,11 @@ struct removing {
     struct kd_job *job;  /* a reference */
 };
 
-static enum kd_turn_end remove_work(struct kd_task *task, double until_ms)
+static enum kd_slice_result remove_work(struct kd_task *task, double until_ms)
 {
     (void)until_ms;
     kd_job_delete(((struct removing *)task)->job);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static void remove_finish(struct kd_task *task)

@@ -13,11 +13,11 @@
 
 #define BEHIND_MAX 2 /* frames rendered and not yet in files, so that one is rendered while another is encoded */
 struct kd_job_render {
-    struct kd_render_job render;  /* first member: the queue stores a pointer to it */
-    struct kd_turns_job planning; /* scheduler job, before the frame is pushed */
-    struct kd_job *job;           /* a reference */
-    unsigned number, place;       /* place in the order of rendering */
-    struct kd_crowd *crowd;       /* bodies of a film's scene; a reference */
+    struct kd_render_job render;      /* first member: the queue stores a pointer to it */
+    struct kd_scheduler_job planning; /* scheduler job, before the frame is pushed */
+    struct kd_job *job;               /* a reference */
+    unsigned number, place;           /* place in the order of rendering */
+    struct kd_dynamic_bodies *crowd;  /* bodies of a film's scene; a reference */
     bool rendered;
     bool measures; /* a small picture that measures the common exposure and is not stored */
 };
@@ -64,7 +64,7 @@ static unsigned next_frame(struct kd_job *job)
 /* Plans a frame on a worker, without the lock, because the critical curve of a camera alone takes milliseconds. What it
  * reads of the job does not change meanwhile: the exposure is set while no frame is under way, the order before the
  * first. */
-static enum kd_turn_end plan(struct kd_turns_job *planning)
+static enum kd_slice_result plan(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
     const struct kd_jobs *all = frame->job->all;
@@ -76,14 +76,14 @@ static enum kd_turn_end plan(struct kd_turns_job *planning)
                                                             &render->plan, &render->error)
                                      : kd_job_frame_plan(spec, frame->number, frame->crowd, 0, all->params.longest_s,
                                                          &capacity, &render->scene, &render->plan, &render->error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static void finish(struct kd_job_render *frame)
 {
     kd_buffer_finish(&frame->render.file);
     kd_frame_finish(&frame->render.frame);
-    kd_crowd_release(frame->crowd);
+    kd_dynamic_bodies_release(frame->crowd);
     free(frame);
 }
 
@@ -98,7 +98,7 @@ static void take_back(struct kd_job_render *frame)
 static void push(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
-    struct kd_crowd *next;
+    struct kd_dynamic_bodies *next;
     struct kd_error error;
     *job->delayed = 0;
     if (!(job->began_ms > 0))
@@ -113,7 +113,7 @@ static void push(struct kd_job_render *frame)
 }
 
 /* Planning is done. Meanwhile the job may have been deleted or have failed, or the server may be stopping. */
-static void planned(struct kd_turns_job *planning)
+static void planned(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
     struct kd_job *job = frame->job;
@@ -136,13 +136,13 @@ static void planned(struct kd_turns_job *planning)
 }
 
 /* Makes the next frame of a job, to be planned. */
-static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_crowd *crowd)
+static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_dynamic_bodies *crowd)
 {
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     if (!frame)
         return NULL;
     const bool measures = still_measures(job);
-    frame->planning = (struct kd_turns_job) { .turn = plan, .done = planned };
+    frame->planning = (struct kd_scheduler_job) { .turn = plan, .done = planned };
     frame->render.claim.class = KD_CLASS_JOB;
     memcpy(frame->render.claim.client, job->client, sizeof job->client);
     frame->render.format = job->series->frame;
@@ -150,7 +150,7 @@ static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, str
     frame->render.number = number;
     frame->render.socket = -1;
     frame->render.progress = measures ? NULL : progress;
-    frame->render.glance = !measures && job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_glance : NULL;
+    frame->render.preview = !measures && job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_preview_hook : NULL;
     frame->render.rendered = rendered;
     frame->render.done = done;
     if (!measures)
@@ -160,7 +160,7 @@ static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, str
     frame->place = job->next;
     frame->measures = measures;
     frame->crowd = crowd;
-    kd_crowd_keep(crowd);
+    kd_dynamic_bodies_keep(crowd);
     return frame;
 }
 
@@ -169,7 +169,7 @@ static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
     struct kd_error error = { 0 };
-    struct kd_crowd *crowd = NULL;
+    struct kd_dynamic_bodies *crowd = NULL;
     const unsigned number = next_frame(job);
     if (number == job->frames)
         return false;
@@ -189,7 +189,7 @@ static bool begin(struct kd_job *job)
     job->next += !frame->measures;
     job->references++;
     all->rendering = frame;
-    kd_turns_push(all->params.turns, &frame->planning);
+    kd_scheduler_push(all->params.turns, &frame->planning);
     return true;
 }
 
@@ -246,8 +246,8 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
     if (job->have[number]) /* rendered twice: the frame before it failed while this one was being encoded */
         return;
     job->have[number] = 1;
-    if (job->glance.frame == number)
-        kd_buffer_finish(&job->glance.png);
+    if (job->preview.frame == number)
+        kd_buffer_finish(&job->preview.png);
     job->finished++;
     job->finished_here++;
     job->all->frames++;

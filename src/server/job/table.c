@@ -38,7 +38,7 @@ static bool read_row(struct kd_job *job, unsigned frame, void *out, size_t row)
     return whole;
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct table *t = (struct table *)task;
     const size_t row = t->status.series->row_bytes;
@@ -49,13 +49,13 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
             KD_TRY(kd_error_set(&error, KD_EIO, "the file of frame %u cannot be read", t->there));
         t->there++;
         if (kd_clock_ms() > until_ms)
-            return KD_TURN_MORE;
+            return KD_SLICE_MORE;
     }
     if (t->format->write(t->rows, t->status.frames, t->status.sweep, &t->text))
         KD_TRY(kd_error_set(&error, KD_ENOMEM, "out of memory for a table of %u rows", t->status.frames));
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static enum MHD_Result answer(struct kd_request *request)

@@ -112,7 +112,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     kd_json_end(json);
 }
 
-#define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* of kd_target_number */
+#define INT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* of kd_target_number */
 #define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
 #define PACE_MS \
     "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
@@ -140,11 +140,11 @@ static const struct {
     { "/v1/sessions", PATIENCE },
     { "/v1/sessions/{id}", LEAST, KD_PATCH },
     { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
-    { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/sessions/{id}/frame.png", "after", INT, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/sessions/{id}", ORDER, KD_PATCH },
     { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
-    { "/v1/sessions/{id}/frame", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/sessions/{id}/frame", "after", INT, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/sessions/{id}/frame", "lossy",
       "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_LOSSY_MAX) "}",
@@ -153,17 +153,17 @@ static const struct {
       "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_SENTENCES_MAX) "}",
       "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left "
       "out" },
-    { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/playground/{id}/frame.png", "after", INT, "number of the last frame that the client has; 0 without it" },
     { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/playground/{id}/bodies", "after", WHOLE,
+    { "/v1/playground/{id}/bodies", "after", INT,
       "generation that the client has; without it the answer comes at once" },
     { "/v1/playground/{id}/bodies", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/playground/{id}/debris", "after", WHOLE,
+    { "/v1/playground/{id}/debris", "after", INT,
       "generation that the client has; without it the answer comes at once" },
     { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}",
       "pieces: where there are more, every k-th is given; 20000 without it" },
-    { "/v1/playground/{id}/events", "since", WHOLE,
+    { "/v1/playground/{id}/events", "since", INT,
       "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}",
       "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
@@ -176,7 +176,7 @@ static const struct {
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of "
       "pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
-    { "/v1/jobs/{id}/result", "frame", WHOLE,
+    { "/v1/jobs/{id}/result", "frame", INT,
       "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
     { "/v1/jobs/{id}/result", "rate", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":120}",
       "frames a second, with format=mp4 or webm; 24 without it" },

@@ -10,7 +10,7 @@
 #define OR_NULL KD_SCHEMA_NUMBER_OR_NULL
 #define COUNT KD_SCHEMA_COUNT
 #define TEXT KD_SCHEMA_TEXT
-#define TRUTH KD_SCHEMA_TRUTH
+#define BOOL KD_SCHEMA_BOOL
 #define LIST KD_SCHEMA_LIST
 #define REF KD_SCHEMA_REF
 #define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
@@ -34,7 +34,7 @@ static void add_motion(struct kd_json *json)
 {
     static const struct kd_openapi_member constants[] = {
         { "alpha", NUMBER, false }, { "beta", NUMBER, false }, { "lambda", NUMBER, false }, { "eta", NUMBER, false },
-        { "E", NUMBER, false },     { "L", NUMBER, false },    { "Q", NUMBER, false },      { "outward", TRUTH, false },
+        { "E", NUMBER, false },     { "L", NUMBER, false },    { "Q", NUMBER, false },      { "outward", BOOL, false },
     };
     static const struct kd_openapi_member radial[] = {
         { "case", NULL, false, kd_ray_radial_case },
@@ -57,7 +57,7 @@ static void add_crossings(struct kd_json *json)
     static const struct kd_openapi_member glow[] = {
         { "name", NULL, false, emitter }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false },
         { "luminance", NUMBER, false },   { "luminance_seen", NUMBER, false },  { "opacity", NUMBER, true },
-        { "points", TRUTH, true },
+        { "points", BOOL, true },
     };
     static const struct kd_openapi_member pictured[] = { { "r", NUMBER, false },
                                                          { "g", NUMBER, false },
@@ -69,7 +69,7 @@ static void add_crossings(struct kd_json *json)
         { "azimuth", OR_NULL, false },
         { "delay", OR_NULL, false },
         { "g", OR_NULL, false },
-        { "seen", TRUTH, false },
+        { "seen", BOOL, false },
         { "temperature", NUMBER, true },
         { "emission_angle", NUMBER, true },
         { "evpa", OR_NULL, true },
@@ -133,7 +133,7 @@ static void add_ends(struct kd_json *json)
         { "steps", COUNT, false },
         { "least_r", NUMBER, false },
         { "coordinates", "{\"enum\":[\"ingoing\",\"Boyer-Lindquist\"]}", false },
-        { "whole", TRUTH, false },
+        { "whole", BOOL, false },
         { "columns", LIST(TEXT), false },
         { "points", LIST(LIST(OR_NULL)), false },
     };
@@ -145,7 +145,7 @@ static void add_ends(struct kd_json *json)
         { "fate", NULL, true, fate },
         { "crossings", COUNT, true },
         { "not_shown", COUNT, true },
-        { "same_without_trace", TRUTH, true },
+        { "same_without_trace", BOOL, true },
         { "columns", LIST(TEXT), true },
         { "steps", ROWS, true },
     };
@@ -216,7 +216,7 @@ void kd_openapi_pixel_schemas(struct kd_json *json)
         { "g", NUMBER, false },
         { "through", NUMBER, false },
         { "seen_magnitude", OR_NULL, false },
-        { "mirrored", TRUTH, false },
+        { "mirrored", BOOL, false },
     };
     static const struct kd_openapi_member stars[] = {
         { "width", COUNT, false },

@@ -24,14 +24,14 @@ static void add_words(struct kd_json *json, const char *words)
 static void add_row(struct kd_json *json, const struct kd_playground_setting *row)
 {
     static const char *const types[] = { [KD_SETTING_REAL] = "number",
-                                         [KD_SETTING_WHOLE] = "integer",
-                                         [KD_SETTING_TRUTH] = "boolean",
+                                         [KD_SETTING_INT] = "integer",
+                                         [KD_SETTING_BOOL] = "boolean",
                                          [KD_SETTING_WORD] = "string" };
     kd_json_object(json, row->name);
     kd_json_string(json, "type", types[row->kind]);
     if (row->kind == KD_SETTING_WORD)
         add_words(json, row->words);
-    if (row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE) {
+    if (row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_INT) {
         kd_json_number(json, "minimum", row->least);
         kd_json_number(json, "maximum", row->most);
     }
@@ -136,8 +136,8 @@ static void add_document(struct kd_json *json, const char *name, bool patch)
 }
 
 static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER,
-                                     [KD_SETTING_WHOLE] = KD_SCHEMA_COUNT,
-                                     [KD_SETTING_TRUTH] = KD_SCHEMA_TRUTH,
+                                     [KD_SETTING_INT] = KD_SCHEMA_COUNT,
+                                     [KD_SETTING_BOOL] = KD_SCHEMA_BOOL,
                                      [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
 
 /* Appends members for the rows of a table. */
@@ -209,9 +209,9 @@ static void add_state(struct kd_json *json)
         { "token", KD_SCHEMA_TEXT, true },
         { "rate", KD_SCHEMA_NUMBER, false },
         { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false },
-        { "paused", KD_SCHEMA_TRUTH, false },
-        { "slowed", KD_SCHEMA_TRUTH, false },
-        { "resting", KD_SCHEMA_TRUTH, false },
+        { "paused", KD_SCHEMA_BOOL, false },
+        { "slowed", KD_SCHEMA_BOOL, false },
+        { "resting", KD_SCHEMA_BOOL, false },
         { "watchers", KD_SCHEMA_COUNT, false },
         { "generation", KD_SCHEMA_COUNT, false },
         { "asked", KD_SCHEMA_NUMBER, true },
@@ -249,7 +249,7 @@ static void add_catalogue(struct kd_json *json)
         { "least", KD_SCHEMA_NUMBER, true },
         { "most", KD_SCHEMA_NUMBER, true },
         { "words", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), true },
-        { "fixed", KD_SCHEMA_TRUTH, true },
+        { "fixed", KD_SCHEMA_BOOL, true },
         { "help", KD_SCHEMA_TEXT, false },
     };
     static const struct kd_openapi_member catalogue[] = {
@@ -302,9 +302,9 @@ static void add_tick(struct kd_json *json)
         { "generation", KD_SCHEMA_COUNT, false },
         { "rate", KD_SCHEMA_NUMBER, false },
         { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false },
-        { "paused", KD_SCHEMA_TRUTH, false },
-        { "slowed", KD_SCHEMA_TRUTH, false },
-        { "resting", KD_SCHEMA_TRUTH, false },
+        { "paused", KD_SCHEMA_BOOL, false },
+        { "slowed", KD_SCHEMA_BOOL, false },
+        { "resting", KD_SCHEMA_BOOL, false },
         { "watchers", KD_SCHEMA_COUNT, false },
         { "debris_lost", KD_SCHEMA_COUNT, false },
         { "fallback_rate", KD_SCHEMA_NUMBER_OR_NULL, false },

@@ -21,7 +21,7 @@ static void add_device(struct kd_json *json)
         { "checks", KD_SCHEMA_COUNT, true },
         { "failed", KD_SCHEMA_COUNT, true },
         { "seconds", KD_SCHEMA_NUMBER, true },
-        { "now", KD_SCHEMA_TRUTH, true },
+        { "now", KD_SCHEMA_BOOL, true },
         { "first_failure", KD_SCHEMA_TEXT, true },
     };
     static const struct kd_openapi_member limits[] = {
@@ -40,8 +40,8 @@ static void add_device(struct kd_json *json)
         { "index", KD_SCHEMA_COUNT, false },
         { "choice", KD_SCHEMA_TEXT, false },
         { "precision", KD_SCHEMA_LIST(KD_SCHEMA_REF("Precision")), false },
-        { "float64_hardware", KD_SCHEMA_TRUTH, false },
-        { "timestamps", KD_SCHEMA_TRUTH, false },
+        { "float64_hardware", KD_SCHEMA_BOOL, false },
+        { "timestamps", KD_SCHEMA_BOOL, false },
         { "selftest", KD_SCHEMA_REF("DeviceSelftest"), false },
         { "limits", KD_SCHEMA_REF("DeviceLimits"), false },
         { "ns_per_item", KD_SCHEMA_REF("DeviceFigures"), false },
@@ -107,8 +107,8 @@ static void add_plan(struct kd_json *json)
     };
     static const struct kd_openapi_member constants[] = {
         { "orders", KD_SCHEMA_COUNT, false },  { "steps", KD_SCHEMA_COUNT, false },
-        { "samples", KD_SCHEMA_COUNT, false }, { "radius_only", KD_SCHEMA_TRUTH, false },
-        { "phi", KD_SCHEMA_TRUTH, false },     { "sky", KD_SCHEMA_TRUTH, false },
+        { "samples", KD_SCHEMA_COUNT, false }, { "radius_only", KD_SCHEMA_BOOL, false },
+        { "phi", KD_SCHEMA_BOOL, false },      { "sky", KD_SCHEMA_BOOL, false },
     };
     static const struct kd_openapi_member accuracy[] = {
         { "engine", NULL, false, engine },
@@ -133,7 +133,7 @@ static void add_plan(struct kd_json *json)
         { "accuracy", KD_SCHEMA_REF("PlanAccuracy"), false },
         { "bytes", KD_SCHEMA_REF("PlanBytes"), false },
         { "bands", KD_SCHEMA_COUNT, false },
-        { "lens_map_cacheable", KD_SCHEMA_TRUTH, false },
+        { "lens_map_cacheable", KD_SCHEMA_BOOL, false },
         { "lens_map_key", KD_SCHEMA_TEXT, false },
         { "kernels_ms", KD_SCHEMA_NUMBER, true },
         { "estimate_ms", KD_SCHEMA_NUMBER, false },
@@ -192,7 +192,7 @@ static void add_accuracy(struct kd_json *json)
         { "device", KD_SCHEMA_TEXT, false },
         { "cores", KD_SCHEMA_COUNT, false },
         { "clock", "{\"enum\":[\"device\",\"host\"]}", false },
-        { "quick", KD_SCHEMA_TRUTH, false },
+        { "quick", KD_SCHEMA_BOOL, false },
         { "seconds", KD_SCHEMA_NUMBER, true },
         { "skipped", KD_SCHEMA_TEXT, false },
         { "reference", KD_SCHEMA_TEXT, false },

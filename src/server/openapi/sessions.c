@@ -12,8 +12,8 @@
 void kd_openapi_session_schemas(struct kd_json *json)
 {
     static const struct kd_openapi_member emitter[] = {
-        { "name", KD_SCHEMA_TEXT, false },   { "title", KD_SCHEMA_TEXT, false },   { "at", KD_SCHEMA_TEXT, false },
-        { "apart", KD_SCHEMA_TRUTH, false }, { "sentence", KD_SCHEMA_TEXT, true },
+        { "name", KD_SCHEMA_TEXT, false },  { "title", KD_SCHEMA_TEXT, false },   { "at", KD_SCHEMA_TEXT, false },
+        { "apart", KD_SCHEMA_BOOL, false }, { "sentence", KD_SCHEMA_TEXT, true },
     };
     static const struct kd_openapi_member path[] = { { "at", KD_SCHEMA_NUMBER, false },
                                                      { "end", KD_SCHEMA_NUMBER, false } };

@@ -14,15 +14,15 @@
 
 /* Wait for a tick; owned by its request. */
 struct wait {
-    struct kd_play_watcher watcher; /* first member */
+    struct kd_playground_session_watcher watcher; /* first member */
     bool npy;
 };
 
-void kd_play_abandon(struct kd_request *request)
+void kd_playground_session_abandon(struct kd_request *request)
 {
     if (!request->watcher)
         return;
-    kd_play_unwatch(request->watcher);
+    kd_playground_session_unwatch(request->watcher);
     free(request->watcher);
     request->watcher = NULL;
 }
@@ -33,7 +33,7 @@ static void put_words(uint8_t *to, const uint32_t *words, size_t n)
         to[i] = (uint8_t)(words[i / 4] >> 8 * (i % 4));
 }
 
-static enum kd_status add_head(const struct kd_play_tick *tick, size_t n, uint32_t stride, size_t all,
+static enum kd_status add_head(const struct kd_playground_session_tick *tick, size_t n, uint32_t stride, size_t all,
                                struct kd_buffer *out)
 {
     uint64_t t;
@@ -57,7 +57,7 @@ static enum kd_status add_npy_head(const char *const *names, size_t n_names, con
     return kd_npy_write_header(&array, out);
 }
 
-static enum kd_status pack_bodies(const struct kd_play_tick *tick, bool npy, struct kd_buffer *out)
+static enum kd_status pack_bodies(const struct kd_playground_session_tick *tick, bool npy, struct kd_buffer *out)
 {
     static const char *const names[KD_PLAY_BODY_WORDS] = { "id", "x",  "y",    "z",      "vx",
                                                            "vy", "vz", "mass", "radius", "temperature_k" };
@@ -67,7 +67,8 @@ static enum kd_status pack_bodies(const struct kd_play_tick *tick, bool npy, str
 }
 
 /* Packs the debris. If the tick has more pieces than this client has requested, it sends evenly spaced ones. */
-static enum kd_status pack_debris(const struct kd_play_tick *tick, uint32_t most, bool npy, struct kd_buffer *out)
+static enum kd_status pack_debris(const struct kd_playground_session_tick *tick, uint32_t most, bool npy,
+                                  struct kd_buffer *out)
 {
     static const char *const names[KD_PLAY_DEBRIS_WORDS] = { "x", "y", "z", "stage_and_source" };
     const size_t every = tick->n_debris > most ? (tick->n_debris + most - 1) / most : 1,
@@ -84,7 +85,8 @@ done:
     return status;
 }
 
-static enum MHD_Result send_tick(struct kd_request *request, const struct wait *wait, struct kd_play_tick *tick)
+static enum MHD_Result send_tick(struct kd_request *request, const struct wait *wait,
+                                 struct kd_playground_session_tick *tick)
 {
     struct kd_buffer out = { 0 };
     char number[24];
@@ -92,7 +94,7 @@ static enum MHD_Result send_tick(struct kd_request *request, const struct wait *
     const enum kd_status status =
         debris ? pack_debris(tick, debris, wait->npy, &out) : pack_bodies(tick, wait->npy, &out);
     if (status) {
-        kd_play_tick_release(tick);
+        kd_playground_session_tick_release(tick);
         kd_buffer_finish(&out);
         return kd_reply_no_memory(request);
     }
@@ -104,23 +106,23 @@ static enum MHD_Result send_tick(struct kd_request *request, const struct wait *
         snprintf(number, sizeof number, "%.17g", tick->t);
         MHD_add_response_header(response, "Kerrd-Time", number);
     }
-    kd_play_tick_release(tick);
+    kd_playground_session_tick_release(tick);
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
 static enum MHD_Result look(struct kd_request *request)
 {
     const struct wait wait = *(const struct wait *)request->watcher;
-    struct kd_play_tick *tick = NULL;
+    struct kd_playground_session_tick *tick = NULL;
     struct kd_playground_event event;
     const char *why;
-    const enum kd_play_news what = kd_play_await(request->watcher, &tick, &event, &why);
+    const enum kd_playground_session_news what = kd_playground_session_await(request->watcher, &tick, &event, &why);
     if (what == KD_PLAY_LATER)
         return MHD_YES;
-    kd_play_abandon(request);
+    kd_playground_session_abandon(request);
     switch (what) {
     case KD_PLAY_TICK: return send_tick(request, &wait, tick);
-    case KD_PLAY_OVER: return kd_play_ended(request);
+    case KD_PLAY_OVER: return kd_playground_session_ended(request);
     case KD_PLAY_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PACKED_TYPE));
     default: return MHD_NO;
     }
@@ -152,22 +154,22 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                             .offered = PACKED_TYPE ", " KD_NPY_TYPE,
                                             .detail = "places are given as one of the types that are offered" });
-    struct kd_play *play = kd_play_of(request, &refused);
+    struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     if (!play)
         return refused;
     struct wait *wait = request->connection ? calloc(1, sizeof *wait) : NULL;
     if (!wait) {
-        kd_play_release(play);
+        kd_playground_session_release(play);
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     wait->npy = type == 1;
-    wait->watcher = (struct kd_play_watcher) { .play = play,
-                                               .mhd = request->mhd,
-                                               .socket = kd_connection_socket(request->connection),
-                                               .debris = (uint32_t)most,
-                                               .deadline_ms = kd_clock_ms() + (double)wait_ms };
+    wait->watcher = (struct kd_playground_session_watcher) { .play = play,
+                                                             .mhd = request->mhd,
+                                                             .socket = kd_connection_socket(request->connection),
+                                                             .debris = (uint32_t)most,
+                                                             .deadline_ms = kd_clock_ms() + (double)wait_ms };
     request->watcher = &wait->watcher;
-    kd_play_watch(request->watcher, kd_target_value(&request->target, "after") ? &after : NULL);
+    kd_playground_session_watch(request->watcher, kd_target_value(&request->target, "after") ? &after : NULL);
     return look(request);
 }
 

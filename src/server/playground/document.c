@@ -13,14 +13,16 @@
 #define STEP_MOST KD_PLAYGROUND_TIME
 
 static const struct kd_playground_setting pace_rows[] = {
-    { "rate", KD_SETTING_REAL, offsetof(struct kd_play_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0, NULL,
-      "M a second of the clock" },
-    { "paused", KD_SETTING_TRUTH, offsetof(struct kd_play_pace, paused), 0, 0, 1, 0, NULL, "whether it stands" },
+    { "rate", KD_SETTING_REAL, offsetof(struct kd_playground_session_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0,
+      NULL, "M a second of the clock" },
+    { "paused", KD_SETTING_BOOL, offsetof(struct kd_playground_session_pace, paused), 0, 0, 1, 0, NULL,
+      "whether it stands" },
 };
 static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, 0,
                                                        NULL, "M to go on by" };
 
-enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error)
+enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
+                                               struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < sizeof pace_rows / sizeof *pace_rows; i++) {
@@ -37,8 +39,9 @@ enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct 
     return status;
 }
 
-enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets,
-                                  struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_playground_session_read_scene(const cJSON *item, const struct kd_playground *p,
+                                                const struct kd_assets *assets, struct kd_scene *scene,
+                                                struct kd_error *error)
 {
     enum kd_status status;
     if (!item)
@@ -53,13 +56,13 @@ done:
     return kd_member_inside(status, "/scene", error);
 }
 
-double kd_play_usual_rate(const cJSON *tree)
+double kd_playground_session_usual_rate(const cJSON *tree)
 {
     const struct kd_playground_preset *preset = kd_playground_preset_in(tree);
     return preset ? preset->rate : USUAL_RATE;
 }
 
-enum kd_status kd_play_read_step(const char *text, size_t length, double *by, struct kd_error *error)
+enum kd_status kd_playground_session_read_step(const char *text, size_t length, double *by, struct kd_error *error)
 {
     cJSON *tree = NULL;
     enum kd_status status;
@@ -90,14 +93,15 @@ static void add_added(struct kd_json *json, const struct kd_playground *p, uint3
     kd_json_end(json);
 }
 
-enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p,
-                               const struct kd_play_told *told, struct kd_buffer *out)
+enum kd_status kd_playground_session_to_json(const struct kd_playground_session *play,
+                                             const struct kd_playground_session_state *state, struct kd_playground *p,
+                                             const struct kd_playground_session_told *told, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
-    kd_json_string(&json, "id", kd_play_id(play));
+    kd_json_string(&json, "id", kd_playground_session_id(play));
     if (told->token)
-        kd_json_string(&json, "token", kd_play_token(play));
+        kd_json_string(&json, "token", kd_playground_session_token(play));
     kd_json_number(&json, "rate", state->pace.rate);
     kd_json_number(&json, "rate_reached", state->reached);
     kd_json_bool(&json, "paused", state->pace.paused);
@@ -120,8 +124,8 @@ enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_
     return kd_json_finish_line(&json) || status ? KD_ENOMEM : KD_OK;
 }
 
-enum kd_status kd_play_series_json(const struct kd_playground_series *series, const double now[KD_SERIES_N],
-                                   struct kd_buffer *out)
+enum kd_status kd_playground_session_series_json(const struct kd_playground_series *series,
+                                                 const double now[KD_SERIES_N], struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -142,13 +146,13 @@ enum kd_status kd_play_series_json(const struct kd_playground_series *series, co
 static void add_rows(struct kd_json *json, const char *name, const struct kd_playground_setting *rows, size_t n)
 {
     static const char *const kinds[] = { [KD_SETTING_REAL] = "number",
-                                         [KD_SETTING_WHOLE] = "integer",
-                                         [KD_SETTING_TRUTH] = "boolean",
+                                         [KD_SETTING_INT] = "integer",
+                                         [KD_SETTING_BOOL] = "boolean",
                                          [KD_SETTING_WORD] = "string" };
     kd_json_array(json, name);
     for (size_t i = 0; i < n; i++) {
         const struct kd_playground_setting *row = &rows[i];
-        const bool number = row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE;
+        const bool number = row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_INT;
         char word[40] = "";
         kd_json_object(json, NULL);
         kd_json_string(json, "name", row->name);
@@ -157,7 +161,7 @@ static void add_rows(struct kd_json *json, const char *name, const struct kd_pla
             kd_json_number(json, "default", row->value);
             kd_json_number(json, "least", row->least);
             kd_json_number(json, "most", row->most);
-        } else if (row->kind == KD_SETTING_TRUTH) {
+        } else if (row->kind == KD_SETTING_BOOL) {
             kd_json_bool(json, "default", row->value != 0);
         } else {
             kd_playground_word(row->words, (int)row->value, word, sizeof word);
@@ -175,7 +179,7 @@ static void add_rows(struct kd_json *json, const char *name, const struct kd_pla
     kd_json_end(json);
 }
 
-enum kd_status kd_play_catalogue_json(struct kd_buffer *out)
+enum kd_status kd_playground_session_catalogue_json(struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);

@@ -8,28 +8,31 @@
 #include "server/playground/plays.h"
 
 /* Moves "rate" and "paused" out of the tree into *pace; absent ones are unchanged. KD_EINVAL with a pointer. */
-enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error);
+enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
+                                               struct kd_error *error);
 /* Merges "scene" (NULL: absent) over *scene, and checks that the playground can be shown in it. KD_EINVAL with a
  * pointer. */
-enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets,
-                                  struct kd_scene *scene, struct kd_error *error);
+enum kd_status kd_playground_session_read_scene(const cJSON *item, const struct kd_playground *p,
+                                                const struct kd_assets *assets, struct kd_scene *scene,
+                                                struct kd_error *error);
 /* The rate of the preset that the tree names, or the default. */
-double kd_play_usual_rate(const cJSON *tree);
+double kd_playground_session_usual_rate(const cJSON *tree);
 /* Parses {"by": M} of a step. */
-enum kd_status kd_play_read_step(const char *text, size_t length, double *by, struct kd_error *error);
+enum kd_status kd_playground_session_read_step(const char *text, size_t length, double *by, struct kd_error *error);
 
-struct kd_play_told {
+struct kd_playground_session_told {
     const struct kd_scene *scene;                  /* scene of its picture */
     bool token;                                    /* include the token, for the client that has just opened it */
     uint32_t before;                               /* list bodies with ids above this as "added"; UINT32_MAX: no list */
     const struct kd_playground_progress *progress; /* of a step; NULL: this is not the answer to a step */
 };
-enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p,
-                               const struct kd_play_told *told, struct kd_buffer *out);
+enum kd_status kd_playground_session_to_json(const struct kd_playground_session *play,
+                                             const struct kd_playground_session_state *state, struct kd_playground *p,
+                                             const struct kd_playground_session_told *told, struct kd_buffer *out);
 /* Writes {"columns": {name: [...]}}. */
-enum kd_status kd_play_series_json(const struct kd_playground_series *series, const double now[KD_SERIES_N],
-                                   struct kd_buffer *out);
+enum kd_status kd_playground_session_series_json(const struct kd_playground_series *series,
+                                                 const double now[KD_SERIES_N], struct kd_buffer *out);
 /* Writes {"presets", "settings", "body"}: what requests may contain. */
-enum kd_status kd_play_catalogue_json(struct kd_buffer *out);
+enum kd_status kd_playground_session_catalogue_json(struct kd_buffer *out);
 
 #endif

@@ -15,9 +15,9 @@
 #define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay ticks */
 
 struct stream {
-    struct kd_play_watcher watcher; /* first member */
-    struct kd_buffer text;          /* being sent ... */
-    size_t at;                      /* ... up to this position */
+    struct kd_playground_session_watcher watcher; /* first member */
+    struct kd_buffer text;                        /* being sent ... */
+    size_t at;                                    /* ... up to this position */
     bool over;
 };
 
@@ -30,11 +30,11 @@ static size_t take(struct stream *s, char *to, size_t size)
     return n;
 }
 
-static enum kd_status add_tick(struct stream *s, struct kd_play_tick *tick)
+static enum kd_status add_tick(struct stream *s, struct kd_playground_session_tick *tick)
 {
     enum kd_status status = kd_buffer_printf(&s->text, "event: tick\ndata: %.*s\n\n", (int)tick->event.size,
                                              (const char *)tick->event.data);
-    kd_play_tick_release(tick);
+    kd_playground_session_tick_release(tick);
     return status;
 }
 
@@ -60,13 +60,13 @@ done:
 /* Writes the next part of the stream into s->text. Returns false if there is none yet, or with *end at the end. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
-    struct kd_play_tick *tick = NULL;
+    struct kd_playground_session_tick *tick = NULL;
     struct kd_playground_event event;
     const char *why = "";
     const uint64_t before = s->watcher.event;
     enum kd_status status = KD_OK;
     s->text.size = s->at = 0;
-    switch (kd_play_await(&s->watcher, &tick, &event, &why)) {
+    switch (kd_playground_session_await(&s->watcher, &tick, &event, &why)) {
     case KD_PLAY_TICK: status = add_tick(s, tick); break;
     case KD_PLAY_EVENT: status = add_event(s, before, &event); break;
     case KD_PLAY_OVER:
@@ -101,7 +101,7 @@ static void release(void *cls)
 {
     struct stream *s = cls;
     kd_buffer_finish(&s->text);
-    kd_play_unwatch(&s->watcher);
+    kd_playground_session_unwatch(&s->watcher);
     free(s);
 }
 
@@ -124,24 +124,24 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     if (!begins_at(request, &since))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
                                                                 .detail = "since is the number of an event" });
-    struct kd_play *play = kd_play_of(request, &refused);
+    struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     if (!play)
         return refused;
     struct stream *s = request->connection && !request->head ? calloc(1, sizeof *s) : NULL;
     if (!s) {
-        kd_play_release(play);
+        kd_playground_session_release(play);
         return request->head
                    ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(TYPE))
                    : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     const int socket = kd_connection_socket(request->connection), unsent = UNSENT_BYTES;
-    s->watcher = (struct kd_play_watcher) { .play = play,
-                                            .mhd = request->mhd,
-                                            .socket = socket,
-                                            .stream = true,
-                                            .event = since,
-                                            .deadline_ms = kd_clock_ms() + HEARTBEAT_MS };
-    kd_play_watch(&s->watcher, NULL);
+    s->watcher = (struct kd_playground_session_watcher) { .play = play,
+                                                          .mhd = request->mhd,
+                                                          .socket = socket,
+                                                          .stream = true,
+                                                          .event = since,
+                                                          .deadline_ms = kd_clock_ms() + HEARTBEAT_MS };
+    kd_playground_session_watch(&s->watcher, NULL);
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, s, release);
     if (!response) {
         release(s);

@@ -14,17 +14,23 @@
 
 /* Functions from here on are called with the lock. */
 
-bool kd_play_looked_at(const struct kd_play *play) { return play->picture && kd_session_watched(play->picture); }
+bool kd_playground_session_looked_at(const struct kd_playground_session *play)
+{
+    return play->picture && kd_session_watched(play->picture);
+}
 
-unsigned kd_play_viewers(const struct kd_play *play) { return play->picture ? kd_session_viewers(play->picture) : 0; }
+unsigned kd_playground_session_viewers(const struct kd_playground_session *play)
+{
+    return play->picture ? kd_session_viewers(play->picture) : 0;
+}
 
-struct kd_session *kd_play_shown(const struct kd_play *play, double now)
+struct kd_session *kd_playground_session_shown(const struct kd_playground_session *play, double now)
 {
     const bool may = play->picture && (now - play->looked_at_ms < ASKED_MS || kd_session_watched(play->picture));
     return may ? kd_session_share(play->picture) : NULL;
 }
 
-void kd_play_hide(struct kd_play *play)
+void kd_playground_session_hide(struct kd_playground_session *play)
 {
     struct kd_session *picture = play->picture;
     play->picture = NULL;
@@ -36,7 +42,7 @@ void kd_play_hide(struct kd_play *play)
     play->crowd_bytes = 0;
 }
 
-static enum kd_status take_bytes(struct kd_play *play, bool *quota, struct kd_error *error)
+static enum kd_status take_bytes(struct kd_playground_session *play, bool *quota, struct kd_error *error)
 {
     if (kd_bytes_take(play->all->bytes, play->turns.client, CROWD_BYTES, CROWD_BYTES, quota))
         return kd_error_set(error, KD_EBUSY, "a picture of a playground takes %zu MiB, more than is left %s",
@@ -47,14 +53,14 @@ static enum kd_status take_bytes(struct kd_play *play, bool *quota, struct kd_er
 
 /* Functions from here on take the lock. */
 
-void kd_play_scene(struct kd_play *play, struct kd_scene *out)
+void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out)
 {
     pthread_mutex_lock(&play->all->lock);
     *out = play->scene;
     pthread_mutex_unlock(&play->all->lock);
 }
 
-static enum kd_status make_plan(struct kd_plays *all, const struct kd_scene *scene, struct kd_plan *out,
+static enum kd_status make_plan(struct kd_playground_sessions *all, const struct kd_scene *scene, struct kd_plan *out,
                                 struct kd_error *error)
 {
     struct kd_capacity capacity;
@@ -63,20 +69,22 @@ static enum kd_status make_plan(struct kd_plays *all, const struct kd_scene *sce
 }
 
 /* The same, checked against the limits of sessions. */
-static enum kd_status make_shown(struct kd_plays *all, const struct kd_scene *scene, struct kd_plan *out,
+static enum kd_status make_shown(struct kd_playground_sessions *all, const struct kd_scene *scene, struct kd_plan *out,
                                  struct kd_error *error)
 {
     enum kd_status status = make_plan(all, scene, out, error);
     return status ? status : kd_sessions_takes(all->params.sessions, out, error);
 }
 
-enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, const struct kd_scene *scene,
+                                            struct kd_error *error)
 {
     struct kd_plan plan;
     return make_shown(all, scene, &plan, error);
 }
 
-enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
+                                               struct kd_error *error)
 {
     struct kd_plan plan;
     enum kd_status status = make_shown(play->all, scene, &plan, error);
@@ -90,12 +98,13 @@ enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *sc
     return KD_OK;
 }
 
-static enum kd_status open_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error)
+static enum kd_status open_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
+                                   struct kd_error *error)
 {
     struct kd_plan plan;
     struct kd_scene scene;
     enum kd_status status;
-    kd_play_scene(play, &scene);
+    kd_playground_session_scene(play, &scene);
     KD_TRY(make_plan(play->all, &scene, &plan, error));
     KD_TRY(
         kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, NULL, quota, out, error));
@@ -103,7 +112,8 @@ done:
     return status;
 }
 
-enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error)
+enum kd_status kd_playground_session_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
+                                             struct kd_error *error)
 {
     struct kd_session *fresh = NULL;
     enum kd_status status = KD_OK;
@@ -123,14 +133,14 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
         play->crowd_bytes = 0;
-        kd_play_hide(play);
+        kd_playground_session_hide(play);
         play->crowd_bytes = held;
         play->picture = fresh;
         play->unshown = true;
     }
     *out = play->picture ? kd_session_share(play->picture) : NULL;
     play->looked_at_ms = kd_clock_ms();
-    kd_play_call(play);
+    kd_playground_session_call(play);
     pthread_mutex_unlock(&play->all->lock);
     if (status) {
         kd_session_end(fresh);

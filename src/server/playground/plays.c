@@ -13,9 +13,10 @@
 #define BASE_BYTES ((size_t)6 << 20)
 #define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
 
-enum kd_status kd_plays_create(const struct kd_plays_params *params, struct kd_plays **out, struct kd_error *error)
+enum kd_status kd_playground_sessions_create(const struct kd_playground_sessions_params *params,
+                                             struct kd_playground_sessions **out, struct kd_error *error)
 {
-    struct kd_plays *all = calloc(1, sizeof *all);
+    struct kd_playground_sessions *all = calloc(1, sizeof *all);
     if (!all)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     all->params = *params;
@@ -25,20 +26,20 @@ enum kd_status kd_plays_create(const struct kd_plays_params *params, struct kd_p
         &(struct kd_bytes_params) { .clients = params->limit, .max = params->bytes, .share = params->client_bytes });
     if (!all->bytes)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
-    KD_TRY(kd_turns_create(params->limit, params->client_limit, &all->turns, error));
+    KD_TRY(kd_scheduler_create(params->limit, params->client_limit, &all->turns, error));
 done:
     if (status)
-        kd_plays_destroy(all);
+        kd_playground_sessions_destroy(all);
     else
         *out = all;
     return status;
 }
 
-void kd_plays_destroy(struct kd_plays *all)
+void kd_playground_sessions_destroy(struct kd_playground_sessions *all)
 {
     if (!all)
         return;
-    kd_turns_destroy(all->turns);
+    kd_scheduler_destroy(all->turns);
     kd_bytes_destroy(all->bytes);
     pthread_mutex_destroy(&all->lock);
     free(all);
@@ -46,72 +47,73 @@ void kd_plays_destroy(struct kd_plays *all)
 
 /* Functions from here on are called with the lock. */
 
-struct kd_play *kd_play_let_go(struct kd_play *play)
+struct kd_playground_session *kd_playground_session_unref(struct kd_playground_session *play)
 {
     if (--play->references)
         return NULL;
-    kd_play_hide(play);
+    kd_playground_session_hide(play);
     kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
     return play;
 }
 
-void kd_play_call(struct kd_play *play)
+void kd_playground_session_call(struct kd_playground_session *play)
 {
     if (play->listed)
-        kd_turns_wake(play->all->turns, &play->turns);
+        kd_scheduler_wake(play->all->turns, &play->turns);
 }
 
-void kd_play_unlist(struct kd_play *play, const char *why)
+void kd_playground_session_unlist(struct kd_playground_session *play, const char *why)
 {
     if (!play->listed)
         return;
-    struct kd_play **link = &play->all->first;
+    struct kd_playground_session **link = &play->all->first;
     while (*link != play)
         link = &(*link)->next;
     *link = play->next;
-    kd_turns_wake(play->all->turns, &play->turns); /* so that it runs its last turn */
+    kd_scheduler_wake(play->all->turns, &play->turns); /* so that it runs its last turn */
     play->listed = false;
     play->why = why;
-    kd_play_hide(play);
+    kd_playground_session_hide(play);
     play->all->count--;
-    kd_play_wake(play, kd_clock_ms());
+    kd_playground_session_wake(play, kd_clock_ms());
 }
 
-bool kd_play_awake(const struct kd_play *play, double now)
+bool kd_playground_session_awake(const struct kd_playground_session *play, double now)
 {
-    return play->watchers || now - play->used_ms < KD_PLAY_REST_MS || kd_play_looked_at(play);
+    return play->watchers || now - play->used_ms < KD_PLAY_REST_MS || kd_playground_session_looked_at(play);
 }
 
-static unsigned watchers_of(const struct kd_play *play)
+static unsigned watchers_of(const struct kd_playground_session *play)
 {
     unsigned n = 0;
-    for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
+    for (const struct kd_playground_session_watcher *w = play->watchers; w; w = w->next)
         n++;
-    return n + kd_play_viewers(play);
+    return n + kd_playground_session_viewers(play);
 }
 
 /* Functions from here on take the lock. */
 
-void kd_play_destroy(struct kd_play *play)
+void kd_playground_session_destroy(struct kd_playground_session *play)
 {
     if (!play)
         return;
-    kd_play_tick_release(play->tick);
+    kd_playground_session_tick_release(play->tick);
     kd_playground_destroy(play->p);
     free(play);
 }
 
 /* Drops the job's reference. */
-static void done(struct kd_turns_job *job) { kd_play_release((struct kd_play *)job); }
+static void done(struct kd_scheduler_job *job) { kd_playground_session_release((struct kd_playground_session *)job); }
 
-static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pace, const char *client)
+static struct kd_playground_session *make(struct kd_playground_sessions *all,
+                                          const struct kd_playground_session_pace *pace, const char *client)
 {
-    struct kd_play *play = calloc(1, sizeof *play);
+    struct kd_playground_session *play = calloc(1, sizeof *play);
     if (!play || !kd_secret_make(play->id, sizeof play->id) || !kd_secret_make(play->token, sizeof play->token)) {
         free(play);
         return NULL;
     }
-    play->turns = (struct kd_turns_job) { .turn = kd_play_turn, .done = done };
+    play->turns = (struct kd_scheduler_job) { .turn = kd_playground_session_turn, .done = done };
     snprintf(play->turns.client, sizeof play->turns.client, "%s", client);
     play->all = all;
     play->references = 2; /* for the job and the caller */
@@ -119,15 +121,16 @@ static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pac
     play->used_ms = kd_clock_ms();
     play->generation = 1;
     play->held = true;
-    play->waiter = (struct kd_play_waiter) { .turns = all->turns, .job = &play->turns };
+    play->waiter = (struct kd_playground_session_waiter) { .turns = all->turns, .job = &play->turns };
     return play;
 }
 
 /* Called with the lock. */
-static enum kd_status admit(struct kd_plays *all, const char *client, size_t bytes, bool *quota, struct kd_error *error)
+static enum kd_status admit(struct kd_playground_sessions *all, const char *client, size_t bytes, bool *quota,
+                            struct kd_error *error)
 {
     unsigned own = 0;
-    for (const struct kd_play *other = all->first; other; other = other->next)
+    for (const struct kd_playground_session *other = all->first; other; other = other->next)
         own += !strcmp(other->turns.client, client);
     *quota = !all->closed && all->count < all->params.limit && own >= all->params.client_limit;
     if (*quota)
@@ -140,12 +143,13 @@ static enum kd_status admit(struct kd_plays *all, const char *client, size_t byt
     return KD_OK;
 }
 
-enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace,
-                             const struct kd_scene *scene, const char *client, bool *quota, struct kd_play **out,
-                             struct kd_error *error)
+enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, struct kd_playground **p,
+                                           const struct kd_playground_session_pace *pace, const struct kd_scene *scene,
+                                           const char *client, bool *quota, struct kd_playground_session **out,
+                                           struct kd_error *error)
 {
     const size_t bytes = BYTES((*p)->debris.capacity);
-    struct kd_play *play = make(all, pace, client);
+    struct kd_playground_session *play = make(all, pace, client);
     *quota = false;
     if (!play)
         return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a playground");
@@ -161,7 +165,7 @@ enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, con
         play->next = all->first;
         all->first = play;
         all->count++;
-        kd_turns_push(all->turns, &play->turns);
+        kd_scheduler_push(all->turns, &play->turns);
     }
     pthread_mutex_unlock(&all->lock);
     if (status) {
@@ -172,67 +176,71 @@ enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, con
     return KD_OK;
 }
 
-struct kd_play *kd_plays_find(struct kd_plays *all, const char *id)
+struct kd_playground_session *kd_playground_sessions_find(struct kd_playground_sessions *all, const char *id)
 {
     pthread_mutex_lock(&all->lock);
-    struct kd_play *play = all->first;
+    struct kd_playground_session *play = all->first;
     while (play && strcmp(play->id, id))
         play = play->next;
     if (play) {
         const double now = kd_clock_ms();
-        const bool rested = !kd_play_awake(play, now);
+        const bool rested = !kd_playground_session_awake(play, now);
         play->references++;
         play->used_ms = now;
         if (rested)
-            kd_play_call(play);
+            kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&all->lock);
     return play;
 }
 
-void kd_play_promise(struct kd_play *play, const struct kd_once *once)
+void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once)
 {
     pthread_mutex_lock(&play->all->lock);
     play->once = *once;
     pthread_mutex_unlock(&play->all->lock);
 }
 
-struct kd_play *kd_plays_find_once(struct kd_plays *all, const char *key)
+struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key)
 {
     char id[KD_SECRET_ID] = "";
     pthread_mutex_lock(&all->lock);
-    for (const struct kd_play *play = all->first; play && *key; play = play->next)
+    for (const struct kd_playground_session *play = all->first; play && *key; play = play->next)
         if (!strcmp(play->once.key, key))
             memcpy(id, play->id, sizeof id);
     pthread_mutex_unlock(&all->lock);
-    return *id ? kd_plays_find(all, id) : NULL;
+    return *id ? kd_playground_sessions_find(all, id) : NULL;
 }
 
-const struct kd_once *kd_play_once(const struct kd_play *play) { return &play->once; }
+const struct kd_once *kd_playground_session_once(const struct kd_playground_session *play) { return &play->once; }
 
-void kd_play_release(struct kd_play *play)
+void kd_playground_session_release(struct kd_playground_session *play)
 {
     if (!play)
         return;
-    struct kd_plays *all = play->all;
+    struct kd_playground_sessions *all = play->all;
     pthread_mutex_lock(&all->lock);
-    struct kd_play *unused = kd_play_let_go(play);
+    struct kd_playground_session *unused = kd_playground_session_unref(play);
     pthread_mutex_unlock(&all->lock);
-    kd_play_destroy(unused);
+    kd_playground_session_destroy(unused);
 }
 
-const char *kd_play_id(const struct kd_play *play) { return play->id; }
-const char *kd_play_token(const struct kd_play *play) { return play->token; }
-bool kd_play_owned(const struct kd_play *play, const char *token) { return kd_secret_equal(play->token, token); }
+const char *kd_playground_session_id(const struct kd_playground_session *play) { return play->id; }
+const char *kd_playground_session_token(const struct kd_playground_session *play) { return play->token; }
+bool kd_playground_session_owned(const struct kd_playground_session *play, const char *token)
+{
+    return kd_secret_equal(play->token, token);
+}
 
-void kd_play_end(struct kd_play *play, const char *why)
+void kd_playground_session_end(struct kd_playground_session *play, const char *why)
 {
     pthread_mutex_lock(&play->all->lock);
-    kd_play_unlist(play, why);
+    kd_playground_session_unlist(play, why);
     pthread_mutex_unlock(&play->all->lock);
 }
 
-struct kd_playground *kd_play_take(struct kd_play *play, struct kd_play_waiter *waiter)
+struct kd_playground *kd_playground_session_take(struct kd_playground_session *play,
+                                                 struct kd_playground_session_waiter *waiter)
 {
     struct kd_playground *p = NULL;
     pthread_mutex_lock(&play->all->lock);
@@ -248,31 +256,32 @@ struct kd_playground *kd_play_take(struct kd_play *play, struct kd_play_waiter *
     return p;
 }
 
-void kd_play_give(struct kd_play *play, struct kd_playground *p)
+void kd_playground_session_give(struct kd_playground_session *play, struct kd_playground *p)
 {
     pthread_mutex_lock(&play->all->lock);
     play->p = p;
     play->held = false;
-    for (struct kd_play_waiter *waiter = play->waiters, *next; waiter; waiter = next) {
+    for (struct kd_playground_session_waiter *waiter = play->waiters, *next; waiter; waiter = next) {
         next = waiter->next;
         waiter->listed = false;
-        kd_turns_wake(waiter->turns, waiter->job);
+        kd_scheduler_wake(waiter->turns, waiter->job);
     }
     play->waiters = NULL;
     pthread_mutex_unlock(&play->all->lock);
 }
 
-void kd_play_moved(struct kd_play *play)
+void kd_playground_session_moved(struct kd_playground_session *play)
 {
     pthread_mutex_lock(&play->all->lock);
     play->generation++;
-    kd_play_call(play);
+    kd_playground_session_call(play);
     pthread_mutex_unlock(&play->all->lock);
 }
 
-enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota, struct kd_error *error)
+enum kd_status kd_playground_session_room(struct kd_playground_session *play, uint32_t capacity, bool *quota,
+                                          struct kd_error *error)
 {
-    struct kd_plays *all = play->all;
+    struct kd_playground_sessions *all = play->all;
     const size_t bytes = BYTES(capacity);
     enum kd_status status = KD_OK;
     *quota = false;
@@ -291,35 +300,36 @@ enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota
     return status;
 }
 
-struct kd_play_state kd_play_state(struct kd_play *play)
+struct kd_playground_session_state kd_playground_session_state(struct kd_playground_session *play)
 {
     const double now = kd_clock_ms();
     pthread_mutex_lock(&play->all->lock);
-    const bool resting = !kd_play_awake(play, now);
-    const struct kd_play_state state = { .pace = play->pace,
-                                         .reached = play->reached,
-                                         .slowed = play->slowed_ms > 0 && now - play->slowed_ms < SLOWED_MS,
-                                         .resting = resting,
-                                         .stepping = play->stepping,
-                                         .over = !play->listed,
-                                         .watchers = watchers_of(play),
-                                         .generation = play->generation };
+    const bool resting = !kd_playground_session_awake(play, now);
+    const struct kd_playground_session_state state = { .pace = play->pace,
+                                                       .reached = play->reached,
+                                                       .slowed =
+                                                           play->slowed_ms > 0 && now - play->slowed_ms < SLOWED_MS,
+                                                       .resting = resting,
+                                                       .stepping = play->stepping,
+                                                       .over = !play->listed,
+                                                       .watchers = watchers_of(play),
+                                                       .generation = play->generation };
     pthread_mutex_unlock(&play->all->lock);
     return state;
 }
 
-void kd_play_set_pace(struct kd_play *play, const struct kd_play_pace *pace)
+void kd_playground_session_set_pace(struct kd_playground_session *play, const struct kd_playground_session_pace *pace)
 {
     pthread_mutex_lock(&play->all->lock);
     play->pace = *pace;
     play->anew = true;
     play->slowed_ms = 0;
     play->generation++;
-    kd_play_call(play);
+    kd_playground_session_call(play);
     pthread_mutex_unlock(&play->all->lock);
 }
 
-bool kd_play_step(struct kd_play *play)
+bool kd_playground_session_step(struct kd_playground_session *play)
 {
     pthread_mutex_lock(&play->all->lock);
     const bool may = play->pace.paused && !play->stepping;
@@ -328,32 +338,35 @@ bool kd_play_step(struct kd_play *play)
     return may;
 }
 
-void kd_play_stepped(struct kd_play *play)
+void kd_playground_session_stepped(struct kd_playground_session *play)
 {
     pthread_mutex_lock(&play->all->lock);
     play->stepping = false;
     pthread_mutex_unlock(&play->all->lock);
 }
 
-void kd_plays_close(struct kd_plays *all)
+void kd_playground_sessions_close(struct kd_playground_sessions *all)
 {
     pthread_mutex_lock(&all->lock);
     all->closed = true;
     while (all->first)
-        kd_play_unlist(all->first, "stopping");
+        kd_playground_session_unlist(all->first, "stopping");
     pthread_mutex_unlock(&all->lock);
 }
 
-unsigned kd_plays_unfinished(struct kd_plays *all) { return kd_turns_unfinished(all->turns); }
+unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all)
+{
+    return kd_scheduler_unfinished(all->turns);
+}
 
-bool kd_plays_counts(struct kd_plays *all, struct kd_plays_counts *out)
+bool kd_playground_sessions_counts(struct kd_playground_sessions *all, struct kd_playground_sessions_counts *out)
 {
     if (!kd_clock_lock(&all->lock, COUNTS_MS))
         return false;
-    *out = (struct kd_plays_counts) {
+    *out = (struct kd_playground_sessions_counts) {
         .plays = all->count, .bytes = kd_bytes_held(all->bytes), .steps = all->steps, .events = all->events
     };
-    for (const struct kd_play *play = all->first; play; play = play->next)
+    for (const struct kd_playground_session *play = all->first; play; play = play->next)
         out->watchers += watchers_of(play);
     pthread_mutex_unlock(&all->lock);
     return true;

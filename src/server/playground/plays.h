@@ -15,7 +15,7 @@
 #include "playground/playground.h"
 #include "server/http/counts.h"
 #include "server/http/once.h"
-#include "server/http/turns.h"
+#include "server/http/task_scheduler.h"
 
 #include <microhttpd.h>
 #include <stdatomic.h>
@@ -24,95 +24,105 @@
 #define KD_PLAY_RATE_MAX 1e9  /* M a second */
 #define KD_PLAY_DEBRIS 20000u /* default number of debris pieces in an answer */
 
-struct kd_plays;
-struct kd_play;
+struct kd_playground_sessions;
+struct kd_playground_session;
 struct kd_render_queue;
 struct kd_scene;
 struct kd_session;
 struct kd_sessions;
 
-struct kd_plays_params {
+struct kd_playground_sessions_params {
     struct kd_sessions *sessions; /* sessions that render their pictures */
     struct kd_render_queue *renders;
     unsigned limit, client_limit; /* sessions in all; of one client */
     unsigned idle_ms;
     size_t bytes, client_bytes; /* memory of all; of one client */
 };
-enum kd_status kd_plays_create(const struct kd_plays_params *params, struct kd_plays **out, struct kd_error *error);
-/* Call it after kd_plays_close, when kd_plays_unfinished is 0 and there are no references. Accepts NULL. */
-void kd_plays_destroy(struct kd_plays *all);
+enum kd_status kd_playground_sessions_create(const struct kd_playground_sessions_params *params,
+                                             struct kd_playground_sessions **out, struct kd_error *error);
+/* Call it after kd_playground_sessions_close, when kd_playground_sessions_unfinished is 0 and there are no references.
+ * Accepts NULL. */
+void kd_playground_sessions_destroy(struct kd_playground_sessions *all);
 
 /* Session state that is not part of the simulation. */
-struct kd_play_pace {
+struct kd_playground_session_pace {
     double rate; /* M a second, 0 to KD_PLAY_RATE_MAX */
     bool paused;
 };
 
 /* Opens a session. It takes over *p and sets it to NULL. The caller gets a reference, and has taken the playground.
  * Returns KD_EBUSY at a limit of sessions or bytes; *quota: it is that of one client. */
-enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace,
-                             const struct kd_scene *scene, const char *client, bool *quota, struct kd_play **out,
-                             struct kd_error *error);
+enum kd_status kd_playground_sessions_open(struct kd_playground_sessions *all, struct kd_playground **p,
+                                           const struct kd_playground_session_pace *pace, const struct kd_scene *scene,
+                                           const char *client, bool *quota, struct kd_playground_session **out,
+                                           struct kd_error *error);
 /* Returns a reference to the session of this id, or NULL. The session's idle time starts again. */
-struct kd_play *kd_plays_find(struct kd_plays *all, const char *id);
-void kd_play_release(struct kd_play *play); /* accepts NULL */
+struct kd_playground_session *kd_playground_sessions_find(struct kd_playground_sessions *all, const char *id);
+void kd_playground_session_release(struct kd_playground_session *play); /* accepts NULL */
 /* Idempotency-Key of a session: store it, find a session by it. "" finds none. */
-void kd_play_promise(struct kd_play *play, const struct kd_once *once);
-struct kd_play *kd_plays_find_once(struct kd_plays *all, const char *key);
-const struct kd_once *kd_play_once(const struct kd_play *play); /* of a session found by its key; HTTP thread only */
-const char *kd_play_id(const struct kd_play *play);
-const char *kd_play_token(const struct kd_play *play);
-bool kd_play_owned(const struct kd_play *play, const char *token); /* compares in constant time; token may be NULL */
+void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
+struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
+const struct kd_once *kd_playground_session_once(
+    const struct kd_playground_session *play); /* of a session found by its key; HTTP thread only */
+const char *kd_playground_session_id(const struct kd_playground_session *play);
+const char *kd_playground_session_token(const struct kd_playground_session *play);
+bool kd_playground_session_owned(const struct kd_playground_session *play,
+                                 const char *token); /* compares in constant time; token may be NULL */
 /* Ends the session and notifies its watchers. why: a word for them. */
-void kd_play_end(struct kd_play *play, const char *why);
+void kd_playground_session_end(struct kd_playground_session *play, const char *why);
 
-/* Takes the playground. The caller owns it until kd_play_give returns it, or another one in its place. NULL: it is
- * taken; the waiter's job must end its turn with KD_TURN_AWAY and is woken when it is returned. A turn that has taken
- * it may be suspended (base/pause.h), since no thread blocks for it. Workers. */
-struct kd_play_waiter {
-    struct kd_turns *turns;
-    struct kd_turns_job *job;
+/* Takes the playground. The caller owns it until kd_playground_session_give returns it, or another one in its place.
+ * NULL: it is taken; the waiter's job must end its turn with KD_SLICE_AWAY and is woken when it is returned. A turn
+ * that has taken it may be suspended (base/pause.h), since no thread blocks for it. Workers. */
+struct kd_playground_session_waiter {
+    struct kd_scheduler *turns;
+    struct kd_scheduler_job *job;
     /* private to the session */
-    struct kd_play_waiter *next;
+    struct kd_playground_session_waiter *next;
     bool listed;
 };
-struct kd_playground *kd_play_take(struct kd_play *play, struct kd_play_waiter *waiter);
-void kd_play_give(struct kd_play *play, struct kd_playground *p);
+struct kd_playground *kd_playground_session_take(struct kd_playground_session *play,
+                                                 struct kd_playground_session_waiter *waiter);
+void kd_playground_session_give(struct kd_playground_session *play, struct kd_playground *p);
 /* For the owner of the playground. log: copies new events into the session's log. moved: the playground has changed.
  * pieces: sub-steps to compute between two checks of the clock. */
-void kd_play_log(struct kd_play *play, const struct kd_playground *p);
-void kd_play_moved(struct kd_play *play);
-uint32_t kd_play_pieces(const struct kd_playground *p);
+void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p);
+void kd_playground_session_moved(struct kd_playground_session *play);
+uint32_t kd_playground_session_pieces(const struct kd_playground *p);
 /* Reserves the bytes of a new debris capacity in place of the present one. Returns KD_EBUSY, and changes nothing, at a
  * limit. */
-enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota, struct kd_error *error);
+enum kd_status kd_playground_session_room(struct kd_playground_session *play, uint32_t capacity, bool *quota,
+                                          struct kd_error *error);
 
-struct kd_play_state {
-    struct kd_play_pace pace;
+struct kd_playground_session_state {
+    struct kd_playground_session_pace pace;
     double reached; /* achieved rate, M a second */
     bool slowed, resting, stepping, over;
     unsigned watchers;
     uint64_t generation;
 };
-struct kd_play_state kd_play_state(struct kd_play *play);
-void kd_play_set_pace(struct kd_play *play, const struct kd_play_pace *pace);
+struct kd_playground_session_state kd_playground_session_state(struct kd_playground_session *play);
+void kd_playground_session_set_pace(struct kd_playground_session *play, const struct kd_playground_session_pace *pace);
 /* Fails if a frame of the scene would take too long or cannot be made. */
-enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error);
+enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, const struct kd_scene *scene,
+                                            struct kd_error *error);
 /* Scene of its picture. A session (server/session) renders it, with the bodies and debris, once a client requests
  * frames. */
-void kd_play_scene(struct kd_play *play, struct kd_scene *out);
+void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out);
 /* The scene must be resolved and valid. */
-enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *scene, struct kd_error *error);
+enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
+                                               struct kd_error *error);
 /* Returns the session that renders it, a reference; opens one if needed. KD_EBUSY at a limit; *quota: it is that of one
  * client. HTTP thread. */
-enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error);
+enum kd_status kd_playground_session_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
+                                             struct kd_error *error);
 /* Begins steps by hand. Returns false unless it is paused and not being stepped. Nothing else changes it until
- * kd_play_stepped. */
-bool kd_play_step(struct kd_play *play);
-void kd_play_stepped(struct kd_play *play);
+ * kd_playground_session_stepped. */
+bool kd_playground_session_step(struct kd_playground_session *play);
+void kd_playground_session_stepped(struct kd_playground_session *play);
 
 /* Tick: state of a playground at a time, as sent to watchers. Immutable and shared by reference count. */
-struct kd_play_tick {
+struct kd_playground_session_tick {
     _Atomic unsigned references;
     uint64_t generation;
     double t;
@@ -123,11 +133,11 @@ struct kd_play_tick {
     uint32_t most; /* capacity of `debris` in pieces */
 };
 enum { KD_PLAY_HEAD_WORDS = 8, KD_PLAY_BODY_WORDS = 10, KD_PLAY_DEBRIS_WORDS = 4 };
-void kd_play_tick_release(struct kd_play_tick *tick); /* accepts NULL */
+void kd_playground_session_tick_release(struct kd_playground_session_tick *tick); /* accepts NULL */
 
 /* A watcher: a request that waits for one tick, or a stream of all ticks and events. */
-struct kd_play_watcher {
-    struct kd_play *play; /* a reference */
+struct kd_playground_session_watcher {
+    struct kd_playground_session *play; /* a reference */
     struct MHD_Connection *mhd;
     int socket;
     bool stream;
@@ -136,12 +146,12 @@ struct kd_play_watcher {
     uint64_t event;     /* number of the last event sent */
     double deadline_ms; /* end of waiting on kd_clock_ms */
     bool waiting;       /* suspended */
-    struct kd_play_watcher *previous, *next;
+    struct kd_playground_session_watcher *previous, *next;
 };
 /* Takes over the reference in watcher->play. after: generation that the client has; NULL: none. */
-void kd_play_watch(struct kd_play_watcher *watcher, const uint64_t *after);
-void kd_play_unwatch(struct kd_play_watcher *watcher);
-enum kd_play_news {
+void kd_playground_session_watch(struct kd_playground_session_watcher *watcher, const uint64_t *after);
+void kd_playground_session_unwatch(struct kd_playground_session_watcher *watcher);
+enum kd_playground_session_news {
     KD_PLAY_TICK,  /* *tick is a reference */
     KD_PLAY_EVENT, /* *event is set; if event->number is not the next one, the events between have been discarded */
     KD_PLAY_OVER,  /* *why is a word */
@@ -149,15 +159,16 @@ enum kd_play_news {
     KD_PLAY_LATE,  /* the deadline has passed; the caller may set another */
     KD_PLAY_LATER, /* the connection is suspended, and will be resumed for one of the others */
 };
-enum kd_play_news kd_play_await(struct kd_play_watcher *watcher, struct kd_play_tick **tick,
-                                struct kd_playground_event *event, const char **why);
+enum kd_playground_session_news kd_playground_session_await(struct kd_playground_session_watcher *watcher,
+                                                            struct kd_playground_session_tick **tick,
+                                                            struct kd_playground_event *event, const char **why);
 
 /* Handles deadlines, disconnected clients and idle sessions. One thread calls it ten times a second. */
-void kd_plays_sweep(struct kd_plays *all);
+void kd_playground_sessions_sweep(struct kd_playground_sessions *all);
 /* Accepts no more sessions and ends all. */
-void kd_plays_close(struct kd_plays *all);
-unsigned kd_plays_unfinished(struct kd_plays *all); /* sessions that workers still use */
+void kd_playground_sessions_close(struct kd_playground_sessions *all);
+unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all); /* sessions that workers still use */
 /* Reads the counts. Returns false if the lock is not free soon. */
-bool kd_plays_counts(struct kd_plays *all, struct kd_plays_counts *out);
+bool kd_playground_sessions_counts(struct kd_playground_sessions *all, struct kd_playground_sessions_counts *out);
 
 #endif

@@ -24,18 +24,18 @@ enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 struct play_task {
     struct kd_task task; /* first member */
     enum what what;
-    const char *type;     /* media type of the answer */
-    struct kd_play *play; /* a reference; for OPEN the opened session */
-    struct kd_play_waiter waiter;
+    const char *type;                   /* media type of the answer */
+    struct kd_playground_session *play; /* a reference; for OPEN the opened session */
+    struct kd_playground_session_waiter waiter;
     struct kd_buffer out;
     bool conflict, steps, begun, told; /* steps: this task steps the session; told: the client has received the token */
     double by;
     struct kd_playground_run run;
 };
 
-struct kd_play *kd_play_of(struct kd_request *request, enum MHD_Result *refused)
+struct kd_playground_session *kd_playground_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
-    struct kd_play *play = kd_plays_find(request->server->plays, request->rest);
+    struct kd_playground_session *play = kd_playground_sessions_find(request->server->plays, request->rest);
     if (!play)
         *refused = kd_reply_problem(request,
                                     &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
@@ -43,7 +43,7 @@ struct kd_play *kd_play_of(struct kd_request *request, enum MHD_Result *refused)
     return play;
 }
 
-enum MHD_Result kd_play_ended(struct kd_request *request)
+enum MHD_Result kd_playground_session_ended(struct kd_request *request)
 {
     return kd_reply_problem(
         request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the playground has ended" });
@@ -53,10 +53,10 @@ static void finish(struct kd_task *task)
 {
     struct play_task *t = (struct play_task *)task;
     if (t->steps)
-        kd_play_stepped(t->play);
+        kd_playground_session_stepped(t->play);
     if (t->what == OPEN && t->play && !t->told && !*task->request->once.key)
-        kd_play_end(t->play, "failed");
-    kd_play_release(t->play);
+        kd_playground_session_end(t->play, "failed");
+    kd_playground_session_release(t->play);
     kd_buffer_finish(&t->out);
 }
 
@@ -67,15 +67,15 @@ static const char *body_of(const struct kd_task *task)
     return task->request->body.data ? (const char *)task->request->body.data : "";
 }
 
-static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_play_told *what,
+static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_playground_session_told *what,
                            struct kd_error *error)
 {
-    const struct kd_play_state state = kd_play_state(t->play);
-    struct kd_play_told told = *what;
+    const struct kd_playground_session_state state = kd_playground_session_state(t->play);
+    struct kd_playground_session_told told = *what;
     struct kd_scene scene;
-    kd_play_scene(t->play, &scene);
+    kd_playground_session_scene(t->play, &scene);
     told.scene = &scene;
-    return kd_play_to_json(t->play, &state, p, &told, &t->out)
+    return kd_playground_session_to_json(t->play, &state, p, &told, &t->out)
                ? kd_error_set(error, KD_ENOMEM, "out of memory for the answer")
                : KD_OK;
 }
@@ -83,25 +83,26 @@ static enum kd_status tell(struct play_task *t, struct kd_playground *p, const s
 static enum kd_status open_play(struct play_task *t, struct kd_error *error)
 {
     struct kd_server *server = t->task.request->server;
-    struct kd_play_pace pace = { 0 };
+    struct kd_playground_session_pace pace = { 0 };
     struct kd_playground *p = NULL;
     struct kd_scene scene;
     cJSON *tree = NULL, *look = NULL;
     enum kd_status status;
     KD_TRY(kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error));
-    pace.rate = kd_play_usual_rate(tree);
-    KD_TRY(kd_play_read_pace(tree, &pace, error));
+    pace.rate = kd_playground_session_usual_rate(tree);
+    KD_TRY(kd_playground_session_read_pace(tree, &pace, error));
     look = cJSON_DetachItemFromObjectCaseSensitive(tree, "scene");
     KD_TRY(kd_playground_read_tree(tree, &p, error));
     KD_TRY(kd_playground_usual_scene(kd_playground_preset_in(tree), p, &scene, error));
-    KD_TRY(kd_play_read_scene(look, p, kd_asset_store_assets(server->assets), &scene, error));
+    KD_TRY(kd_playground_session_read_scene(look, p, kd_asset_store_assets(server->assets), &scene, error));
     if (look)
-        KD_TRY(kd_plays_takes(server->plays, &scene, error));
+        KD_TRY(kd_playground_sessions_takes(server->plays, &scene, error));
     struct kd_playground *opened = p;
-    KD_TRY(kd_plays_open(server->plays, &p, &pace, &scene, t->task.request->client, &t->task.quota, &t->play, error));
-    kd_play_promise(t->play, &t->task.request->once);
-    status = tell(t, opened, &(struct kd_play_told) { .token = true, .before = UINT32_MAX }, error);
-    kd_play_give(t->play, opened);
+    KD_TRY(kd_playground_sessions_open(server->plays, &p, &pace, &scene, t->task.request->client, &t->task.quota,
+                                       &t->play, error));
+    kd_playground_session_promise(t->play, &t->task.request->once);
+    status = tell(t, opened, &(struct kd_playground_session_told) { .token = true, .before = UINT32_MAX }, error);
+    kd_playground_session_give(t->play, opened);
 done:
     kd_playground_destroy(p);
     cJSON_Delete(look);
@@ -118,14 +119,14 @@ static enum kd_status make_room(struct play_task *t, const struct kd_playground 
     if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
         return KD_OK; /* refused when the settings are parsed */
     return capacity->valuedouble > p->params.debris_capacity
-               ? kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error)
+               ? kd_playground_session_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error)
                : KD_OK;
 }
 
 static enum kd_status change_taken(struct play_task *t, struct kd_playground **p, cJSON *tree, struct kd_error *error)
 {
-    const struct kd_play_state state = kd_play_state(t->play);
-    struct kd_play_pace pace = state.pace;
+    const struct kd_playground_session_state state = kd_playground_session_state(t->play);
+    struct kd_playground_session_pace pace = state.pace;
     const uint32_t before = (*p)->last_id;
     struct kd_server *server = t->task.request->server;
     cJSON *look = cJSON_DetachItemFromObjectCaseSensitive(tree, "scene");
@@ -135,28 +136,29 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     t->conflict = state.stepping;
     if (t->conflict)
         KD_TRY(kd_error_set(error, KD_EINVAL, "the playground is being stepped: it is changed before or after that"));
-    KD_TRY(kd_play_read_pace(tree, &pace, error));
-    kd_play_scene(t->play, &scene);
-    KD_TRY(kd_play_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
+    KD_TRY(kd_playground_session_read_pace(tree, &pace, error));
+    kd_playground_session_scene(t->play, &scene);
+    KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
-    kd_play_scene(t->play, &old);
+    kd_playground_session_scene(t->play, &old);
     if (look) { /* first, because it can fail, and can be reverted */
-        KD_TRY(kd_play_set_scene(t->play, &scene, error));
-        kd_play_moved(t->play);
+        KD_TRY(kd_playground_session_set_scene(t->play, &scene, error));
+        kd_playground_session_moved(t->play);
     }
     if (tree->child) {
         status = make_room(t, *p, tree, error);
         status = status ? status : kd_playground_patch_tree(p, tree, error);
         if (status && look)
-            kd_play_set_scene(t->play, &old, &(struct kd_error) { 0 });
-        kd_play_room(t->play, (*p)->params.debris_capacity, &quota,
-                     &(struct kd_error) { 0 }); /* reserve the capacity that resulted; the rest is released */
+            kd_playground_session_set_scene(t->play, &old, &(struct kd_error) { 0 });
+        kd_playground_session_room(
+            t->play, (*p)->params.debris_capacity, &quota,
+            &(struct kd_error) { 0 }); /* reserve the capacity that resulted; the rest is released */
         KD_TRY(status);
-        kd_play_moved(t->play);
+        kd_playground_session_moved(t->play);
     }
     if (pace.rate != state.pace.rate || pace.paused != state.pace.paused)
-        kd_play_set_pace(t->play, &pace);
-    KD_TRY(tell(t, *p, &(struct kd_play_told) { .before = before }, error));
+        kd_playground_session_set_pace(t->play, &pace);
+    KD_TRY(tell(t, *p, &(struct kd_playground_session_told) { .before = before }, error));
 done:
     cJSON_Delete(look);
     return status;
@@ -173,16 +175,16 @@ static enum kd_status change(struct play_task *t, struct kd_playground **p, stru
     return status;
 }
 
-static enum kd_turn_end step(struct play_task *t, struct kd_playground *p, double until_ms, struct kd_error *error)
+static enum kd_slice_result step(struct play_task *t, struct kd_playground *p, double until_ms, struct kd_error *error)
 {
     if (!t->begun) {
-        if (kd_play_read_step(body_of(&t->task), t->task.request->body.size, &t->by, error))
-            return KD_TURN_LAST;
-        t->steps = kd_play_step(t->play);
+        if (kd_playground_session_read_step(body_of(&t->task), t->task.request->body.size, &t->by, error))
+            return KD_SLICE_LAST;
+        t->steps = kd_playground_session_step(t->play);
         t->conflict = !t->steps;
         if (t->conflict) {
             kd_error_set(error, KD_EINVAL, "a playground is stepped while it is paused, and by one request at a time");
-            return KD_TURN_LAST;
+            return KD_SLICE_LAST;
         }
     }
     bool more = true;
@@ -190,16 +192,16 @@ static enum kd_turn_end step(struct play_task *t, struct kd_playground *p, doubl
         kd_playground_begin(p, t->by, &t->run);
     t->begun = true;
     while (more && kd_clock_ms() < until_ms) {
-        more = kd_playground_go_on(p, &t->run, kd_play_pieces(p));
-        kd_play_log(t->play, p);
+        more = kd_playground_go_on(p, &t->run, kd_playground_session_pieces(p));
+        kd_playground_session_log(t->play, p);
     }
-    kd_play_moved(t->play);
+    kd_playground_session_moved(t->play);
     if (!more) {
         struct kd_playground_progress progress = kd_playground_progress(p, &t->run);
         progress.asked = t->by;
-        tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX, .progress = &progress }, error);
+        tell(t, p, &(struct kd_playground_session_told) { .before = UINT32_MAX, .progress = &progress }, error);
     }
-    return more && !kd_play_state(t->play).over ? KD_TURN_MORE : KD_TURN_LAST;
+    return more && !kd_playground_session_state(t->play).over ? KD_SLICE_MORE : KD_SLICE_LAST;
 }
 
 static enum kd_status write_file(struct play_task *t, struct kd_playground *p, struct kd_error *error)
@@ -212,23 +214,25 @@ static enum kd_status write_file(struct play_task *t, struct kd_playground *p, s
     case SERIES:
         kd_playground_series_row(p, now);
         status = npy                         ? kd_series_npy(&p->series, now, &t->out)
-                 : strcmp(t->type, CSV_TYPE) ? kd_play_series_json(&p->series, now, &t->out)
+                 : strcmp(t->type, CSV_TYPE) ? kd_playground_session_series_json(&p->series, now, &t->out)
                                              : kd_series_csv(&p->series, now, &t->out);
         break;
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
-    default: status = tell(t, p, &(struct kd_play_told) { .token = t->what == AGAIN, .before = UINT32_MAX }, error);
+    default:
+        status =
+            tell(t, p, &(struct kd_playground_session_told) { .token = t->what == AGAIN, .before = UINT32_MAX }, error);
     }
     return status ? kd_error_set(error, status, "out of memory for the answer") : KD_OK;
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct play_task *t = (struct play_task *)task;
     struct kd_error error = { 0 };
-    enum kd_turn_end end = KD_TURN_LAST;
-    struct kd_playground *p = t->what == OPEN ? NULL : kd_play_take(t->play, &t->waiter);
+    enum kd_slice_result end = KD_SLICE_LAST;
+    struct kd_playground *p = t->what == OPEN ? NULL : kd_playground_session_take(t->play, &t->waiter);
     if (!p && t->what != OPEN)
-        return KD_TURN_AWAY;
+        return KD_SLICE_AWAY;
     switch (t->what) {
     case OPEN: open_play(t, &error); break;
     case CHANGE: change(t, &p, &error); break;
@@ -236,7 +240,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     default: write_file(t, p, &error);
     }
     if (p)
-        kd_play_give(t->play, p);
+        kd_playground_session_give(t->play, p);
     kd_task_fail(task, error.status, &error);
     if (!error.status)
         kd_task_fail(
@@ -270,11 +274,11 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (t->task.status)
         return refuse(request, t);
     if (!t->out.size)
-        return kd_play_ended(request);
+        return kd_playground_session_ended(request);
     struct MHD_Response *response = kd_reply_text(request, &t->out, t->type);
     const bool opened = t->what == OPEN || t->what == AGAIN;
     if (opened)
-        kd_reply_location(request, response, kd_play_id(t->play));
+        kd_reply_location(request, response, kd_playground_session_id(t->play));
     if (response && t->what == SNAPSHOT)
         kd_reply_file(request, KD_ATTACHMENT, "playground.json");
     const enum MHD_Result result = kd_reply_send(request, opened ? MHD_HTTP_CREATED : MHD_HTTP_OK, response);
@@ -283,17 +287,18 @@ static enum MHD_Result deliver(struct kd_request *request)
 }
 
 /* Takes over the reference `play`. */
-static enum MHD_Result begin(struct kd_request *request, struct kd_play *play, enum what what, const char *type)
+static enum MHD_Result begin(struct kd_request *request, struct kd_playground_session *play, enum what what,
+                             const char *type)
 {
     static const struct kd_task_kind kind = { "playgrounds", sizeof(struct play_task), work, finish };
     enum MHD_Result refused;
     struct play_task *t = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!t) {
-        kd_play_release(play);
+        kd_playground_session_release(play);
         return refused;
     }
     t->play = play;
-    t->waiter = (struct kd_play_waiter) { .turns = t->task.queue, .job = &t->task.turns };
+    t->waiter = (struct kd_playground_session_waiter) { .turns = t->task.queue, .job = &t->task.turns };
     t->what = what;
     t->type = type;
     return kd_task_submit(&t->task);
@@ -310,11 +315,12 @@ static enum MHD_Result forbid(struct kd_request *request)
 static enum MHD_Result begin_opening(struct kd_request *request)
 {
     enum MHD_Result refused;
-    struct kd_play *play = kd_plays_find_once(request->server->plays, request->once.key);
-    const enum kd_once_verdict verdict = kd_once_begin(request, play ? kd_play_once(play) : NULL, &refused);
+    struct kd_playground_session *play = kd_playground_sessions_find_once(request->server->plays, request->once.key);
+    const enum kd_once_verdict verdict =
+        kd_once_begin(request, play ? kd_playground_session_once(play) : NULL, &refused);
     if (verdict == KD_ONCE_AGAIN)
         return begin(request, play, AGAIN, JSON_TYPE);
-    kd_play_release(play);
+    kd_playground_session_release(play);
     return verdict == KD_ONCE_REFUSED ? refused : begin(request, NULL, OPEN, JSON_TYPE);
 }
 
@@ -322,16 +328,16 @@ enum MHD_Result kd_handle_plays(struct kd_request *request)
 {
     struct kd_buffer json = { 0 };
     if (strcmp(request->method, "POST")) {
-        const enum kd_status status = kd_play_catalogue_json(&json);
+        const enum kd_status status = kd_playground_session_catalogue_json(&json);
         return kd_reply_json(request, status, &json, JSON_TYPE);
     }
     return request->task ? deliver(request) : begin_opening(request);
 }
 
-static enum MHD_Result end(struct kd_request *request, struct kd_play *play)
+static enum MHD_Result end(struct kd_request *request, struct kd_playground_session *play)
 {
-    kd_play_end(play, "deleted");
-    kd_play_release(play);
+    kd_playground_session_end(play, "deleted");
+    kd_playground_session_release(play);
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
 }
 
@@ -339,15 +345,15 @@ static enum MHD_Result end(struct kd_request *request, struct kd_play *play)
 static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
 {
     enum MHD_Result refused;
-    struct kd_play *play = kd_play_of(request, &refused);
+    struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     if (!play)
         return refused;
-    if (!kd_play_owned(play, kd_token_of(request))) {
-        kd_play_release(play);
+    if (!kd_playground_session_owned(play, kd_token_of(request))) {
+        kd_playground_session_release(play);
         return forbid(request);
     }
     if (!kd_reply_matches(request, NULL)) {
-        kd_play_release(play);
+        kd_playground_session_release(play);
         return kd_reply_unmatched(request);
     }
     return !strcmp(request->method, "DELETE") ? end(request, play) : begin(request, play, what, JSON_TYPE);
@@ -356,7 +362,7 @@ static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
 static enum MHD_Result begin_reading(struct kd_request *request, enum what what, const char *type)
 {
     enum MHD_Result refused;
-    struct kd_play *play = kd_play_of(request, &refused);
+    struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     return play ? begin(request, play, what, type) : refused;
 }
 
@@ -410,15 +416,15 @@ static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result
     struct kd_session *picture = NULL;
     struct kd_error error = { 0 };
     bool quota;
-    struct kd_play *play = kd_play_of(request, refused);
+    struct kd_playground_session *play = kd_playground_session_of(request, refused);
     if (!play)
         return NULL;
-    if (kd_play_picture(play, &quota, &picture, &error)) {
+    if (kd_playground_session_picture(play, &quota, &picture, &error)) {
         struct kd_problem problem = kd_problem_from(&error);
         kd_problem_limit(&problem, &error, quota, 10);
         *refused = kd_reply_problem(request, &problem);
     }
-    kd_play_release(play);
+    kd_playground_session_release(play);
     return picture;
 }
 

@@ -6,9 +6,9 @@
 #include "server/playground/plays.h"
 
 /* Finds the session that the path names. Returns a reference, or NULL with *refused. */
-struct kd_play *kd_play_of(struct kd_request *request, enum MHD_Result *refused);
-enum MHD_Result kd_play_ended(struct kd_request *request);
+struct kd_playground_session *kd_playground_session_of(struct kd_request *request, enum MHD_Result *refused);
+enum MHD_Result kd_playground_session_ended(struct kd_request *request);
 /* Stops waiting for a tick. */
-void kd_play_abandon(struct kd_request *request);
+void kd_playground_session_abandon(struct kd_request *request);
 
 #endif

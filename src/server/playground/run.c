@@ -28,25 +28,25 @@ struct order {
 };
 
 /* Largest number of debris pieces awaited, or requested lately. Called with the lock. */
-static uint32_t wanted_debris(const struct kd_play *play, double now)
+static uint32_t wanted_debris(const struct kd_playground_session *play, double now)
 {
     uint32_t most = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0;
-    for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
+    for (const struct kd_playground_session_watcher *w = play->watchers; w; w = w->next)
         most = w->debris > most ? w->debris : most;
     return most;
 }
 
-static struct order look(struct kd_play *play, double now)
+static struct order look(struct kd_playground_session *play, double now)
 {
     pthread_mutex_lock(&play->all->lock);
     const struct order order = { .over = !play->listed,
                                  .anew = play->anew,
                                  .rate = play->pace.rate,
-                                 .awaited = kd_play_awaited(play),
+                                 .awaited = kd_playground_session_awaited(play),
                                  .goes = !play->pace.paused && !play->stepping && play->pace.rate > 0 &&
-                                         kd_play_awake(play, now),
+                                         kd_playground_session_awake(play, now),
                                  .debris = wanted_debris(play, now),
-                                 .shown = kd_play_shown(play, now) };
+                                 .shown = kd_playground_session_shown(play, now) };
     play->anew = false;
     if (play->unshown)
         play->shown = 0;
@@ -57,7 +57,7 @@ static struct order look(struct kd_play *play, double now)
     return order;
 }
 
-void kd_play_log(struct kd_play *play, const struct kd_playground *p)
+void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
     if (p->events.last == log->last) /* only the owner of the playground changes either */
@@ -72,12 +72,12 @@ void kd_play_log(struct kd_play *play, const struct kd_playground *p)
     pthread_mutex_unlock(&play->all->lock);
 }
 
-uint32_t kd_play_pieces(const struct kd_playground *p)
+uint32_t kd_playground_session_pieces(const struct kd_playground *p)
 {
     return p->n <= FEW && p->debris.alive <= FEW && p->params.gravity != KD_GRAVITY_KERR ? PIECES : 1;
 }
 
-static void start_clock(struct kd_play *play, double now)
+static void start_clock(struct kd_playground_session *play, double now)
 {
     play->looked_ms = play->measured_ms = now;
     play->goal = play->measured_t = play->p->t;
@@ -85,7 +85,7 @@ static void start_clock(struct kd_play *play, double now)
 }
 
 /* Computes sub-steps until the goal is reached, the allowance is spent, or the slice is over. */
-static void follow(struct kd_play *play, double until)
+static void follow(struct kd_playground_session *play, double until)
 {
     struct kd_playground *p = play->p;
     struct kd_playground_run run;
@@ -95,8 +95,8 @@ static void follow(struct kd_play *play, double until)
     const uint32_t most = run.left = (uint32_t)fmin(play->allowance, run.left);
     bool more = true;
     while (more && kd_clock_ms() < until) {
-        more = kd_playground_go_on(p, &run, kd_play_pieces(p));
-        kd_play_log(play, p);
+        more = kd_playground_go_on(p, &run, kd_playground_session_pieces(p));
+        kd_playground_session_log(play, p);
     }
     play->allowance -= most - run.left;
     if (run.stuck)
@@ -104,7 +104,7 @@ static void follow(struct kd_play *play, double until)
 }
 
 /* Moves the playground on. Returns true if it lags. */
-static bool advance(struct kd_play *play, double rate, double now)
+static bool advance(struct kd_playground_session *play, double rate, double now)
 {
     struct kd_playground *p = play->p;
     const double seconds = 1e-3 * (now - play->looked_ms), begin = p->t;
@@ -131,16 +131,16 @@ static bool advance(struct kd_play *play, double rate, double now)
     return play->goal > p->t;
 }
 
-static bool has_debris(const struct kd_play_tick *tick, uint32_t wanted)
+static bool has_debris(const struct kd_playground_session_tick *tick, uint32_t wanted)
 {
     return !wanted || (tick->has_debris && tick->most >= wanted);
 }
 
 /* Publishes a tick if a client waits for one and it is due. Returns when it must be called again at the latest; 0: no
  * need. */
-static double publish(struct kd_play *play, const struct order *order, double now)
+static double publish(struct kd_playground_session *play, const struct order *order, double now)
 {
-    const struct kd_play_state state = kd_play_state(play);
+    const struct kd_playground_session_state state = kd_playground_session_state(play);
     pthread_mutex_lock(&play->all->lock);
     const bool fresh =
         play->tick && play->tick->generation == state.generation && has_debris(play->tick, order->debris);
@@ -150,23 +150,23 @@ static double publish(struct kd_play *play, const struct order *order, double no
         return 0;
     if (order->goes && now - play->ticked_ms < TICK_MS)
         return play->ticked_ms + TICK_MS;
-    struct kd_play_tick *tick = kd_play_tick_make(play->p, &state, order->debris);
+    struct kd_playground_session_tick *tick = kd_playground_session_tick_make(play->p, &state, order->debris);
     if (!tick)
         return now + MOST_MS; /* out of memory: try again later */
     play->ticked_ms = now;
     pthread_mutex_lock(&play->all->lock);
-    kd_play_tick_release(play->tick);
+    kd_playground_session_tick_release(play->tick);
     play->tick = tick;
-    kd_play_wake(play, now);
+    kd_playground_session_wake(play, now);
     pthread_mutex_unlock(&play->all->lock);
     return 0;
 }
 
 /* Gives the picture its new bodies. Returns as publish. */
-static double show(struct kd_play *play, const struct order *order, double now)
+static double show(struct kd_playground_session *play, const struct order *order, double now)
 {
-    struct kd_crowd *crowd = NULL;
-    const uint64_t generation = kd_play_state(play).generation;
+    struct kd_dynamic_bodies *crowd = NULL;
+    const uint64_t generation = kd_playground_session_state(play).generation;
     if (!order->shown || play->shown == generation)
         return 0;
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
@@ -183,19 +183,20 @@ static double show(struct kd_play *play, const struct order *order, double now)
 
 static double sooner(double one, double other) { return one > 0 && (one < other || !(other > 0)) ? one : other; }
 
-enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
+enum kd_slice_result kd_playground_session_turn(struct kd_scheduler_job *job)
 {
-    struct kd_play *play = (struct kd_play *)job;
+    struct kd_playground_session *play = (struct kd_playground_session *)job;
     bool behind = false;
-    if (!kd_play_take(play, &play->waiter)) /* first, because the present owner may change what is to be done */
-        return KD_TURN_AWAY;
+    if (!kd_playground_session_take(play,
+                                    &play->waiter)) /* first, because the present owner may change what is to be done */
+        return KD_SLICE_AWAY;
     double now = kd_clock_ms();
     const struct order order = look(play, now);
     if (order.over) {
-        kd_play_give(play, play->p);
+        kd_playground_session_give(play, play->p);
         if (order.shown)
             kd_session_release(order.shown);
-        return KD_TURN_LAST;
+        return KD_SLICE_LAST;
     }
     if (!order.goes)
         play->looked_ms = 0;
@@ -207,8 +208,8 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
     const double ahead = play->p->t - play->goal,
                  next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
     job->due_ms = sooner(publish(play, &order, now), sooner(show(play, &order, now), next));
-    kd_play_give(play, play->p);
+    kd_playground_session_give(play, play->p);
     if (order.shown)
         kd_session_release(order.shown);
-    return behind ? KD_TURN_MORE : KD_TURN_PARK;
+    return behind ? KD_SLICE_MORE : KD_SLICE_PARK;
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void kd_play_tick_release(struct kd_play_tick *tick)
+void kd_playground_session_tick_release(struct kd_playground_session_tick *tick)
 {
     if (!tick || atomic_fetch_sub(&tick->references, 1) > 1)
         return;
@@ -37,7 +37,7 @@ static enum kd_status reserve(struct kd_buffer *buffer, size_t bytes)
     return buffer->data ? KD_OK : KD_ENOMEM;
 }
 
-static enum kd_status pack_bodies(struct kd_play_tick *tick, const struct kd_playground *p)
+static enum kd_status pack_bodies(struct kd_playground_session_tick *tick, const struct kd_playground *p)
 {
     tick->n_bodies = p->n;
     if (reserve(&tick->bodies, p->n * KD_PLAY_BODY_WORDS * 4))
@@ -57,7 +57,7 @@ static enum kd_status pack_bodies(struct kd_play_tick *tick, const struct kd_pla
 }
 
 /* Packs every k-th piece, so that there are at most tick->most. */
-static enum kd_status pack_debris(struct kd_play_tick *tick, const struct kd_playground_debris *debris)
+static enum kd_status pack_debris(struct kd_playground_session_tick *tick, const struct kd_playground_debris *debris)
 {
     const size_t all = debris->alive, every = all > tick->most ? (all + tick->most - 1) / tick->most : 1;
     size_t seen = 0, n = 0;
@@ -116,7 +116,8 @@ static void add_row(struct kd_json *json, struct kd_playground *p)
     }
 }
 
-static enum kd_status describe(struct kd_play_tick *tick, struct kd_playground *p, const struct kd_play_state *state)
+static enum kd_status describe(struct kd_playground_session_tick *tick, struct kd_playground *p,
+                               const struct kd_playground_session_state *state)
 {
     struct kd_json json = kd_json_begin(&tick->event);
     kd_json_object(&json, NULL);
@@ -135,9 +136,11 @@ static enum kd_status describe(struct kd_play_tick *tick, struct kd_playground *
     return kd_json_finish(&json);
 }
 
-struct kd_play_tick *kd_play_tick_make(struct kd_playground *p, const struct kd_play_state *state, uint32_t debris)
+struct kd_playground_session_tick *kd_playground_session_tick_make(struct kd_playground *p,
+                                                                   const struct kd_playground_session_state *state,
+                                                                   uint32_t debris)
 {
-    struct kd_play_tick *tick = calloc(1, sizeof *tick);
+    struct kd_playground_session_tick *tick = calloc(1, sizeof *tick);
     enum kd_status status;
     if (!tick)
         return NULL;
@@ -152,6 +155,6 @@ struct kd_play_tick *kd_play_tick_make(struct kd_playground *p, const struct kd_
 done:
     if (!status)
         return tick;
-    kd_play_tick_release(tick);
+    kd_playground_session_tick_release(tick);
     return NULL;
 }

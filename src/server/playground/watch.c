@@ -10,15 +10,15 @@
 
 /* Functions from here on are called with the lock. */
 
-static bool has_tick(const struct kd_play_watcher *w)
+static bool has_tick(const struct kd_playground_session_watcher *w)
 {
-    const struct kd_play_tick *tick = w->play->tick;
+    const struct kd_playground_session_tick *tick = w->play->tick;
     return tick && tick->generation >= w->least && (!w->debris || (tick->has_debris && tick->most >= w->debris));
 }
 
-static enum kd_play_news news(const struct kd_play_watcher *w, double now)
+static enum kd_playground_session_news news(const struct kd_playground_session_watcher *w, double now)
 {
-    const struct kd_play *play = w->play;
+    const struct kd_playground_session *play = w->play;
     if (w->stream && w->event < play->log.last)
         return KD_PLAY_EVENT;
     if (!play->listed)
@@ -30,29 +30,29 @@ static enum kd_play_news news(const struct kd_play_watcher *w, double now)
     return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
-static void resume(struct kd_play_watcher *w)
+static void resume(struct kd_playground_session_watcher *w)
 {
     w->waiting = false;
     MHD_resume_connection(w->mhd);
 }
 
-void kd_play_wake(struct kd_play *play, double now)
+void kd_playground_session_wake(struct kd_playground_session *play, double now)
 {
-    for (struct kd_play_watcher *w = play->watchers; w; w = w->next)
+    for (struct kd_playground_session_watcher *w = play->watchers; w; w = w->next)
         if (w->waiting && news(w, now) != KD_PLAY_LATER)
             resume(w);
 }
 
-bool kd_play_awaited(const struct kd_play *play)
+bool kd_playground_session_awaited(const struct kd_playground_session *play)
 {
-    for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
+    for (const struct kd_playground_session_watcher *w = play->watchers; w; w = w->next)
         if (w->waiting)
             return true;
     return false;
 }
 
 /* Takes the next event after the last one sent. Discarded events are skipped; the number in *event shows how many. */
-static void take_event(struct kd_play_watcher *w, struct kd_playground_event *event)
+static void take_event(struct kd_playground_session_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;
     while (!found && w->event < w->play->log.last)
@@ -62,9 +62,9 @@ static void take_event(struct kd_play_watcher *w, struct kd_playground_event *ev
 
 /* Functions from here on take the lock. */
 
-void kd_play_watch(struct kd_play_watcher *w, const uint64_t *after)
+void kd_playground_session_watch(struct kd_playground_session_watcher *w, const uint64_t *after)
 {
-    struct kd_play *play = w->play;
+    struct kd_playground_session *play = w->play;
     pthread_mutex_lock(&play->all->lock);
     w->least = after && *after <= play->generation ? *after + 1 : play->generation;
     if (w->event > play->log.last || w->event < play->log_begin) /* a number that no event has had counts as none */
@@ -84,10 +84,10 @@ void kd_play_watch(struct kd_play_watcher *w, const uint64_t *after)
     pthread_mutex_unlock(&play->all->lock);
 }
 
-void kd_play_unwatch(struct kd_play_watcher *w)
+void kd_playground_session_unwatch(struct kd_playground_session_watcher *w)
 {
-    struct kd_play *play = w->play;
-    struct kd_plays *all = play->all;
+    struct kd_playground_session *play = w->play;
+    struct kd_playground_sessions *all = play->all;
     pthread_mutex_lock(&all->lock);
     if (w->previous)
         w->previous->next = w->next;
@@ -96,19 +96,20 @@ void kd_play_unwatch(struct kd_play_watcher *w)
     if (w->next)
         w->next->previous = w->previous;
     play->used_ms = kd_clock_ms();
-    struct kd_play *unused = kd_play_let_go(play);
+    struct kd_playground_session *unused = kd_playground_session_unref(play);
     pthread_mutex_unlock(&all->lock);
-    kd_play_destroy(unused);
+    kd_playground_session_destroy(unused);
     w->play = NULL;
 }
 
-enum kd_play_news kd_play_await(struct kd_play_watcher *w, struct kd_play_tick **tick,
-                                struct kd_playground_event *event, const char **why)
+enum kd_playground_session_news kd_playground_session_await(struct kd_playground_session_watcher *w,
+                                                            struct kd_playground_session_tick **tick,
+                                                            struct kd_playground_event *event, const char **why)
 {
-    struct kd_play *play = w->play;
+    struct kd_playground_session *play = w->play;
     const double now = kd_clock_ms();
     pthread_mutex_lock(&play->all->lock);
-    enum kd_play_news what = news(w, now);
+    enum kd_playground_session_news what = news(w, now);
     if (what == KD_PLAY_TICK) {
         *tick = play->tick;
         atomic_fetch_add(&play->tick->references, 1);
@@ -122,30 +123,30 @@ enum kd_play_news kd_play_await(struct kd_play_watcher *w, struct kd_play_tick *
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
         MHD_suspend_connection(w->mhd); /* before a wake-up can happen, which needs the lock */
-        kd_play_call(play);
+        kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);
     return what;
 }
 
-void kd_plays_sweep(struct kd_plays *all)
+void kd_playground_sessions_sweep(struct kd_playground_sessions *all)
 {
     const double now = kd_clock_ms();
     pthread_mutex_lock(&all->lock);
     const bool look = now - all->looked_ms > LOOK_MS;
     if (look)
         all->looked_ms = now;
-    for (struct kd_play *play = all->first, *next; play; play = next) {
+    for (struct kd_playground_session *play = all->first, *next; play; play = next) {
         next = play->next;
-        if (play->watchers || play->stepping || kd_play_looked_at(play))
+        if (play->watchers || play->stepping || kd_playground_session_looked_at(play))
             play->used_ms = now;
-        kd_play_wake(play, now);
-        for (struct kd_play_watcher *w = look ? play->watchers : NULL; w; w = w->next)
+        kd_playground_session_wake(play, now);
+        for (struct kd_playground_session_watcher *w = look ? play->watchers : NULL; w; w = w->next)
             if (w->waiting && kd_socket_abandoned(w->socket))
-                resume(w); /* kd_play_await reports it */
+                resume(w); /* kd_playground_session_await reports it */
         if (now - play->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "playground %.4s... ends: nobody watches", play->id);
-            kd_play_unlist(play, "idle");
+            kd_playground_session_unlist(play, "idle");
         }
     }
     pthread_mutex_unlock(&all->lock);

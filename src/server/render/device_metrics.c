@@ -38,8 +38,8 @@ static enum kd_status add_kept(struct kd_buffer *out, const struct kd_renderer *
     enum kd_status status = kd_buffer_printf(
         out, "# HELP kerrd_kept_bytes Kept for what may be asked for next, by kind.\n# TYPE kerrd_kept_bytes gauge\n");
     kd_renderer_kept(renderer, bytes);
-    for (size_t i = 0; kd_kept_word(i) && !status; i++)
-        status = kd_buffer_printf(out, "kerrd_kept_bytes{kind=\"%s\"} %llu\n", kd_kept_word(i),
+    for (size_t i = 0; kd_cached_documents_word(i) && !status; i++)
+        status = kd_buffer_printf(out, "kerrd_kept_bytes{kind=\"%s\"} %llu\n", kd_cached_documents_word(i),
                                   (unsigned long long)bytes[i]);
     return status;
 }

@@ -35,7 +35,7 @@ struct kd_render_queue {
     struct kd_allowance allowance;
     struct kd_render_list jobs;   /* waiting for the device or using it, in order of arrival */
     struct kd_render_job *holder; /* owner of the device; NULL: none */
-    struct kd_lane lanes[KD_ASIDES];
+    struct kd_lane lanes[KD_BACKGROUND_RENDERS];
     unsigned n_lanes;    /* lanes whose threads run */
     uint64_t lane_bytes; /* sum over lanes */
 

@@ -46,13 +46,13 @@ static bool make_plan(struct kd_planned *p, bool check)
     return !status || fail(p, status, &error, kd_problem_from(&error));
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct kd_planned *p = (struct kd_planned *)task;
     (void)until_ms;
     if (task->request->body.size <= SMALL || read_scene(p))
         make_plan(p, false);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static bool few_pixels(const struct kd_scene *scene)

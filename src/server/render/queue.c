@@ -52,7 +52,7 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
 
 static enum kd_status start_lanes(struct kd_render_queue *queue, struct kd_error *error)
 {
-    for (unsigned i = 0; i < KD_ASIDES; i++) {
+    for (unsigned i = 0; i < KD_BACKGROUND_RENDERS; i++) {
         queue->lanes[i].queue = queue;
         if (pthread_create(&queue->lanes[i].thread, NULL, kd_render_lane_main, &queue->lanes[i]))
             return kd_error_set(error, KD_ENOMEM, "a thread for long renders could not be started");

@@ -72,7 +72,7 @@ struct kd_render_job {
     bool more;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; the caller owns the device */
     /* preview of a picture in slices; may be NULL; its user is the job; the caller owns the device */
-    const struct kd_glance *glance;
+    const struct kd_preview_hook *preview;
     _Atomic bool drop; /* set by others to cancel the job: KD_ECANCELLED */
     int socket;        /* socket of the client, whose disconnection cancels the job; -1: none */
     void (*rendered)(struct kd_render_job *job); /* may be NULL; the caller owns the device; before encoding */

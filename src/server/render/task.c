@@ -8,10 +8,10 @@
 
 #define TURN_MS 10.
 
-enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
+enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue, bool gone, double deadline_ms,
                             struct kd_error *error)
 {
-    if (gone || kd_turns_cancelled(queue))
+    if (gone || kd_scheduler_cancelled(queue))
         return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
     if (kd_clock_ms() > deadline_ms)
         return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take",
@@ -28,7 +28,7 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
     task->error.status = status;
 }
 
-static enum kd_turn_end take_turn(struct kd_turns_job *turns)
+static enum kd_slice_result take_turn(struct kd_scheduler_job *turns)
 {
     struct kd_task *task = (struct kd_task *)turns;
     struct kd_request *request = task->request;
@@ -38,10 +38,10 @@ static enum kd_turn_end take_turn(struct kd_turns_job *turns)
         task->begun_ms = now;
     bool gone = kd_socket_abandoned(kd_connection_socket(request->connection));
     kd_task_fail(task, kd_task_over(request->server, task->queue, gone, task->deadline_ms, &error), &error);
-    return task->status ? KD_TURN_LAST : task->kind->work(task, now + TURN_MS);
+    return task->status ? KD_SLICE_LAST : task->kind->work(task, now + TURN_MS);
 }
 
-static void done(struct kd_turns_job *turns)
+static void done(struct kd_scheduler_job *turns)
 {
     struct kd_task *task = (struct kd_task *)turns;
     if (task->kind->last)
@@ -50,7 +50,7 @@ static void done(struct kd_turns_job *turns)
     MHD_resume_connection(task->request->mhd);
 }
 
-void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                      enum MHD_Result *refused)
 {
     struct kd_task *task = calloc(1, kind->size);
@@ -69,7 +69,7 @@ void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const s
     return task;
 }
 
-void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+void *kd_task_begin(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                     enum MHD_Result *refused)
 {
     return kd_task_admit(request, queue, kind->what, refused) ? kd_task_create(request, queue, kind, refused) : NULL;
@@ -85,7 +85,7 @@ void kd_task_destroy(struct kd_task *task)
     free(task);
 }
 
-bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused)
+bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused)
 {
     struct kd_error error = { 0 };
     struct kd_problem problem;
@@ -97,7 +97,7 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
             request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = stopping });
     else if (!request->connection)
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    else if (kd_turns_admit(queue, request->client, &quota, &error)) {
+    else if (kd_scheduler_admit(queue, request->client, &quota, &error)) {
         problem = kd_problem_from(&error);
         if (quota)
             problem.type = KD_PROBLEM_QUOTA;
@@ -112,7 +112,7 @@ enum MHD_Result kd_task_submit(struct kd_task *task)
     /* Suspend first, because the task may be done before push returns. A suspended request and its socket outlive
      * it. */
     MHD_suspend_connection(task->request->mhd);
-    kd_turns_push(task->queue, &task->turns);
+    kd_scheduler_push(task->queue, &task->turns);
     return MHD_YES;
 }
 

@@ -5,7 +5,7 @@
  *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, finish };
  *     struct mine *mine = kd_task_begin(request, queue, &KIND, &refused);
  *     return mine ? kd_task_submit(&mine->task) : refused;
- *     the handler is called again when `work` has returned KD_TURN_LAST */
+ *     the handler is called again when `work` has returned KD_SLICE_LAST */
 #ifndef KD_SERVER_RENDER_TASK_H
 #define KD_SERVER_RENDER_TASK_H
 
@@ -16,17 +16,17 @@ struct kd_task;
 struct kd_task_kind {
     const char *what; /* plural noun for messages: "the server ... takes no new <what>" */
     size_t size;      /* size of the struct whose first member is the task */
-    enum kd_turn_end (*work)(struct kd_task *task, double until_ms); /* runs one piece on a worker */
-    void (*finish)(struct kd_task *task);                            /* frees its members; may be NULL */
+    enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one piece on a worker */
+    void (*finish)(struct kd_task *task);                                /* frees its members; may be NULL */
     void (*last)(struct kd_task *task); /* runs on a worker after the last piece; may be NULL */
     /* on the HTTP thread; for handlers with several kinds of tasks, else NULL */
     enum MHD_Result (*answer)(struct kd_request *request);
 };
 
 struct kd_task {
-    struct kd_turns_job turns; /* first member */
+    struct kd_scheduler_job turns; /* first member */
     const struct kd_task_kind *kind;
-    struct kd_turns *queue;
+    struct kd_scheduler *queue;
     struct kd_request *request;
     size_t held; /* bytes reserved by kd_task_hold, released with the task */
     bool quota;  /* KD_EBUSY is due to the client's share */
@@ -37,10 +37,10 @@ struct kd_task {
 
 /* Makes a task if the queue admits one. Returns NULL with *refused if it does not. Members behind the task are zero.
  * HTTP thread. */
-void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+void *kd_task_begin(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                     enum MHD_Result *refused);
 /* Makes a task without admission; a long one calls kd_task_admit later. HTTP thread. */
-void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                      enum MHD_Result *refused);
 void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 
@@ -48,13 +48,13 @@ void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
 /* Whether the queue admits another task; else *refused is the answer. what: as in kd_task_kind. HTTP thread. */
-bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused);
+bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused);
 /* Starts an admitted task. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
 /* Whether a task must end: returns the reason if the client is `gone`, the server stops, or the deadline has passed;
  * else KD_OK. Any thread. */
-enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
+enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
 /* Reserves bytes of an answer in server->replies; the owner releases *held. Returns KD_EBUSY at a limit; *quota: that
  * of the client. Any thread. */

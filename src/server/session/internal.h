@@ -17,11 +17,11 @@ struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
-    struct kd_once once;     /* hashes of the request that created it */
-    struct kd_scene scene;   /* the scene at the time since_ms */
-    struct kd_timeline path; /* path that it has followed since then, if it has keyframes */
-    struct kd_scene on_path; /* latest valid scene on the path */
-    struct kd_crowd *crowd;  /* bodies of a playground shown in the scene; NULL: none, or none yet */
+    struct kd_once once;             /* hashes of the request that created it */
+    struct kd_scene scene;           /* the scene at the time since_ms */
+    struct kd_timeline path;         /* path that it has followed since then, if it has keyframes */
+    struct kd_scene on_path;         /* latest valid scene on the path */
+    struct kd_dynamic_bodies *crowd; /* bodies of a playground shown in the scene; NULL: none, or none yet */
     /* crowded: it shows a crowd; crowd_moved: the crowd differs from that of the latest frame */
     bool crowded, crowd_moved;
     double since_ms, used_ms;
@@ -61,7 +61,7 @@ struct kd_sessions {
 
 /* Callers hold all->lock unless a comment says otherwise. */
 
-void kd_session_let_go(struct kd_session *session); /* drops a reference */
+void kd_session_unref(struct kd_session *session); /* drops a reference */
 void kd_session_unlist(struct kd_session *session);
 /* Computes the scene at a time, with its own motion or its path. Fails where the path's scene is not valid. */
 enum kd_status kd_session_scene(const struct kd_session *session, double now, struct kd_scene *out,

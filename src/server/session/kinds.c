@@ -90,7 +90,7 @@ static void done(struct kd_render_job *job)
     kd_session_wake(s);
     kd_session_add_kinds(s);
     kd_live_frame_release(frame);
-    kd_session_let_go(s);
+    kd_session_unref(s);
     pthread_mutex_unlock(&all->lock);
     kd_buffer_finish(&job->file);
     free(added);

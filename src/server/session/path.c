@@ -102,7 +102,7 @@ done:
     return status;
 }
 
-static enum kd_turn_end work(struct kd_task *task, double until_ms)
+static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct path_task *p = (struct path_task *)task;
     struct kd_error error = { 0 };
@@ -111,11 +111,11 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
         status = read_whole(p, &error);
     while (!status && p->look <= PATH_LOOKS) {
         if (kd_clock_ms() > until_ms)
-            return KD_TURN_MORE;
+            return KD_SLICE_MORE;
         status = look(p, &error);
     }
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)

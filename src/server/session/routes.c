@@ -1,6 +1,6 @@
 /* Handlers of POST /v1/sessions, and of GET, PATCH and DELETE of a session. */
 #include "render/emit/motion.h"
-#include "render/emit/told.h"
+#include "render/emit/describe.h"
 #include "render/output/clock.h"
 #include "scene/number.h"
 #include "scene/text.h"

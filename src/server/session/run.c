@@ -20,10 +20,10 @@ struct kd_session_frame {
     uint64_t number;
     unsigned revision;
     double begun_ms;
-    struct kd_turn turn;
-    struct kd_crowd *crowd; /* the crowd in its scene; a reference */
-    double fraction;        /* part that is done */
-    bool rendered, last;    /* last: no refinement and no other frame follows */
+    struct kd_frame_decision decision;
+    struct kd_dynamic_bodies *crowd; /* the crowd in its scene; a reference */
+    double fraction;                 /* part that is done */
+    bool rendered, last;             /* last: no refinement and no other frame follows */
 };
 
 /* Functions are called with the lock unless a comment says otherwise. */
@@ -49,7 +49,7 @@ static void follow_exposure(const struct kd_session *s, double now, struct kd_pl
 
 /* Makes the frame for the queue. NULL: *error says why it cannot. */
 static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene,
-                                           const struct kd_turn *turn, double now, struct kd_error *error)
+                                           const struct kd_frame_decision *decision, double now, struct kd_error *error)
 {
     struct kd_session_frame *live = calloc(1, sizeof *live);
     struct kd_capacity capacity;
@@ -58,10 +58,10 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         return NULL;
     }
     live->session = s;
-    live->turn = *turn;
+    live->decision = *decision;
     live->begun_ms = now;
     live->job = (struct kd_render_job) {
-        .claim.class = turn->refining                  ? KD_CLASS_REFINEMENT
+        .claim.class = decision->refining              ? KD_CLASS_REFINEMENT
                        : now - s->patched_ms > IDLE_MS ? KD_CLASS_IDLE
                                                        : KD_CLASS_LIVE,
         .socket = -1,
@@ -72,7 +72,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         .done = done,
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
-    kd_quality_apply(&turn->quality, scene, &live->job.scene);
+    kd_quality_apply(&decision->quality, scene, &live->job.scene);
     if (s->crowd) {
         kd_scene_show(&live->job.scene, s->crowd);
         kd_scene_pass(&live->job.scene, s->crowd->time);
@@ -80,15 +80,15 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
     struct kd_needs needs = kd_needs_of(&live->job.scene);
-    needs.sketch = turn->quality.sketch;
-    needs.bright = turn->quality.bright;
-    needs.held = !turn->refining && !turn->quality.final;
+    needs.sketch = decision->quality.sketch;
+    needs.bright = decision->quality.bright;
+    needs.reuse_normalisation = !decision->refining && !decision->quality.final;
     if (kd_plan_make_for(&live->job.scene, &needs, &capacity, &live->job.plan, error)) {
         free(live);
         return NULL;
     }
-    live->job.plan.audit /= turn->audit;
-    if (!turn->refining && s->exposed_revision == s->revision &&
+    live->job.plan.audit /= decision->audit;
+    if (!decision->refining && s->exposed_revision == s->revision &&
         (kd_emit_moves(scene) || s->crowd || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
     return live;
@@ -111,33 +111,33 @@ void kd_session_pump(struct kd_session *s)
     /* a scene that has come to rest since the latest frame differs from that frame too */
     if (moves || s->moved || s->crowd_moved)
         kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
-    const struct kd_turn turn = kd_governor_turn(&s->governor, now);
-    if (turn.wait_ms > 0)
+    const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
+    if (decision.wait_ms > 0)
         return; /* the sweep calls again */
-    struct kd_session_frame *live = make_frame(s, &scene, &turn, now, &error);
+    struct kd_session_frame *live = make_frame(s, &scene, &decision, now, &error);
     if (!live) {
         fail(s, &error);
         return;
     }
     live->number = ++s->begun;
-    live->last = turn.quality.final && !moves;
+    live->last = decision.quality.final && !moves;
     live->job.keeps = !live->last && !s->crowded;
     live->crowd = s->crowd;
-    kd_crowd_keep(live->crowd);
+    kd_dynamic_bodies_keep(live->crowd);
     s->crowd_moved = false;
     s->moved = moves;
     s->flew = flies;
     live->revision = s->revision;
     s->rendering = live;
     s->references++;
-    if (!turn.refining)
+    if (!decision.refining)
         kd_budget_ask(&s->demand, now);
     kd_render_queue_push(s->all->params.renders, &live->job);
 }
 
 void kd_session_drop_refinement(struct kd_session *s)
 {
-    if (s->rendering && s->rendering->turn.refining)
+    if (s->rendering && s->rendering->decision.refining)
         kd_session_drop(s);
 }
 
@@ -207,7 +207,7 @@ struct kd_session_progress kd_session_progress_of(const struct kd_session *s, do
     if (!live)
         return (struct kd_session_progress) { .fraction = NAN, .left_s = NAN };
     return (struct kd_session_progress) {
-        .refines = live->turn.refining,
+        .refines = live->decision.refining,
         .fraction = live->fraction,
         .left_s = live->fraction > SURE ? 1e-3 * (now - live->begun_ms) * (1 - live->fraction) / live->fraction : NAN,
     };
@@ -229,10 +229,10 @@ static void rendered(struct kd_render_job *job)
     s->exposed_revision = live->revision;
     const struct kd_frame_cost cost = cost_of(job);
     const double now = kd_clock_ms();
-    if (!live->turn.refining)
+    if (!live->decision.refining)
         kd_budget_end(&s->demand, now, cost.total_ms);
     share_device(s, now);
-    kd_governor_frame(&s->governor, now, &live->turn, &cost);
+    kd_governor_frame(&s->governor, now, &live->decision, &cost);
     kd_session_pump(s);
     pthread_mutex_unlock(&all->lock);
 }
@@ -247,7 +247,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     else
         s->interval_ms = 0;
     s->shown_ms = now;
-    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, live->last,
+    const struct kd_live_note note = { live->number, live->revision, live->decision.quality.final, live->last,
                                        s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
@@ -271,7 +271,7 @@ static void done(struct kd_render_job *job)
         s->encoding--;
     } else {
         s->rendering = NULL;
-        if (!live->turn.refining)
+        if (!live->decision.refining)
             kd_budget_end(&s->demand, kd_clock_ms(), 0);
     }
     job->error.status = job->status;
@@ -282,10 +282,10 @@ static void done(struct kd_render_job *job)
               kd_render_queue_lost(all->params.renders, NULL))) /* after a reopened device the next frame may succeed */
         fail(s, &job->error);
     kd_session_pump(s);
-    kd_session_let_go(s);
+    kd_session_unref(s);
     pthread_mutex_unlock(&all->lock);
     kd_buffer_finish(&job->file);
     kd_frame_finish(&job->frame);
-    kd_crowd_release(live->crowd);
+    kd_dynamic_bodies_release(live->crowd);
     free(live);
 }

@@ -24,12 +24,12 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
 
 /* Functions from here on are called with the lock. */
 
-void kd_session_let_go(struct kd_session *s)
+void kd_session_unref(struct kd_session *s)
 {
     if (--s->references)
         return;
     kd_live_frame_release(s->latest);
-    kd_crowd_release(s->crowd);
+    kd_dynamic_bodies_release(s->crowd);
     kd_timeline_finish(&s->path);
     free(s);
 }
@@ -47,7 +47,7 @@ void kd_session_unlist(struct kd_session *s)
     kd_budget_leave(&s->all->budget, &s->demand);
     kd_session_drop(s);
     kd_session_wake(s);
-    kd_session_let_go(s);
+    kd_session_unref(s);
 }
 
 static double seconds_of(const struct kd_session *s, double now) { return fmax(1e-3 * (now - s->since_ms), 0); }
@@ -197,7 +197,7 @@ void kd_session_release(struct kd_session *s)
 {
     struct kd_sessions *all = s->all;
     pthread_mutex_lock(&all->lock);
-    kd_session_let_go(s);
+    kd_session_unref(s);
     pthread_mutex_unlock(&all->lock);
 }
 
@@ -292,16 +292,16 @@ void kd_session_put(struct kd_session *s, const struct kd_scene *scene, const st
     pthread_mutex_unlock(&s->all->lock);
 }
 
-void kd_session_show(struct kd_session *s, struct kd_crowd *crowd)
+void kd_session_show(struct kd_session *s, struct kd_dynamic_bodies *crowd)
 {
     pthread_mutex_lock(&s->all->lock);
-    struct kd_crowd *old = s->crowd;
+    struct kd_dynamic_bodies *old = s->crowd;
     s->crowd = crowd;
     s->crowd_moved = true;
     kd_session_drop_refinement(s);
     kd_session_pump(s);
     pthread_mutex_unlock(&s->all->lock);
-    kd_crowd_release(old);
+    kd_dynamic_bodies_release(old);
 }
 
 unsigned kd_session_viewers(struct kd_session *s)

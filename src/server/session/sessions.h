@@ -8,7 +8,7 @@
 
 #include "server/render/live_frame.h"
 #include "server/render/queue.h"
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 #include "scene/timeline.h"
 #include "server/http/counts.h"
 #include "server/http/once.h"
@@ -48,7 +48,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
                                 struct kd_session **out, struct kd_error *error);
 /* Shows this crowd from now on; the crowd's time is added to the scene's. Takes over the reference. Does not change the
  * revision. */
-void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
+void kd_session_show(struct kd_session *session, struct kd_dynamic_bodies *crowd);
 /* Sets the limits of the quality reduction. */
 void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
 /* Replaces the scene. The plan has passed kd_sessions_takes. */

@@ -60,7 +60,7 @@ void kd_viewer_detach(struct kd_viewer *viewer)
     kd_live_frame_release(viewer->owed);
     viewer->owed = NULL;
     s->used_ms = kd_clock_ms();
-    kd_session_let_go(s);
+    kd_session_unref(s);
     pthread_mutex_unlock(&all->lock);
     viewer->session = NULL;
 }

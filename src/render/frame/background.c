@@ -5,11 +5,11 @@
 #include "render/frame/parts.h"
 
 /* An idle aside that has the plan's lens map; NULL if there is none. */
-static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *plan)
+static struct kd_background_render *background_render_with(struct kd_renderer *r, const struct kd_plan *plan)
 {
-    for (size_t i = 0; i < KD_ASIDES; i++)
-        if (!r->asides[i].busy && kd_store_has(&r->asides[i].store, plan))
-            return &r->asides[i];
+    for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++)
+        if (!r->background_renders[i].busy && kd_store_has(&r->background_renders[i].store, plan))
+            return &r->background_renders[i];
     return NULL;
 }
 
@@ -24,7 +24,8 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
     enum kd_status status = kd_frame_normalise(renderer, &scaled, plan, progress, user, &scale, error);
     if (status)
         return status;
-    struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
+    struct kd_background_render *found =
+        kd_store_has(&renderer->store, plan) ? NULL : background_render_with(renderer, plan);
     struct kd_frame_job job = {
         .r = renderer,
         .store = found ? &found->store : &renderer->store,
@@ -42,16 +43,16 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
     return status;
 }
 
-/* Empties idle asides, the oldest first, until `bytes` fit beside those in use. */
-static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
+/* Empties idle background_renders, the oldest first, until `bytes` fit beside those in use. */
+static void make_room_in_background(struct kd_renderer *r, uint64_t bytes)
 {
     struct kd_capacity c;
     kd_renderer_capacity(r, &c);
     for (;;) {
-        struct kd_aside *oldest = NULL;
+        struct kd_background_render *oldest = NULL;
         uint64_t held = bytes;
-        for (size_t i = 0; i < KD_ASIDES; i++) {
-            struct kd_aside *a = &r->asides[i];
+        for (size_t i = 0; i < KD_BACKGROUND_RENDERS; i++) {
+            struct kd_background_render *a = &r->background_renders[i];
             uint64_t own = kd_store_bytes(&a->store);
             held += own;
             if (!a->busy && own && (!oldest || a->used < oldest->used))
@@ -63,13 +64,15 @@ static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
     }
 }
 
-/* Limits the memory of idle asides other than the last one, even if there is room: the oldest are emptied. */
+/* Limits the memory of idle background_renders other than the last one, even if there is room: the oldest are emptied.
+ */
 static void bound_idle_asides(struct kd_renderer *r)
 {
     for (;;) {
-        struct kd_aside *oldest = NULL, *last = NULL;
+        struct kd_background_render *oldest = NULL, *last = NULL;
         uint64_t held = 0;
-        for (struct kd_aside *a = r->asides; a < r->asides + KD_ASIDES; a++) {
+        for (struct kd_background_render *a = r->background_renders; a < r->background_renders + KD_BACKGROUND_RENDERS;
+             a++) {
             const uint64_t own = a->busy ? 0 : kd_store_bytes(&a->store);
             if (!own)
                 continue;
@@ -84,17 +87,17 @@ static void bound_idle_asides(struct kd_renderer *r)
     }
 }
 
-static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan *plan)
+static struct kd_background_render *enter_background_render(struct kd_renderer *r, const struct kd_plan *plan)
 {
-    struct kd_aside *a = aside_with(r, plan);
-    for (size_t i = 0; i < KD_ASIDES && (!a || !kd_store_has(&a->store, plan)); i++)
-        if (!r->asides[i].busy && (!a || r->asides[i].used < a->used))
-            a = &r->asides[i];
+    struct kd_background_render *a = background_render_with(r, plan);
+    for (size_t i = 0; i < KD_BACKGROUND_RENDERS && (!a || !kd_store_has(&a->store, plan)); i++)
+        if (!r->background_renders[i].busy && (!a || r->background_renders[i].used < a->used))
+            a = &r->background_renders[i];
     if (!a)
         return NULL;
     a->busy = true;
     a->used = ++r->asides_used;
-    make_room_aside(r, plan->device_bytes);
+    make_room_in_background(r, plan->device_bytes);
     if (!kd_store_has(&a->store, plan))
         kd_store_hand_over(&r->store, &a->store, plan);
     return a;
@@ -102,7 +105,7 @@ static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan 
 
 static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd_scene *scene,
                                    const struct kd_plan *plan, const struct kd_light_sum *others,
-                                   kd_progress_fn progress, const struct kd_glance *glance, void *user,
+                                   kd_progress_fn progress, const struct kd_preview_hook *preview, void *user,
                                    struct kd_frame *out, struct kd_error *error)
 {
     if (kd_plan_is_parted(plan))
@@ -112,10 +115,10 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
     const enum kd_status found = kd_frame_normalise(renderer, &scaled, plan, progress, user, &scale, error);
     if (found)
         return found;
-    struct kd_aside *a = enter_aside(renderer, plan);
+    struct kd_background_render *a = enter_background_render(renderer, plan);
     if (!a)
         return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be",
-                            KD_ASIDES);
+                            KD_BACKGROUND_RENDERS);
     struct kd_frame_job job = {
         .r = renderer,
         .store = &a->store,
@@ -125,7 +128,7 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
         .plan = plan,
         .others = others,
         .progress = progress,
-        .glance = glance,
+        .preview = preview,
         .user = user,
         .error = error,
     };
@@ -144,17 +147,19 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     return render_here(renderer, scene, plan, NULL, progress, user, out, error);
 }
 
-enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, const struct kd_glance *glance, void *user,
-                               struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                       const struct kd_plan *plan, kd_progress_fn progress,
+                                       const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
+                                       struct kd_error *error)
 {
-    return render_aside(renderer, scene, plan, NULL, progress, glance, user, out, error);
+    return render_aside(renderer, scene, plan, NULL, progress, preview, user, out, error);
 }
 
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
-                              const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
+                              const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
+                              struct kd_error *error)
 {
-    return aside ? render_aside(renderer, scene, plan, others, progress, glance, user, out, error)
+    return aside ? render_aside(renderer, scene, plan, others, progress, preview, user, out, error)
                  : render_here(renderer, scene, plan, others, progress, user, out, error);
 }

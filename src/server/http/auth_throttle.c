@@ -1,4 +1,4 @@
-#include "server/http/guesses.h"
+#include "server/http/auth_throttle.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -16,24 +16,24 @@ struct place {
     unsigned n_wrong, n_right; /* totals written; the arrays are ring buffers */
 };
 
-struct kd_guesses {
+struct kd_auth_throttle {
     pthread_mutex_t lock;
     struct place places[KD_GUESSES_CLIENTS];
 };
 
-struct kd_guesses *kd_guesses_create(void)
+struct kd_auth_throttle *kd_auth_throttle_create(void)
 {
-    struct kd_guesses *guesses = calloc(1, sizeof *guesses);
-    if (guesses)
-        pthread_mutex_init(&guesses->lock, NULL);
-    return guesses;
+    struct kd_auth_throttle *throttle = calloc(1, sizeof *throttle);
+    if (throttle)
+        pthread_mutex_init(&throttle->lock, NULL);
+    return throttle;
 }
 
-void kd_guesses_destroy(struct kd_guesses *guesses)
+void kd_auth_throttle_destroy(struct kd_auth_throttle *throttle)
 {
-    if (guesses)
-        pthread_mutex_destroy(&guesses->lock);
-    free(guesses);
+    if (throttle)
+        pthread_mutex_destroy(&throttle->lock);
+    free(throttle);
 }
 
 static double tries_now(const struct place *p, double now_ms)
@@ -50,10 +50,10 @@ static bool gives_way(const struct place *p, const struct place *than, double no
 }
 
 /* Finds the place of an address, or evicts one for it, and brings it up to date. */
-static struct place *place_of(struct kd_guesses *guesses, const char *client, double now_ms)
+static struct place *place_of(struct kd_auth_throttle *throttle, const char *client, double now_ms)
 {
-    struct place *best = &guesses->places[0];
-    for (struct place *p = guesses->places; p < guesses->places + KD_GUESSES_CLIENTS; p++) {
+    struct place *best = &throttle->places[0];
+    for (struct place *p = throttle->places; p < throttle->places + KD_GUESSES_CLIENTS; p++) {
         if (p->at_ms > 0 && !strcmp(p->client, client)) {
             p->tries = tries_now(p, now_ms);
             p->at_ms = now_ms;
@@ -88,30 +88,30 @@ static bool was_wrong(const struct place *p, uint64_t hash)
     return false;
 }
 
-unsigned kd_guesses_right(struct kd_guesses *guesses, const char *client, const void *whose, double now_ms)
+unsigned kd_auth_throttle_right(struct kd_auth_throttle *throttle, const char *client, const void *whose, double now_ms)
 {
     unsigned wait = 0;
-    pthread_mutex_lock(&guesses->lock);
-    struct place *p = place_of(guesses, client, now_ms);
+    pthread_mutex_lock(&throttle->lock);
+    struct place *p = place_of(throttle, client, now_ms);
     if (!was_right(p, whose)) {
         wait = wait_s(p);
         if (!wait)
             p->right[p->n_right++ % KD_GUESSES_NAMES] = whose;
     }
-    pthread_mutex_unlock(&guesses->lock);
+    pthread_mutex_unlock(&throttle->lock);
     return wait;
 }
 
-unsigned kd_guesses_wrong(struct kd_guesses *guesses, const char *client, uint64_t hash, double now_ms)
+unsigned kd_auth_throttle_wrong(struct kd_auth_throttle *throttle, const char *client, uint64_t hash, double now_ms)
 {
-    pthread_mutex_lock(&guesses->lock);
-    struct place *p = place_of(guesses, client, now_ms);
+    pthread_mutex_lock(&throttle->lock);
+    struct place *p = place_of(throttle, client, now_ms);
     const bool again = was_wrong(p, hash);
     const unsigned wait = again ? 0 : wait_s(p);
     if (!again && !wait) {
         p->tries -= 1;
         p->wrong[p->n_wrong++ % REMEMBERED] = hash;
     }
-    pthread_mutex_unlock(&guesses->lock);
+    pthread_mutex_unlock(&throttle->lock);
     return wait;
 }

@@ -1,10 +1,10 @@
 /* The housekeeping thread: deadlines, disconnected clients, and the shutdown. */
-#ifndef KD_SERVER_KEEPER_H
-#define KD_SERVER_KEEPER_H
+#ifndef KD_SERVER_REAPER_H
+#define KD_SERVER_REAPER_H
 
 #include "server/http/service.h"
 
 /* For pthread_create; the argument is the struct kd_server. Returns when the server has stopped. */
-void *kd_keeper_main(void *server);
+void *kd_reaper_main(void *server);
 
 #endif

@@ -1,4 +1,4 @@
-#include "server/keeper.h"
+#include "server/reaper.h"
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -49,8 +49,8 @@ static bool cut_short(struct kd_server *server)
 /* Counts unfinished work; a request may consist of several pieces. */
 static unsigned unfinished(struct kd_server *server)
 {
-    return kd_render_queue_unfinished(server->renders) + kd_turns_unfinished(server->rays) +
-           kd_turns_unfinished(server->turns) + kd_plays_unfinished(server->plays);
+    return kd_render_queue_unfinished(server->renders) + kd_scheduler_unfinished(server->rays) +
+           kd_scheduler_unfinished(server->turns) + kd_playground_sessions_unfinished(server->plays);
 }
 
 static void refuse(struct kd_server *server, double *since)
@@ -67,8 +67,8 @@ static void refuse(struct kd_server *server, double *since)
 static void cancel_all(struct kd_server *server)
 {
     kd_render_queue_cancel(server->renders);
-    kd_turns_cancel(server->rays);
-    kd_turns_cancel(server->turns);
+    kd_scheduler_cancel(server->rays);
+    kd_scheduler_cancel(server->turns);
 }
 
 /* Cancels accepted work whose time is over. */
@@ -98,7 +98,7 @@ static bool step_down(struct kd_server *server, double *since)
         return false;
     case KD_REFUSING:
         kd_sessions_close(server->sessions);
-        kd_plays_close(server->plays);
+        kd_playground_sessions_close(server->plays);
         kd_jobs_close(server->jobs);
         kd_thumbnails_cancel(server->thumbnails);
         if (atomic_load(&server->abandon))
@@ -117,7 +117,7 @@ static bool step_down(struct kd_server *server, double *since)
     }
 }
 
-void *kd_keeper_main(void *user)
+void *kd_reaper_main(void *user)
 {
     struct kd_server *server = user;
     double since = kd_clock_ms();
@@ -127,7 +127,7 @@ void *kd_keeper_main(void *user)
         kd_connections_sweep(server->connections);
         kd_render_queue_sweep(server->renders);
         kd_sessions_sweep(server->sessions);
-        kd_plays_sweep(server->plays);
+        kd_playground_sessions_sweep(server->plays);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
     if (!hangs(server)) { /* no connection is suspended: the queues are empty and closed */

@@ -1,4 +1,4 @@
-#include "server/job/whole.h"
+#include "server/job/archive.h"
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -178,14 +178,14 @@ static void finish(struct kd_task *task)
 #define LATER_MS 10.0  /* interval of polls while ffmpeg runs */
 #define OTHERS_MS 50.0 /* interval of polls while another request encodes the film */
 
-static enum kd_turn_end park(struct kd_task *task, double ms)
+static enum kd_slice_result park(struct kd_task *task, double ms)
 {
     task->turns.due_ms = kd_clock_ms() + ms;
-    return KD_TURN_PARK;
+    return KD_SLICE_PARK;
 }
 
 /* Reads the files of a cube until its first bytes can be generated. */
-static enum kd_turn_end look(struct kd_task *task, double until_ms)
+static enum kd_slice_result look(struct kd_task *task, double until_ms)
 {
     struct kd_job_whole *w = ((struct looked *)task)->whole;
     struct kd_error error = { 0 };
@@ -193,16 +193,16 @@ static enum kd_turn_end look(struct kd_task *task, double until_ms)
     do {
         KD_TRY(kd_gather_next(&w->gather, &w->out, &w->over, &error));
         if (w->out.size || w->over)
-            return KD_TURN_LAST;
+            return KD_SLICE_LAST;
     } while (kd_clock_ms() < until_ms);
-    return KD_TURN_MORE;
+    return KD_SLICE_MORE;
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 /* Computes the length of an archive without reading the frames. */
-static enum kd_turn_end count(struct kd_task *task, double until_ms)
+static enum kd_slice_result count(struct kd_task *task, double until_ms)
 {
     struct looked *l = (struct looked *)task;
     struct kd_job_whole *w = l->whole;
@@ -218,16 +218,16 @@ static enum kd_turn_end count(struct kd_task *task, double until_ms)
         l->length += w->out.size;
     }
     if (!w->over)
-        return KD_TURN_MORE;
+        return KD_SLICE_MORE;
     w->out.size = 0;
     w->over = false;
     w->source.counted = NULL;
     kd_gather_close(&w->gather);
     KD_TRY(kd_gather_open(l->format, &w->source, &w->gather, &error));
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 static bool open_film(struct looked *l)
@@ -236,7 +236,7 @@ static bool open_film(struct looked *l)
 }
 
 /* Encodes a film that is not cached, or waits for the request that encodes it, and opens it. */
-static enum kd_turn_end encode(struct kd_task *task, double until_ms)
+static enum kd_slice_result encode(struct kd_task *task, double until_ms)
 {
     struct looked *l = (struct looked *)task;
     struct kd_job_whole *w = l->whole;
@@ -245,7 +245,7 @@ static enum kd_turn_end encode(struct kd_task *task, double until_ms)
     if (atomic_load(&w->server->phase) >= KD_REFUSING)
         KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server stops: a film can be asked for again when it is back"));
     if (!l->writer.claimed && open_film(l))
-        return KD_TURN_LAST;
+        return KD_SLICE_LAST;
     if (!l->writer.claimed && !kd_job_film_claim(&l->writer, w->job, l->format->name, w->source.rate))
         return park(task, OTHERS_MS);
     while (!w->over && kd_clock_ms() < until_ms) {
@@ -256,14 +256,14 @@ static enum kd_turn_end encode(struct kd_task *task, double until_ms)
         KD_TRY(kd_job_film_append(&l->writer, w->out.data, w->out.size, &error));
     }
     if (!w->over)
-        return KD_TURN_MORE;
+        return KD_SLICE_MORE;
     KD_TRY(kd_job_film_keep(&l->writer, &error));
     if (!open_film(l))
         KD_TRY(kd_error_set(&error, KD_EIO, "the film cannot be read"));
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 done:
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return KD_SLICE_LAST;
 }
 
 /* On a worker, which may wait for the disk. */

@@ -14,8 +14,8 @@ static bool wanted(void *user)
     struct kd_job *job = kd_job_of_frame(user, NULL);
     double now = kd_clock_ms();
     pthread_mutex_lock(&job->all->lock);
-    bool yes = now < job->glance.until_ms && now >= job->glance.due_ms;
-    job->glance.began_ms = now;
+    bool yes = now < job->preview.until_ms && now >= job->preview.due_ms;
+    job->preview.began_ms = now;
     pthread_mutex_unlock(&job->all->lock);
     return yes;
 }
@@ -43,7 +43,7 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
         kd_buffer_finish(&png);
     double now = kd_clock_ms();
     pthread_mutex_lock(&job->all->lock);
-    struct kd_job_glance *g = &job->glance;
+    struct kd_job_preview_hook *g = &job->preview;
     kd_buffer_finish(&g->png);
     g->png = png;
     g->frame = number;
@@ -54,12 +54,12 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
     pthread_mutex_unlock(&job->all->lock);
 }
 
-const struct kd_glance kd_job_glance = { wanted, seen };
+const struct kd_preview_hook kd_job_preview_hook = { wanted, seen };
 
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out)
 {
     pthread_mutex_lock(&job->all->lock);
-    struct kd_job_glance *g = &job->glance;
+    struct kd_job_preview_hook *g = &job->preview;
     g->until_ms = kd_clock_ms() + WANTED_MS;
     *out = (struct kd_job_sight) { .frame = g->frame, .rows = g->rows, .height = g->height };
     bool there = g->png.size && !job->have[g->frame] && kd_job_is_active(job) &&

@@ -1,6 +1,6 @@
 /* Describes the emitters of a scene in words. Pure functions of valid scenes, any thread. */
-#ifndef KD_RENDER_EMIT_TOLD_H
-#define KD_RENDER_EMIT_TOLD_H
+#ifndef KD_RENDER_EMIT_DESCRIBE_H
+#define KD_RENDER_EMIT_DESCRIBE_H
 
 #include "base/buffer.h"
 #include "scene/scene.h"

@@ -1,11 +1,11 @@
-#include "base/waiting.h"
+#include "base/cpu_pressure.h"
 
 #include <dirent.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <unistd.h>
 
-static void add(struct kd_waiting *sum, int tasks, const char *task)
+static void add(struct kd_cpu_pressure *sum, int tasks, const char *task)
 {
     char path[64], text[128];
     double ran, waited;
@@ -24,9 +24,9 @@ static void add(struct kd_waiting *sum, int tasks, const char *task)
     }
 }
 
-struct kd_waiting kd_waiting_now(void)
+struct kd_cpu_pressure kd_cpu_pressure_now(void)
 {
-    struct kd_waiting sum = { 0 };
+    struct kd_cpu_pressure sum = { 0 };
     DIR *tasks = opendir("/proc/self/task");
     if (!tasks)
         return sum;
@@ -37,9 +37,9 @@ struct kd_waiting kd_waiting_now(void)
     return sum;
 }
 
-double kd_waiting_share(const struct kd_waiting *since)
+double kd_cpu_pressure_share(const struct kd_cpu_pressure *since)
 {
-    struct kd_waiting now = kd_waiting_now();
+    struct kd_cpu_pressure now = kd_cpu_pressure_now();
     double ran = now.ran_ns - since->ran_ns, waited = now.waited_ns - since->waited_ns;
     return ran > 0 && waited > 0 ? ran / (ran + waited) : 1; /* a negative difference means that threads ended */
 }

@@ -221,11 +221,11 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
     else if (job->blur.samples)
         job->status =
             kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside,
-                                                     aside ? between_slices : go_on, job->glance, job },
+                                                     aside ? between_slices : go_on, job->preview, job },
                               &job->frame, &job->error);
     else if (aside)
-        job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job,
-                                      &job->frame, &job->error);
+        job->status = kd_render_in_background(queue->renderer, &job->scene, &job->plan, between_slices, job->preview,
+                                              job, &job->frame, &job->error);
     else
         job->status = kd_render(queue->renderer, &job->scene, &job->plan, go_on, job, &job->frame, &job->error);
     if (job->status == KD_EDEVICE)

@@ -4,8 +4,8 @@
  * A crowd is immutable once made, may be read by any thread, and is reference-counted. Its maker holds a reference.
  * A scene shows it by kd_scene_show, which takes no reference: the caller holds one until all use of that scene and
  * its copies is over. It is part of neither the scene's JSON nor its hash. Lengths in M, angles in radians. */
-#ifndef KD_SCENE_CROWD_H
-#define KD_SCENE_CROWD_H
+#ifndef KD_SCENE_DYNAMIC_BODIES_H
+#define KD_SCENE_DYNAMIC_BODIES_H
 
 #include "base/error.h"
 
@@ -35,7 +35,7 @@ struct kd_seen_body {
  * `rows` rows of `columns` nodes each, starting at ln r = first_row 2 pi/turn and azimuth first_column 2 pi/turn.
  * With columns == turn the grid covers all azimuths, otherwise only those that hold debris. Each piece is deposited
  * bilinearly on its four nearest nodes, so that the nodes' sum equals that of the pieces. */
-struct kd_crowd_debris {
+struct kd_dynamic_bodies_debris {
     uint32_t turn, rows, columns, first_column; /* rows 0: no debris */
     int32_t first_row;
     /* KD_CROWD_NODE numbers a node: debris in units of a body, and that times its velocity along e_r and e_phi, as
@@ -49,7 +49,7 @@ struct kd_crowd_debris {
 };
 #define KD_CROWD_NODE 3
 
-struct kd_crowd {
+struct kd_dynamic_bodies {
     atomic_uint holders;
     uint64_t generation; /* unique in the process */
     double time;         /* coordinate time of the contents, in M */
@@ -58,17 +58,18 @@ struct kd_crowd {
     bool approximate;
     size_t n;
     struct kd_seen_body *bodies;
-    struct kd_crowd_debris debris;
+    struct kd_dynamic_bodies_debris debris;
 };
 
 /* Creates a crowd of n bodies and of nodes of debris, all 0. The caller owns a reference, fills it, and must not
  * change it afterwards. KD_ENOMEM. */
-enum kd_status kd_crowd_create(size_t n, uint32_t rows, uint32_t columns, struct kd_crowd **out,
-                               struct kd_error *error);
-void kd_crowd_keep(struct kd_crowd *crowd);    /* takes a reference; accepts NULL */
-void kd_crowd_release(struct kd_crowd *crowd); /* drops a reference and frees the crowd with the last; accepts NULL */
+enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t columns, struct kd_dynamic_bodies **out,
+                                        struct kd_error *error);
+void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *crowd); /* takes a reference; accepts NULL */
+void kd_dynamic_bodies_release(
+    struct kd_dynamic_bodies *crowd); /* drops a reference and frees the crowd with the last; accepts NULL */
 
 /* Makes the scene, and later copies of it, show this crowd; NULL: none. */
-void kd_scene_show(struct kd_scene *scene, const struct kd_crowd *crowd);
+void kd_scene_show(struct kd_scene *scene, const struct kd_dynamic_bodies *crowd);
 
 #endif

@@ -1,4 +1,4 @@
-#include "scene/crowd.h"
+#include "scene/dynamic_bodies.h"
 
 #include "scene/scene.h"
 
@@ -6,17 +6,18 @@
 
 static _Atomic uint64_t crowds;
 
-static void destroy(struct kd_crowd *crowd)
+static void destroy(struct kd_dynamic_bodies *crowd)
 {
     free(crowd->bodies);
     free(crowd->debris.nodes);
     free(crowd);
 }
 
-enum kd_status kd_crowd_create(size_t n, uint32_t rows, uint32_t columns, struct kd_crowd **out, struct kd_error *error)
+enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t columns, struct kd_dynamic_bodies **out,
+                                        struct kd_error *error)
 {
     const size_t nodes = (size_t)rows * columns;
-    struct kd_crowd *crowd = calloc(1, sizeof *crowd);
+    struct kd_dynamic_bodies *crowd = calloc(1, sizeof *crowd);
     if (!crowd)
         return kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
     crowd->bodies = calloc(n ? n : 1, sizeof *crowd->bodies);
@@ -34,19 +35,19 @@ enum kd_status kd_crowd_create(size_t n, uint32_t rows, uint32_t columns, struct
     return KD_OK;
 }
 
-void kd_crowd_keep(struct kd_crowd *crowd)
+void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *crowd)
 {
     if (crowd)
         atomic_fetch_add(&crowd->holders, 1);
 }
 
-void kd_crowd_release(struct kd_crowd *crowd)
+void kd_dynamic_bodies_release(struct kd_dynamic_bodies *crowd)
 {
     if (crowd && atomic_fetch_sub(&crowd->holders, 1) == 1)
         destroy(crowd);
 }
 
-void kd_scene_show(struct kd_scene *scene, const struct kd_crowd *crowd)
+void kd_scene_show(struct kd_scene *scene, const struct kd_dynamic_bodies *crowd)
 {
     scene->crowd.at = crowd;
     scene->crowd.generation = crowd ? crowd->generation : 0;

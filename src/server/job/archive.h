@@ -1,7 +1,7 @@
 /* Answers with all files of a finished job in one archive (render/output/gather.h), piece by piece. Before the first
  * byte, workers read the files of a cube, or wait until ffmpeg has encoded a film. HTTP thread. */
-#ifndef KD_SERVER_JOB_WHOLE_H
-#define KD_SERVER_JOB_WHOLE_H
+#ifndef KD_SERVER_JOB_ARCHIVE_H
+#define KD_SERVER_JOB_ARCHIVE_H
 
 #include "server/http/request.h"
 #include "server/job/jobs.h"

@@ -1,4 +1,4 @@
-#include "base/slip.h"
+#include "base/spelling.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -11,12 +11,12 @@ static int least(int a, int b, int c)
     return m < c ? m : c;
 }
 
-int kd_slip_distance(const char *given, const char *known)
+int kd_spelling_distance(const char *given, const char *known)
 {
     size_t na = strnlen(given, NAME_MAX_BYTES + 1), nb = strnlen(known, NAME_MAX_BYTES + 1);
     int row[NAME_MAX_BYTES + 1] = { 0 }, before[NAME_MAX_BYTES + 1] = { 0 }, two_before[NAME_MAX_BYTES + 1];
     if (na > NAME_MAX_BYTES || nb > NAME_MAX_BYTES)
-        return KD_SLIP_FAR;
+        return KD_SPELLING_FAR;
     for (size_t j = 0; j <= nb; j++)
         row[j] = (int)j;
     for (size_t i = 1; i <= na; i++) {
@@ -34,18 +34,18 @@ int kd_slip_distance(const char *given, const char *known)
     return row[nb];
 }
 
-int kd_slip(const char *given, const char *known)
+int kd_spelling_score(const char *given, const char *known)
 {
     size_t n = strnlen(given, NAME_MAX_BYTES + 1);
-    int d = kd_slip_distance(given, known);
+    int d = kd_spelling_distance(given, known);
     if (n >= 3 && n < strlen(known) && !strncmp(given, known, n) && known[n] == '_')
         return 1;
-    return d <= (int)(n / 3) ? d : KD_SLIP_FAR;
+    return d <= (int)(n / 3) ? d : KD_SPELLING_FAR;
 }
 
-void kd_slip_offer(struct kd_slip_best *best, const char *given, const char *known)
+void kd_spelling_offer(struct kd_spelling_best *best, const char *given, const char *known)
 {
-    int score = kd_slip(given, known);
-    if (score < KD_SLIP_FAR && (!best->name || score < best->score))
-        *best = (struct kd_slip_best) { known, score };
+    int score = kd_spelling_score(given, known);
+    if (score < KD_SPELLING_FAR && (!best->name || score < best->score))
+        *best = (struct kd_spelling_best) { known, score };
 }

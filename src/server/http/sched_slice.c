@@ -1,4 +1,4 @@
-#include "server/http/prompt.h"
+#include "server/http/sched_slice.h"
 
 #include <sched.h>
 #include <stdint.h>
@@ -17,7 +17,7 @@ struct attributes {
     uint64_t runtime, deadline, period;
 };
 
-void kd_prompt_thread(void)
+void kd_sched_short_slices(void)
 {
     static _Thread_local int asked;
     if (asked || sched_getscheduler(0) != SCHED_OTHER) /* a policy set for the whole process is kept */

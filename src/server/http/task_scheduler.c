@@ -1,4 +1,4 @@
-#include "server/http/turns.h"
+#include "server/http/task_scheduler.h"
 #include "base/clock.h"
 #include "base/cores.h"
 #include "base/pause.h"
@@ -16,29 +16,29 @@
 
 /* A suspended turn, on the stack of its thread. It is listed among the jobs and resumed in its place. */
 struct paused {
-    struct kd_turns_job place; /* first member; its turn is NULL */
+    struct kd_scheduler_job place; /* first member; its turn is NULL */
     pthread_cond_t resumed;
 };
 
-struct kd_turns {
+struct kd_scheduler {
     unsigned limit, share;
     _Atomic bool cancel;
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
-    struct kd_turns_job *first, **end, *parked; /* first: in order of their turns; parked: waiting */
-    struct kd_turns_job *accepted;              /* all that are not done */
+    struct kd_scheduler_job *first, **end, *parked; /* first: in order of their turns; parked: waiting */
+    struct kd_scheduler_job *accepted;              /* all that are not done */
     unsigned n_accepted, unfinished;
     pthread_t threads[THREADS_MAX];
     unsigned n_threads, n_workers, busy, idle; /* busy: threads that run a turn, at most n_workers */
 };
 
 /* Of the calling thread, if it is a worker. */
-static _Thread_local struct kd_turns *mine;
-static _Thread_local struct kd_turns_job *under_way;
+static _Thread_local struct kd_scheduler *mine;
+static _Thread_local struct kd_scheduler_job *under_way;
 static _Thread_local double piece_ms; /* start of the current piece */
 
-static void append(struct kd_turns *turns, struct kd_turns_job *job)
+static void append(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     if (job->listed)
         return;
@@ -49,11 +49,11 @@ static void append(struct kd_turns *turns, struct kd_turns_job *job)
     pthread_cond_signal(&turns->changed);
 }
 
-static void take_out(struct kd_turns *turns, struct kd_turns_job *job)
+static void take_out(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     if (!job->listed)
         return;
-    struct kd_turns_job **link = &turns->first;
+    struct kd_scheduler_job **link = &turns->first;
     while (*link != job)
         link = &(*link)->next;
     *link = job->next;
@@ -62,9 +62,9 @@ static void take_out(struct kd_turns *turns, struct kd_turns_job *job)
     job->listed = false;
 }
 
-static void unpark(struct kd_turns *turns, struct kd_turns_job *job)
+static void unpark(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
-    struct kd_turns_job **link = &turns->parked;
+    struct kd_scheduler_job **link = &turns->parked;
     while (*link != job)
         link = &(*link)->next;
     *link = job->next;
@@ -72,7 +72,7 @@ static void unpark(struct kd_turns *turns, struct kd_turns_job *job)
     append(turns, job);
 }
 
-static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
+static void park(struct kd_scheduler *turns, struct kd_scheduler_job *job, bool away)
 {
     if (job->woken || (atomic_load(&turns->cancel) && !away)) {
         append(turns, job);
@@ -87,11 +87,11 @@ static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
 }
 
 /* Ends the parks whose time has come. Returns when the next one ends, or INFINITY. */
-static double unpark_due(struct kd_turns *turns)
+static double unpark_due(struct kd_scheduler *turns)
 {
     double next = INFINITY;
     const double now = turns->parked ? kd_clock_ms() : 0;
-    for (struct kd_turns_job *job = turns->parked, *after; job; job = after) {
+    for (struct kd_scheduler_job *job = turns->parked, *after; job; job = after) {
         after = job->next;
         if (!(job->due_ms > 0) || job->away)
             continue;
@@ -103,7 +103,7 @@ static double unpark_due(struct kd_turns *turns)
     return next;
 }
 
-static void sleep_until(struct kd_turns *turns, double ms)
+static void sleep_until(struct kd_scheduler *turns, double ms)
 {
     struct timespec t = { .tv_sec = (time_t)(fmin(ms, 1e15) * 1e-3),
                           .tv_nsec = (long)(fmod(fmin(ms, 1e15), 1e3) * 1e6) };
@@ -113,7 +113,7 @@ static void sleep_until(struct kd_turns *turns, double ms)
         pthread_cond_clockwait(&turns->changed, &turns->lock, CLOCK_MONOTONIC, &t);
 }
 
-static void accept(struct kd_turns *turns, struct kd_turns_job *job)
+static void accept(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     job->next_accepted = turns->accepted;
     job->accepted_at = &turns->accepted;
@@ -123,7 +123,7 @@ static void accept(struct kd_turns *turns, struct kd_turns_job *job)
     turns->n_accepted++;
 }
 
-static void let_go(struct kd_turns *turns, struct kd_turns_job *job)
+static void unref(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     *job->accepted_at = job->next_accepted;
     if (job->next_accepted)
@@ -132,14 +132,14 @@ static void let_go(struct kd_turns *turns, struct kd_turns_job *job)
 }
 
 /* While a turn of a shared job is suspended no other turn of it begins: each would occupy a thread. */
-static void list_again(struct kd_turns *turns, struct kd_turns_job *job)
+static void list_again(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     if (!job->paused && !job->over)
         append(turns, job);
 }
 
 /* Runs a turn of the first job in the list. Locked on entry and exit. */
-static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
+static void give_turn(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     take_out(turns, job);
     job->workers++;
@@ -150,22 +150,22 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
-    enum kd_turn_end turn = job->turn(job);
+    enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
     under_way = NULL; /* done may free the job, and never suspends */
     pthread_mutex_lock(&turns->lock);
     job->workers--;
-    if (turn == KD_TURN_LAST)
+    if (turn == KD_SLICE_LAST)
         job->over = true;
     if (job->over)
         take_out(turns, job);
-    else if (turn == KD_TURN_PARK || turn == KD_TURN_AWAY)
-        park(turns, job, turn == KD_TURN_AWAY);
+    else if (turn == KD_SLICE_PARK || turn == KD_SLICE_AWAY)
+        park(turns, job, turn == KD_SLICE_AWAY);
     else
         list_again(turns, job);
     if (!job->over || job->workers)
         return;
-    let_go(turns, job);
+    unref(turns, job);
     pthread_mutex_unlock(&turns->lock);
     kd_watch_turn_begins();
     job->done(job);
@@ -176,9 +176,9 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
 
 /* Runs the first in the list: resumes the thread of a suspended turn, or runs a job's turn on this one. Locked on entry
  * and exit. */
-static void go_on(struct kd_turns *turns)
+static void go_on(struct kd_scheduler *turns)
 {
-    struct kd_turns_job *job = turns->first;
+    struct kd_scheduler_job *job = turns->first;
     turns->busy++;
     if (!job->turn) {
         take_out(turns, job);
@@ -193,7 +193,7 @@ static void let_others_go_first(void);
 
 static void *work(void *user)
 {
-    struct kd_turns *turns = user;
+    struct kd_scheduler *turns = user;
     mine = turns;
     kd_pause_hook = let_others_go_first;
     pthread_mutex_lock(&turns->lock);
@@ -212,7 +212,7 @@ static void *work(void *user)
 }
 
 /* Starts another thread. Called with the lock, or before other threads exist. */
-static bool start_thread(struct kd_turns *turns)
+static bool start_thread(struct kd_scheduler *turns)
 {
     if (turns->n_threads == THREADS_MAX || pthread_create(&turns->threads[turns->n_threads], NULL, work, turns))
         return false;
@@ -221,7 +221,7 @@ static bool start_thread(struct kd_turns *turns)
 }
 
 /* Suspends the current turn until its place in the list is reached. Locked on entry and exit. */
-static void pause_turn(struct kd_turns *turns)
+static void pause_turn(struct kd_scheduler *turns)
 {
     struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
     append(turns, &me.place);
@@ -240,8 +240,8 @@ static void pause_turn(struct kd_turns *turns)
  * run these, it continues. */
 static void let_others_go_first(void)
 {
-    struct kd_turns *turns = mine;
-    struct kd_turns_job *job = under_way;
+    struct kd_scheduler *turns = mine;
+    struct kd_scheduler_job *job = under_way;
     if (!job || kd_clock_ms() - piece_ms < PIECE_MS)
         return;
     kd_watch_turn_ends();
@@ -266,9 +266,9 @@ static unsigned cores(void)
     return n > WORKERS_MAX ? WORKERS_MAX : n;
 }
 
-enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns **out, struct kd_error *error)
+enum kd_status kd_scheduler_create(unsigned limit, unsigned share, struct kd_scheduler **out, struct kd_error *error)
 {
-    struct kd_turns *turns = calloc(1, sizeof *turns);
+    struct kd_scheduler *turns = calloc(1, sizeof *turns);
     if (!turns)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     turns->limit = limit;
@@ -283,21 +283,21 @@ enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns *
         started = start_thread(turns);
     pthread_mutex_unlock(&turns->lock);
     if (!started) {
-        kd_turns_destroy(turns);
+        kd_scheduler_destroy(turns);
         return kd_error_set(error, KD_ENOMEM, "a worker thread could not be started");
     }
     *out = turns;
     return KD_OK;
 }
 
-void kd_turns_destroy(struct kd_turns *turns)
+void kd_scheduler_destroy(struct kd_scheduler *turns)
 {
     if (!turns)
         return;
     pthread_mutex_lock(&turns->lock);
     turns->closing = true;
     pthread_cond_broadcast(&turns->changed);
-    for (struct kd_turns_job *job = turns->first; job; job = job->next)
+    for (struct kd_scheduler_job *job = turns->first; job; job = job->next)
         if (!job->turn)
             pthread_cond_signal(&((struct paused *)job)->resumed);
     pthread_mutex_unlock(&turns->lock);
@@ -308,12 +308,12 @@ void kd_turns_destroy(struct kd_turns *turns)
     free(turns);
 }
 
-enum kd_status kd_turns_admit(struct kd_turns *turns, const char *client, bool *quota, struct kd_error *error)
+enum kd_status kd_scheduler_admit(struct kd_scheduler *turns, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned own = 0;
     pthread_mutex_lock(&turns->lock);
     unsigned n = turns->n_accepted;
-    for (const struct kd_turns_job *job = turns->accepted; job; job = job->next_accepted)
+    for (const struct kd_scheduler_job *job = turns->accepted; job; job = job->next_accepted)
         own += !strcmp(job->client, client);
     pthread_mutex_unlock(&turns->lock);
     *quota = n < turns->limit && own >= turns->share;
@@ -324,7 +324,7 @@ enum kd_status kd_turns_admit(struct kd_turns *turns, const char *client, bool *
                   : KD_OK;
 }
 
-void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job)
+void kd_scheduler_push(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     pthread_mutex_lock(&turns->lock);
     accept(turns, job);
@@ -333,7 +333,7 @@ void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job)
     pthread_mutex_unlock(&turns->lock);
 }
 
-void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job)
+void kd_scheduler_wake(struct kd_scheduler *turns, struct kd_scheduler_job *job)
 {
     pthread_mutex_lock(&turns->lock);
     job->woken = true;
@@ -342,7 +342,7 @@ void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job)
     pthread_mutex_unlock(&turns->lock);
 }
 
-unsigned kd_turns_unfinished(struct kd_turns *turns)
+unsigned kd_scheduler_unfinished(struct kd_scheduler *turns)
 {
     pthread_mutex_lock(&turns->lock);
     unsigned n = turns->unfinished;
@@ -350,11 +350,11 @@ unsigned kd_turns_unfinished(struct kd_turns *turns)
     return n;
 }
 
-void kd_turns_cancel(struct kd_turns *turns)
+void kd_scheduler_cancel(struct kd_scheduler *turns)
 {
     pthread_mutex_lock(&turns->lock);
     atomic_store(&turns->cancel, true);
-    for (struct kd_turns_job *job = turns->parked, *next; job; job = next) {
+    for (struct kd_scheduler_job *job = turns->parked, *next; job; job = next) {
         next = job->next;
         if (!job->away)
             unpark(turns, job);
@@ -362,4 +362,4 @@ void kd_turns_cancel(struct kd_turns *turns)
     pthread_mutex_unlock(&turns->lock);
 }
 
-bool kd_turns_cancelled(struct kd_turns *turns) { return atomic_load(&turns->cancel); }
+bool kd_scheduler_cancelled(struct kd_scheduler *turns) { return atomic_load(&turns->cancel); }

@@ -2,8 +2,8 @@
  * few seconds. Beyond that, tokens new to that address are rejected unseen, so that guessing learns nothing; a token
  * that was accepted from there before still works, so that one client cannot lock out another behind the same proxy.
  * Repeating the same wrong token, as an open page does, counts once. Any thread. */
-#ifndef KD_SERVER_HTTP_GUESSES_H
-#define KD_SERVER_HTTP_GUESSES_H
+#ifndef KD_SERVER_HTTP_AUTH_THROTTLE_H
+#define KD_SERVER_HTTP_AUTH_THROTTLE_H
 
 #include "server/http/shares.h"
 
@@ -16,16 +16,17 @@
  * seen */
 #define KD_GUESSES_CLIENTS 256u
 
-struct kd_guesses;
+struct kd_auth_throttle;
 
-struct kd_guesses *kd_guesses_create(void);          /* NULL: out of memory */
-void kd_guesses_destroy(struct kd_guesses *guesses); /* accepts NULL */
+struct kd_auth_throttle *kd_auth_throttle_create(void);           /* NULL: out of memory */
+void kd_auth_throttle_destroy(struct kd_auth_throttle *throttle); /* accepts NULL */
 
 /* Reports a right token. whose: a pointer that identifies its owner. Returns 0 if it is accepted, else the seconds
  * until this address may present a new token. */
-unsigned kd_guesses_right(struct kd_guesses *guesses, const char *client, const void *whose, double now_ms);
+unsigned kd_auth_throttle_right(struct kd_auth_throttle *throttle, const char *client, const void *whose,
+                                double now_ms);
 /* Reports a wrong token by its hash. Returns 0 if it is counted (or known already) and the client may be answered, else
  * the seconds until this address may present another. */
-unsigned kd_guesses_wrong(struct kd_guesses *guesses, const char *client, uint64_t hash, double now_ms);
+unsigned kd_auth_throttle_wrong(struct kd_auth_throttle *throttle, const char *client, uint64_t hash, double now_ms);
 
 #endif

@@ -1,4 +1,4 @@
-#include "server/openapi/kept.h"
+#include "server/openapi/cached_documents.h"
 
 #include "base/buffer.h"
 #include "base/json.h"
@@ -23,7 +23,7 @@ struct document {
     struct kd_buffer plain, gzip;
 };
 
-struct kd_kept {
+struct kd_cached_documents {
     size_t n;
     struct document *documents;
 };
@@ -94,9 +94,10 @@ static enum kd_status make(struct document *d, size_t i, const char *base_path, 
     return finish(d, "application/json");
 }
 
-enum kd_status kd_kept_create(const char *base_path, bool closed, struct kd_kept **out, struct kd_error *error)
+enum kd_status kd_cached_documents_create(const char *base_path, bool closed, struct kd_cached_documents **out,
+                                          struct kd_error *error)
 {
-    struct kd_kept *kept = calloc(1, sizeof *kept);
+    struct kd_cached_documents *kept = calloc(1, sizeof *kept);
     size_t n = N_MAKERS + kd_scene_preset_count();
     enum kd_status status = KD_OK;
     if (kept)
@@ -107,11 +108,11 @@ enum kd_status kd_kept_create(const char *base_path, bool closed, struct kd_kept
         status = make(&kept->documents[kept->n], kept->n, base_path, closed);
     if (!status)
         return *out = kept, KD_OK;
-    kd_kept_destroy(kept);
+    kd_cached_documents_destroy(kept);
     return kd_error_set(error, KD_ENOMEM, "out of memory for the documents that are kept");
 }
 
-void kd_kept_destroy(struct kd_kept *kept)
+void kd_cached_documents_destroy(struct kd_cached_documents *kept)
 {
     if (!kept)
         return;
@@ -123,7 +124,7 @@ void kd_kept_destroy(struct kd_kept *kept)
     free(kept);
 }
 
-const struct kd_served *kd_kept_find(const struct kd_kept *kept, const char *path)
+const struct kd_served *kd_cached_documents_find(const struct kd_cached_documents *kept, const char *path)
 {
     for (size_t i = 0; i < kept->n; i++)
         if (!strcmp(kept->documents[i].path, path))

@@ -1,7 +1,7 @@
 /* Describes the light of one pixel, ray by ray. */
 #include "physics/spacetime/kerr.h"
 #include "render/frame/lens.h"
-#include "render/frame/tell.h"
+#include "render/frame/probe.h"
 #include "render/lens/label.h"
 #include "scene/hole.h"
 
@@ -14,26 +14,26 @@ enum {
     RECORDS = 8192
 }; /* about 360 kB: a march makes two for each part of each step, at most 6144, and emitters add theirs */
 struct record { float of, a[4], b[4], c[2]; };
-#define SIZE (sizeof(float) + (KD_TELL_SUMS + RECORDS) * sizeof(struct record))
-_Static_assert(sizeof(struct record) == KD_TELL_RECORD * sizeof(float), "the record of interface.h");
+#define SIZE (sizeof(float) + (KD_PROBE_SUMS + RECORDS) * sizeof(struct record))
+_Static_assert(sizeof(struct record) == KD_PROBE_RECORD * sizeof(float), "the record of interface.h");
 
-static void add_glow(struct kd_told_glow *glows, size_t *n, size_t most, const struct record *r, float opacity,
+static void add_glow(struct kd_probed_glow *glows, size_t *n, size_t most, const struct record *r, float opacity,
                      float through)
 {
     if (*n == most)
         return;
-    glows[(*n)++] = (struct kd_told_glow) {
+    glows[(*n)++] = (struct kd_probed_glow) {
         .emitter = (uint32_t)r->a[0],
         .light = { r->a[1], r->a[2], r->a[3] },
         .opacity = opacity,
         .through = through,
-        .points = r->of == (float)KD_TELL_OF_POINTS,
+        .points = r->of == (float)KD_PROBE_OF_POINTS,
     };
 }
 
-static struct kd_told_place place_of(const struct record *r)
+static struct kd_probed_place place_of(const struct record *r)
 {
-    return (struct kd_told_place) {
+    return (struct kd_probed_place) {
         .order = (uint32_t)r->a[0],
         .w = r->a[1],
         .phi = r->a[2],
@@ -46,9 +46,9 @@ static struct kd_told_place place_of(const struct record *r)
     };
 }
 
-static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind)
+static struct kd_probed_stretch stretch_of(const struct record *r, uint32_t behind)
 {
-    return (struct kd_told_stretch) {
+    return (struct kd_probed_stretch) {
         .order = behind,
         .w = { r->a[0], r->a[1] },
         .u = { r->a[2], r->a[3] },
@@ -59,14 +59,14 @@ static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind
 }
 
 /* Makes room by joining two adjacent stretches before the same crossing. */
-static void join(struct kd_told_ray *told)
+static void join(struct kd_probed_ray *told)
 {
-    struct kd_told_stretch *s = told->stretches;
+    struct kd_probed_stretch *s = told->stretches;
     size_t n = 0;
     for (size_t i = 0; i < told->n_stretches; i++) {
         s[n] = s[i];
         if (i + 1 < told->n_stretches && s[i + 1].order == s[i].order) {
-            const struct kd_told_stretch *next = &s[++i];
+            const struct kd_probed_stretch *next = &s[++i];
             s[n].w[1] = next->w[1], s[n].u[1] = next->u[1], s[n].delay[1] = next->delay[1],
             s[n].through[1] = next->through[1];
             for (int c = 0; c < 3; c++)
@@ -77,20 +77,20 @@ static void join(struct kd_told_ray *told)
     told->n_stretches = n;
 }
 
-static void take_stretch(struct kd_told_ray *told, struct kd_told_stretch stretch)
+static void take_stretch(struct kd_probed_ray *told, struct kd_probed_stretch stretch)
 {
-    if (told->n_stretches == KD_TOLD_STRETCHES)
+    if (told->n_stretches == KD_PROBED_STRETCHES)
         join(told);
-    if (told->n_stretches < KD_TOLD_STRETCHES)
+    if (told->n_stretches < KD_PROBED_STRETCHES)
         told->stretches[told->n_stretches++] = stretch;
     else
         told->lost++;
 }
 
-static void take_met(struct kd_told_met *met, const struct record *r)
+static void take_met(struct kd_probed_met *met, const struct record *r)
 {
-    if (r->of == (float)KD_TELL_MET)
-        *met = (struct kd_told_met) {
+    if (r->of == (float)KD_PROBE_MET)
+        *met = (struct kd_probed_met) {
             .met = true,
             .emitter = (uint32_t)r->a[0],
             .which = (uint32_t)r->b[0],
@@ -103,7 +103,7 @@ static void take_met(struct kd_told_met *met, const struct record *r)
         met->w = r->a[0], met->u = r->a[1], met->phi = r->a[2], met->g = r->a[3];
 }
 
-static void take_front(struct kd_told_ray *told, const struct record *r)
+static void take_front(struct kd_probed_ray *told, const struct record *r)
 {
     told->through = r->a[3];
     told->steps = (uint32_t)r->b[0];
@@ -114,36 +114,36 @@ static void take_front(struct kd_told_ray *told, const struct record *r)
     told->stokes[2] = r->c[0];
 }
 
-static void take(struct kd_told_ray *told, const struct record *r)
+static void take(struct kd_probed_ray *told, const struct record *r)
 {
-    struct kd_told_place *last = told->n_places ? &told->places[told->n_places - 1] : NULL;
-    if (r->of == (float)KD_TELL_AT && told->n_places < KD_TOLD_PLACES)
+    struct kd_probed_place *last = told->n_places ? &told->places[told->n_places - 1] : NULL;
+    if (r->of == (float)KD_PROBE_AT && told->n_places < KD_PROBED_PLACES)
         told->places[told->n_places++] = place_of(r);
-    else if (r->of == (float)KD_TELL_OF_PLACE && last)
+    else if (r->of == (float)KD_PROBE_OF_PLACE && last)
         add_glow(last->glows, &last->n_glows, KD_PLAN_EMITTERS, r, r->b[0], r->b[1]);
-    else if (r->of == (float)KD_TELL_POLARIZED && last)
+    else if (r->of == (float)KD_PROBE_POLARIZED && last)
         last->polarized = true, last->stokes[0] = r->a[0], last->stokes[1] = r->a[1];
-    else if (r->of == (float)KD_TELL_ALONG)
+    else if (r->of == (float)KD_PROBE_ALONG)
         take_stretch(told, stretch_of(r, last ? last->order + 1 : 0));
-    else if (r->of == (float)KD_TELL_ALONG_AT && told->n_stretches &&
+    else if (r->of == (float)KD_PROBE_ALONG_AT && told->n_stretches &&
              isnan(told->stretches[told->n_stretches - 1].delay[0]))
         memcpy(told->stretches[told->n_stretches - 1].delay, r->a, sizeof told->stretches[0].delay);
-    else if (r->of == (float)KD_TELL_AT)
+    else if (r->of == (float)KD_PROBE_AT)
         told->lost++;
-    else if (r->of == (float)KD_TELL_ENDS)
+    else if (r->of == (float)KD_PROBE_ENDS)
         told->end_u = r->a[0], told->end_phi = r->a[1], told->end_footprint = r->a[2], told->ended = true;
-    else if (r->of == (float)KD_TELL_OF_END || r->of == (float)KD_TELL_OF_POINTS)
+    else if (r->of == (float)KD_PROBE_OF_END || r->of == (float)KD_PROBE_OF_POINTS)
         add_glow(told->ends, &told->n_ends, 2 * KD_PLAN_EMITTERS, r, 0, told->through);
-    else if (r->of == (float)KD_TELL_OF_VOLUME && told->n_volumes < KD_PLAN_EMITTERS)
+    else if (r->of == (float)KD_PROBE_OF_VOLUME && told->n_volumes < KD_PLAN_EMITTERS)
         told->volumes[told->n_volumes++] =
-            (struct kd_told_volume) { (uint32_t)r->a[0], { r->a[1], r->a[2], r->a[3] }, r->b[0] };
-    else if (r->of == (float)KD_TELL_MET || r->of == (float)KD_TELL_MET_AT)
+            (struct kd_probed_volume) { (uint32_t)r->a[0], { r->a[1], r->a[2], r->a[3] }, r->b[0] };
+    else if (r->of == (float)KD_PROBE_MET || r->of == (float)KD_PROBE_MET_AT)
         take_met(&told->met, r);
-    else if (r->of == (float)KD_TELL_LOST)
+    else if (r->of == (float)KD_PROBE_LOST)
         told->given_up = true;
-    else if (r->of == (float)KD_TELL_FRONT)
+    else if (r->of == (float)KD_PROBE_FRONT)
         take_front(told, r);
-    else if (r->of == (float)KD_TELL_WHOLE)
+    else if (r->of == (float)KD_PROBE_WHOLE)
         memcpy(told->light, r->a, sizeof told->light);
 }
 
@@ -156,7 +156,7 @@ struct source {
     struct kd_slice push; /* without the ray's number */
 };
 
-static enum kd_status follow(struct kd_frame_job *j, const struct source *s, struct kd_told_ray *out)
+static enum kd_status follow(struct kd_frame_job *j, const struct source *s, struct kd_probed_ray *out)
 {
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
@@ -172,7 +172,7 @@ static enum kd_status follow(struct kd_frame_job *j, const struct source *s, str
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
     const float *from = kd_vk_buffer_map(s->records);
     const size_t n = (size_t)from[0], kept = n < RECORDS ? n : RECORDS;
-    for (size_t i = 0; i < KD_TELL_SUMS + kept; i++)
+    for (size_t i = 0; i < KD_PROBE_SUMS + kept; i++)
         take(out, (const struct record *)(from + 1) + i);
     out->lost += n - kept;
 done:
@@ -182,7 +182,7 @@ done:
 /* Allocates `rays` rays of the pixel, still empty. */
 static enum kd_status make_room(struct kd_frame_job *j, uint32_t rays)
 {
-    struct kd_told *told = j->frame->told;
+    struct kd_probed_pixel *told = j->frame->told;
     free(told->each);
     told->rays = 0;
     if (!(told->each = malloc(rays * sizeof *told->each)))
@@ -191,19 +191,19 @@ static enum kd_status make_room(struct kd_frame_job *j, uint32_t rays)
     return KD_OK;
 }
 
-static struct kd_told_ray ray_at(uint32_t steps_a_pixel, uint32_t x, uint32_t y)
+static struct kd_probed_ray ray_at(uint32_t steps_a_pixel, uint32_t x, uint32_t y)
 {
-    return (struct kd_told_ray) { .through = 1, .steps_a_pixel = steps_a_pixel, .x = x, .y = y };
+    return (struct kd_probed_ray) { .through = 1, .steps_a_pixel = steps_a_pixel, .x = x, .y = y };
 }
 
 /* Describes the rays of the square grid. */
 static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
 {
-    struct kd_told *told = j->frame->told;
+    struct kd_probed_pixel *told = j->frame->told;
     const uint32_t side = j->plan->side, middle = (side - 1) / 2;
     enum kd_status status = make_room(j, side * side);
     for (uint32_t i = 0; i < side * side && !status; i++) {
-        struct kd_told_ray *ray = &told->each[i];
+        struct kd_probed_ray *ray = &told->each[i];
         *ray = ray_at(side, told->x * side + i % side, told->y * side + i / side);
         s->push.rows = ray->x, s->push.row0 = ray->y;
         status = follow(j, s, ray);
@@ -213,7 +213,7 @@ static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
     return status;
 }
 
-enum kd_status kd_frame_tell(struct kd_frame_job *j, uint32_t band)
+enum kd_status kd_frame_probe(struct kd_frame_job *j, uint32_t band)
 {
     static const struct kd_critical_lattice on_grid; /* all 0: the grid */
     const struct kd_plan *p = j->plan;
@@ -244,7 +244,7 @@ done:
 }
 
 /* Index of the pixel in the list, or the list's end. */
-static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_told *told)
+static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_probed_pixel *told)
 {
     uint64_t i = 0;
     while (i < part->n && (part->list->pixels->pixels[part->first + i].x != told->x ||
@@ -253,9 +253,9 @@ static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_told
     return i;
 }
 
-enum kd_status kd_frame_tell_listed(struct kd_frame_job *j, const struct kd_frame_part *part)
+enum kd_status kd_frame_probe_listed(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
-    struct kd_told *told = j->frame->told;
+    struct kd_probed_pixel *told = j->frame->told;
     const struct kd_critical_lattice *lattice = &part->list->lattice;
     const uint64_t at = told && !told->whole ? listed_at(part, told) : part->n;
     if (at == part->n)
@@ -282,7 +282,7 @@ done:
     return status;
 }
 
-static enum kd_status say_no_steps(struct kd_told *told, const char *why)
+static enum kd_status say_no_steps(struct kd_probed_pixel *told, const char *why)
 {
     snprintf(told->no_steps, sizeof told->no_steps, "%.199s", why);
     return KD_OK;
@@ -301,7 +301,7 @@ static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const
     };
 }
 
-enum kd_status kd_frame_tell_ask(struct kd_frame_job *j)
+enum kd_status kd_frame_probe_ask(struct kd_frame_job *j)
 {
     const struct kd_rays_params params = params_of_steps(j->scene, j->plan);
     return j->plan->told.steps ? kd_rays_steps_ask(j->r, &params) : KD_OK;
@@ -310,7 +310,7 @@ enum kd_status kd_frame_tell_ask(struct kd_frame_job *j)
 /* Records the engine's steps along the middle ray, from its labels. */
 static enum kd_status tell_steps(struct kd_frame_job *j)
 {
-    struct kd_told *told = j->frame->told;
+    struct kd_probed_pixel *told = j->frame->told;
     const struct kd_setting *by = &j->plan->setting;
     const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->side
                                                            ? *scene
@@ -343,9 +343,9 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     return status;
 }
 
-enum kd_status kd_frame_tell_pixel(struct kd_frame_job *j)
+enum kd_status kd_frame_probe_pixel(struct kd_frame_job *j)
 {
-    struct kd_told *told = j->frame->told;
+    struct kd_probed_pixel *told = j->frame->told;
     struct kd_vk_buffer *host = NULL;
     enum kd_status status = KD_OK;
     if (!told)

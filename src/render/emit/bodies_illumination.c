@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out)
+bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out)
 {
     const double a = scene->spacetime.spin, inner = kd_disk_inner(scene), outer = scene->disk.outer,
                  step = log(outer / inner) / KD_LIT_RINGS;
@@ -26,7 +26,7 @@ bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out)
         const double r = inner * exp(step * (i + 0.5)), delta = r * r - 2 * r + a * a,
                      area = (r * r + a * a) * (r * r + a * a) - a * a * delta;
         const double t = kd_disk_heat(scene, r), along = sqrt(area) / r, lapse = r * sqrt(delta / area);
-        out->rings[i] = (struct kd_lit_ring) {
+        out->rings[i] = (struct kd_illumination_ring) {
             .r = r,
             .t = t,
             .light = t * t * t * t * r * r * step * (2 * M_PI / KD_LIT_PLACES),
@@ -38,7 +38,8 @@ bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out)
 }
 
 /* Adds the light of a place, in components along r, theta, phi of the body. */
-static void add(const struct kd_lit_ring *ring, double turn, const struct kd_seen_body *b, double lapse, float out[12])
+static void add(const struct kd_illumination_ring *ring, double turn, const struct kd_seen_body *b, double lapse,
+                float out[12])
 {
     const double c = cos(turn), s = sin(turn), x = ring->r * c, y = ring->r * s, height = b->r * b->u;
     /* Cartesian, with the body at azimuth 0. */
@@ -72,7 +73,7 @@ static void add(const struct kd_lit_ring *ring, double turn, const struct kd_see
         out[i] += (float)sums[i];
 }
 
-void kd_lit_body(const struct kd_lit *lit, const struct kd_seen_body *b, double lapse, float out[12])
+void kd_illumination_body(const struct kd_illumination *lit, const struct kd_seen_body *b, double lapse, float out[12])
 {
     memset(out, 0, 12 * sizeof *out);
     if (!lit || !(b->albedo > 0))

@@ -1,7 +1,7 @@
 /* Describes the light of the pixel that the plan names, ray by ray and emitter by emitter, as the picture's own
  * kernel sums it (light/tell.glsl). Radiance is linear sRGB, in units of the picture. */
-#ifndef KD_RENDER_FRAME_TELL_H
-#define KD_RENDER_FRAME_TELL_H
+#ifndef KD_RENDER_FRAME_PROBE_H
+#define KD_RENDER_FRAME_PROBE_H
 
 #include "render/plan/plan.h"
 #include "render/rays/steps.h"
@@ -10,10 +10,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TOLD_PLACES 32 /* of a ray, at most */
+#define KD_PROBED_PLACES 32 /* of a ray, at most */
 
 /* Light of one emitter at a place. */
-struct kd_told_glow {
+struct kd_probed_glow {
     uint32_t emitter; /* index in kd_emitters */
     float light[3];   /* including its opacity, without absorption in front of it */
     float opacity;
@@ -22,7 +22,7 @@ struct kd_told_glow {
 };
 
 /* A place where something may emit or absorb light. */
-struct kd_told_place {
+struct kd_probed_place {
     uint32_t order;                 /* of the crossing */
     float w, phi, slope, footprint; /* from the lens map; 0 for what it does not hold */
     /* g, temperature, angle: of gas at the place, whether there is any or not: redshift factor; K; angle between
@@ -31,30 +31,30 @@ struct kd_told_place {
     float through;  /* transmission of everything in front */
     bool polarized; /* whether its light is polarised: Stokes Q and U over I */
     float stokes[2];
-    struct kd_told_glow glows[KD_PLAN_EMITTERS];
+    struct kd_probed_glow glows[KD_PLAN_EMITTERS];
     size_t n_glows;
 };
 
 /* A stretch of the ray through volumes, for all of them together: a part of a step of the march, or several adjacent
  * ones if there are many. */
-struct kd_told_stretch {
+struct kd_probed_stretch {
     uint32_t order;   /* of the next crossing, if there is one */
     float w[2], u[2]; /* 1/r and cos(theta) at its ends */
     float delay[2];   /* of light from there, as for a crossing; meaningless for an observer inside the horizon */
     float light[3];   /* its contribution to the arriving light */
     float through[2]; /* transmission of everything in front, without and with this stretch */
 };
-#define KD_TOLD_STRETCHES 256
+#define KD_PROBED_STRETCHES 256
 
 /* Contribution of one volume along the whole ray, as far as that was followed. */
-struct kd_told_volume {
+struct kd_probed_volume {
     uint32_t emitter;
     float light[3]; /* as it arrives */
     float depth;
 };
 
 /* An opaque surface. */
-struct kd_told_met {
+struct kd_probed_met {
     bool met;
     uint32_t emitter, which; /* index in kd_emitters; index in the emitter's list */
     uint32_t order;          /* crossings of the plane before it */
@@ -63,38 +63,39 @@ struct kd_told_met {
     float light[3], through; /* without absorption in front; transmission of everything in front */
 };
 
-struct kd_told_ray {
+struct kd_probed_ray {
     uint32_t steps_a_pixel; /* the ray goes through the centre of a cell; a pixel has this many cells along a side, */
     uint32_t x, y;          /* counted through the picture from its upper left corner */
-    struct kd_told_place places[KD_TOLD_PLACES];
-    struct kd_told_stretch stretches[KD_TOLD_STRETCHES];
-    struct kd_told_volume volumes[KD_PLAN_EMITTERS];
+    struct kd_probed_place places[KD_PROBED_PLACES];
+    struct kd_probed_stretch stretches[KD_PROBED_STRETCHES];
+    struct kd_probed_volume volumes[KD_PLAN_EMITTERS];
     uint32_t steps, samples; /* of the march: integration steps, and samples */
-    struct kd_told_met met;
+    struct kd_probed_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: records that did not fit */
     bool transfers; /* volumes transfer polarised light: Stokes Q, U and V as they arrive */
     float stokes[3];
     bool given_up; /* the engine gave the ray up, and the picture shows magenta */
     bool ended;    /* something may shine at its end: */
     float end_u, end_phi, end_footprint;
-    struct kd_told_glow ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: transmission of everything before the end */
+    struct kd_probed_glow
+        ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: transmission of everything before the end */
     size_t n_ends;
     float through;  /* transmission of all crossings and volumes */
     float light[3]; /* total */
 };
 
-struct kd_told {
+struct kd_probed_pixel {
     uint32_t x, y;
     /* the middle ray of the square grid of image.samples (or the one before the middle), as in layers; not among
      * `each` if the pixel has other rays */
-    struct kd_told_ray middle;
-    struct kd_told_ray *each; /* malloc'd: the rays whose mean is the pixel's light */
+    struct kd_probed_ray middle;
+    struct kd_probed_ray *each; /* malloc'd: the rays whose mean is the pixel's light */
     uint32_t rays;
     struct kd_rays_steps *steps; /* malloc'd: engine steps of the middle ray; NULL: not requested, or not available */
     char no_steps[200];          /* the reason, a sentence */
     bool whole;                  /* complete: later renders of the job are not part of this picture */
     float radiance[3];           /* of the pixel, before bloom, beam and tone curve */
 };
-void kd_told_destroy(struct kd_told *told);
+void kd_probed_destroy(struct kd_probed_pixel *told);
 
 #endif

@@ -1,4 +1,4 @@
-#include "render/emit/told.h"
+#include "render/emit/describe.h"
 
 #include "render/emit/emitter.h"
 
@@ -6,8 +6,8 @@
 #define NOWHERE(number, name) [number] = "",
 #define END(number, name) [number] = "end",
 #define ALONG(number, name) [number] = "along",
-#define MET(number, name) [number] = "met",
-static const char *const places[KD_EMITTER_COUNT] = { KD_EMITTERS(AT, NOWHERE, NOWHERE, END, ALONG, MET) };
+#define SURFACE(number, name) [number] = "met",
+static const char *const places[KD_EMITTER_COUNT] = { KD_EMITTERS(AT, NOWHERE, NOWHERE, END, ALONG, SURFACE) };
 
 static enum kd_status one(const struct kd_scene *scene, int number, bool first, struct kd_buffer *out)
 {
@@ -16,7 +16,7 @@ static enum kd_status one(const struct kd_scene *scene, int number, bool first, 
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "%s{\"name\":\"%s\",\"title\":\"%s\",\"at\":\"%s\",\"apart\":%s", first ? "" : ",",
                             e->name, e->title, places[number],
-                            e->traits && e->traits(scene) & KD_TRAIT_APART ? "true" : "false"));
+                            e->traits && e->traits(scene) & KD_TRAIT_SEPARATE_PHOTOMETRY ? "true" : "false"));
     if (e->tell) {
         e->tell(scene, sentence);
         KD_TRY(kd_buffer_printf(out, ",\"sentence\":\"%s\"", sentence));

@@ -1,0 +1,20 @@
+/* Cache of documents that are constant while the program runs. They are made at the start, plain and as gzip, each with
+ * an ETag. Read-only afterwards: any thread. */
+#ifndef KD_SERVER_OPENAPI_CACHED_DOCUMENTS_H
+#define KD_SERVER_OPENAPI_CACHED_DOCUMENTS_H
+
+#include "base/error.h"
+#include "server/http/served.h"
+
+#include <stdbool.h>
+
+struct kd_cached_documents;
+
+/* base_path, closed: as in kd_openapi_json. */
+enum kd_status kd_cached_documents_create(const char *base_path, bool closed, struct kd_cached_documents **out,
+                                          struct kd_error *error);
+void kd_cached_documents_destroy(struct kd_cached_documents *kept); /* accepts NULL */
+/* Finds a document by the path of its route, such as "/v1/presets/gargantua"; NULL: none. */
+const struct kd_served *kd_cached_documents_find(const struct kd_cached_documents *kept, const char *path);
+
+#endif
