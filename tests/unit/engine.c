@@ -1,4 +1,4 @@
-/* Wishes for accuracy, and what they come to. */
+/* Requests for accuracy, and the engines chosen. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static void refuse(struct kd_wish wish, bool float64, const char *pointer, const
         fail_msg("\"%s\" is not in \"%s\"", part, error.message);
 }
 
-/* A scene's words and the engines are two lists in one order. */
+/* A scene's words and the engines are two lists in the same order. */
 static void words_are_names(void **state)
 {
     (void)state;
@@ -80,7 +80,7 @@ static void profiles(void **state)
     assert_true(kd_wish_needs_device(&wish));
 }
 
-/* A finer tolerance is never answered with a row that holds less, nor a coarse one with a slower row. */
+/* A finer tolerance never gets a row with a larger error, nor a coarser one a slower row. */
 static void tolerances(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void what_cannot_be(void **state)
     wish.tolerance = 1e-15;
     refuse(wish, true, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     wish.tolerance = 1e-9;
-    assert_int_equal(settle(wish, false).engine, KD_ENGINE_CLOSED); /* which needs no device */
+    assert_int_equal(settle(wish, false).engine, KD_ENGINE_CLOSED); /* needs no device */
     wish.precision = KD_PRECISION_F32;
     refuse(wish, false, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     wish.precision = -1;
