@@ -1,5 +1,5 @@
-"""Jobs: what is asked, progress by asking and as events, results of every form, ends, limits. In the fake renderer's
-scenes `time` is how many milliseconds a frame takes."""
+"""Tests of jobs: requests, progress by polling and as events, results in every form, ends, limits. In the fake
+renderer's scenes `time` is how many milliseconds a frame takes."""
 
 import http.client
 import io
@@ -104,8 +104,8 @@ class Jobs(Case):
         )  # a word steps, too; and 0 is the middle of 1 and -1 by turns
 
     def test_exposure(self):
-        """Frames of keyframes have one, the median of nine, which their scenes name and the job tells; each its own
-        where it says so, and those of lists and axes unless they say otherwise."""
+        """Frames of keyframes share one exposure, the median of nine, which their scenes and the job state; each has
+        its own if the job says so, and those of lists and axes unless it says otherwise."""
         keys = {"scene": {"image": IMAGE}, "keyframes": [{"frame": 29, "scene": {"camera": {"azimuth_deg": 29}}}]}
         pair = [{"image": IMAGE}] * 2
         for asked, told, shown in (
@@ -131,7 +131,7 @@ class Jobs(Case):
                 self.assertEqual(done["finished"], len(frames))
 
     def test_motion_blur(self):
-        """Pictures say of how many others their light is the mean, and take so many times as long."""
+        """Pictures state of how many others their light is the mean, and take that many times as long."""
         asked = {"scene": {**SCENE, "style": {"exposure": 1}}, "keyframes": [{"frame": 3, "scene": {"time": 8}}]}
         plain, blurred = self.make(asked), self.make({**asked, "motion_blur": {"samples": 8, "shutter": 0.25}})
         self.assertGreater(blurred["remaining_s"] or 8, 2 * (plain["remaining_s"] or 0))
@@ -141,8 +141,8 @@ class Jobs(Case):
         self.assertFalse(any(b"kerrd:motion_blur" in png for png in self.frames(plain).values()))
 
     def test_keyframes_of_a_list(self):
-        """An element that one of two keyframes lacks is at its defaults there; all of this by its index, whole, or by
-        an old name."""
+        """An element that one of two keyframes lacks has its defaults there; elements are given by index, as a whole
+        list, or by an old name."""
         for second, third in (
             ({"spots": {"0": {"r": 16}, "1": {"brightness": 2, "r": 12}}}, {"spots": []}),
             ({"spots": [{"brightness": 4, "r": 16}, {"brightness": 2, "r": 12}]}, {"spots": None}),
