@@ -66,7 +66,7 @@ class Playground(Case):
 
     def test_all_that_happens_is_told(self):
         """If there are more events than are stored at once none is lost while the motion goes on; if there are more
-        in a single sub-step the number lost is reported."""
+        in a single sub-step the lost ones are reported."""
         events, document = self.path("events.ndjson"), self.path("many.json")
         ring = [
             {

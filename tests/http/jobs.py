@@ -263,7 +263,8 @@ class Jobs(Case):
         self.assertEqual([(round(c["r"], 9), c["azimuth_deg"]) for c in cameras], [(1000, 0), (100, 45), (10, 90)])
 
     def test_light_curve(self):
-        """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""
+        """The fake renderer's light at time t: flux t at (t/2, -t), of which t/4 is the spots' at (3, 1/4); at t = 0
+        there is none."""
         asked = {
             "scene": {"image": IMAGE, "time": 0},
             "keyframes": [{"frame": 4, "scene": {"time": 6}}],
@@ -333,7 +334,7 @@ class Jobs(Case):
         self.assertTrue(last and all(0 <= s < 3 for s in last), last)
 
     def test_what_is_left_is_measured(self):
-        """Of a frame that takes a thousand times what its plan says, too: the fake renderer's does."""
+        """Also for a frame that takes a thousand times as long as its plan states, as the fake renderer's does."""
         begun, seen = time.monotonic(), []
         job = self.make({"scene": {**SCENE, "time": 2000}})
         while not seen or seen[-1][0]["state"] in ("waiting", "running"):
@@ -615,7 +616,7 @@ class Jobs(Case):
             ),
             ({"scenes": [{}] * 10001}, 422, "/scenes"),
             ({"scenes": [{}, {"accuracy": {"tolerance": 1e-15}}]}, 422, "/scenes/1/accuracy/tolerance"),
-            # valid at both ends, with the disk's edge inside the ISCO between them
+            # valid at both ends, but between them the disk's edge is inside the ISCO
             (
                 {
                     "scene": {"spacetime": {"spin": -0.9}, "disk": {"outer": 9.5}},
@@ -722,7 +723,7 @@ class Quota(Case):
 
 
 class Gate:
-    """Holds every thread of a server that plans."""
+    """Stops every thread of a server that begins to plan."""
 
     def __init__(self, test):
         folder = tempfile.mkdtemp()
@@ -735,7 +736,7 @@ class Gate:
             test.addCleanup(os.close, self.ends[name])
 
     def asked(self):
-        """Returns when a thread plans."""
+        """Returns when a thread begins to plan."""
         if not select.select([self.ends["ASKS"]], [], [], 60)[0]:
             raise AssertionError("nobody plans")
         os.read(self.ends["ASKS"], 1)
@@ -745,7 +746,7 @@ class Gate:
 
 
 class Planned(Case):
-    """A frame is planned by a worker: nobody else waits for that."""
+    """A frame is planned by a worker, so that nobody else waits for it."""
 
     def setUp(self):
         super().setUp()
