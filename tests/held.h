@@ -1,4 +1,4 @@
-/* Memory that this process holds, for tests of what a refusal gives back. One thread. */
+/* Memory allocated by this process, for tests of what a refusal frees. One thread. */
 #ifndef KD_TESTS_HELD_H
 #define KD_TESTS_HELD_H
 
@@ -7,15 +7,15 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* Begins the program again with a heap that counts a block as free as soon as it is: malloc counts those that it
- * keeps for a thread as given out. First thing in main. */
+/* Restarts the program with a heap that counts a freed block at once: malloc otherwise counts blocks cached for a
+ * thread as allocated. First statement of main. */
 static inline void kd_held_begin(char **argv)
 {
     if (!getenv("GLIBC_TUNABLES") && !setenv("GLIBC_TUNABLES", "glibc.malloc.tcache_count=0", 1))
         execv("/proc/self/exe", argv);
 }
 
-/* Bytes that malloc has given out and that are not freed; 0 always under a sanitizer, which looks for leaks itself. */
+/* Bytes allocated by malloc and not freed; always 0 under a sanitizer, which looks for leaks itself. */
 static inline size_t kd_held(void)
 {
     const struct mallinfo2 m = mallinfo2();

@@ -1,4 +1,5 @@
-"""kerrd bench accuracy, once, on a real device: what the table says must be plausible, kept, and served."""
+"""Tests of kerrd bench accuracy, run once on a real device: its table must be plausible, stored, and used by the
+server."""
 
 import json
 import math
@@ -17,7 +18,7 @@ SETS = ["bulk", "near-critical", "near-axis", "edge-on", "near-extremal"]
 
 
 def serve(cache, path):
-    """Status and document of one GET from a daemon of its own."""
+    """Status and document of one GET from a daemon started for it."""
     daemon = subprocess.Popen(
         [KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache}
     )
@@ -41,7 +42,7 @@ class Accuracy(unittest.TestCase):
         cls.cache = folder.name
         cls.before = serve(cls.cache, "v1/accuracy")
         files = [os.path.join(folder.name, name) for name in ("table.json", "table.md")]
-        # Meson lets malloc fill what it frees: with the buffers of a thousand submissions that is most of the time.
+        # Meson makes malloc fill freed memory: with the buffers of a thousand submissions that takes most of the time.
         done = run(
             "bench",
             "accuracy",
@@ -105,8 +106,8 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["r"]["median"], 2e-7)
         self.assertLessEqual(bulk["phi"]["median"], 2e-7)
         self.assertEqual(bulk["differ"], 0)
-        # Single precision holds b to 6e-8: next to the critical curve no fate is told, and such rays count. A fifth of
-        # the set is a millionth away from it.
+        # Single precision holds b to 6e-8: next to the critical curve the fate of a ray cannot be told, and such rays
+        # count as errors. A fifth of the set is 1e-6 away from the curve.
         near = self.rows["mino-rkn6", "f32", 16]["near-critical"]
         self.assertLess(near["differ"], near["rays"] / 4)
 
@@ -119,7 +120,7 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["delay"]["median"], 1e-10)
         for name in SETS:
             self.assertEqual(self.rows["mino-rkn6", "f64", 64][name]["differ"], 0, name)
-        # Order 6 and order 4: errors of the bulk fall by at least half of 2^order.
+        # Order 6 and order 4: the errors of most rays fall by at least half of 2^order.
         for engine, coarse, ratio in (
             ("mino-rkn6", 8, 32),
             ("mino-rkn4", 16, 8),
@@ -133,7 +134,7 @@ class Accuracy(unittest.TestCase):
             )
 
     def test_mino_time_pays(self):
-        """Printed, not asserted: times are no gates."""
+        """Printed, not asserted: a time is no criterion to pass."""
 
         def fastest(engine, precisions, bound):
             return max(
@@ -166,8 +167,8 @@ class Accuracy(unittest.TestCase):
         self.assertIn("damaged", problem["detail"])
 
     def test_planned_by(self):
-        """A plan looks a tolerance up in the table that the device keeps, which a renderer owns: memory that is given
-        back is filled."""
+        """A plan looks up a tolerance in the device's table, which the renderer owns: freed memory is filled, so
+        that a use after free would show."""
         done = run(
             "plan",
             "--set",

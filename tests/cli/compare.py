@@ -1,5 +1,5 @@
-"""kerrd compare: chi^2 of scenes beside M87* as it was observed, by the numbers that ehtim told; what is solved; both
-files of one observation; what is refused."""
+"""Tests of kerrd compare: chi^2 of scenes against M87* as it was observed, compared with numbers by ehtim; fitted
+values; both files of one observation; refusals."""
 
 import csv
 import io
@@ -15,8 +15,8 @@ class Compare(Case):
         return json.loads(self.good("compare", *args))
 
     def test_chi2_is_that_of_ehtim(self):
-        """To 1e-5; tests/cli/ehtim_reads.py has the same picture beside ehtim to 1e-6, this one may be of another
-        driver's single precision."""
+        """To 1e-5: tests/cli/ehtim_reads.py compares the same picture with ehtim to 1e-6, but this one may be by
+        another driver's single precision."""
         for at, case in enumerate(compared.CASES):
             ours = self.told(*compared.options(case))
             self.assertEqual(ours["n"], case["ehtim"]["n"], at)
@@ -52,7 +52,8 @@ class Compare(Case):
         self.assertEqual(len(file) - start, 12 * 8 * len(table))
 
     def test_the_flux_that_fits_best(self):
-        """No other flux has a smaller chi^2; a thin disk, whose light is of no frequency, has it without being asked."""
+        """No other flux has a smaller chi^2; for a thin disk, whose light has no frequency, the flux is fitted
+        without being asked for."""
         options = [
             "--observation",
             compared.CSV,

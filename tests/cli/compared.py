@@ -1,5 +1,5 @@
-"""What kerrd compare is asked, and what ehtim 1.3.2 said of it (tests/cli/ehtim_chi2.json): tests/cli/ehtim_reads.py asks
-ehtim, tests/cli/compare.py needs none."""
+"""The requests to kerrd compare and the results of ehtim 1.3.2 for them (tests/cli/ehtim_chi2.json):
+tests/cli/ehtim_reads.py runs ehtim, tests/cli/compare.py does not need it."""
 
 import json
 import pathlib
@@ -10,7 +10,7 @@ CASES = json.loads(pathlib.Path(__file__).with_name("ehtim_chi2.json").read_text
 
 
 def options(case, file=UVFITS):
-    """Those of kerrd compare."""
+    """Options of kerrd compare."""
     size = case["scene"][case["scene"].index("--size") + 1].split("x")[0]
     flux = ["--flux-jy", str(case["flux_jy"])] if case["flux_jy"] else []
     given = ["--observation", file, *case["scene"], "--pixels", size, "--check", "none", *flux]

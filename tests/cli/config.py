@@ -1,4 +1,4 @@
-"""Where `kerrd serve` has its options from: flags, environment, file, defaults, in this order."""
+"""Tests of the sources of options for `kerrd serve`: flags, environment, file, defaults, in this order."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from support import KERRD
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLEAN = {name: value for name, value in os.environ.items() if not name.startswith("KERRD_")}
-# Of each option a value that is allowed, and one that is not: as text, and as the file has it.
+# For each option a value that is allowed, and one that is not: as text, and as in the file.
 GOOD = {
     "listen": ("127.0.0.2", "127.0.0.2"),
     "port": ("9", 9),
@@ -173,7 +173,8 @@ class Config(support.Case):
         self.assertEqual(self.shown(env={"KERRD_VALIDATE": "0"}), self.shown())
 
     def test_links_of_kubernetes_are_none(self):
-        """Each Service of a namespace is in the environment of its pods; one called kerrd has these."""
+        """Kubernetes puts each Service of a namespace into the environment of its pods; one called kerrd sets these
+        variables."""
         links = {
             "KERRD_PORT": "tcp://10.0.0.1:8080",
             "KERRD_SERVICE_HOST": "10.0.0.1",

@@ -1,4 +1,4 @@
-"""What may be typed behind kerrd, as the program itself tells it by --help."""
+"""The commands and options of kerrd, read from the --help of the program itself."""
 
 import os
 import re
@@ -15,8 +15,8 @@ def contexts():
 
 
 def told(context):
-    """The options that --help has, short and long, and their arguments: {"--output": "=FILE", "--trace":
-    "[=steps|path", "-o": ""}."""
+    """The options in --help, short and long, and their arguments: {"--output": "=FILE", "--trace": "[=steps|path",
+    "-o": ""}."""
     text = run(
         *context, "--help", env={**os.environ, "ARGP_HELP_FMT": "rmargin=900,opt-doc-col=60"}
     ).stdout.decode()  # a line each

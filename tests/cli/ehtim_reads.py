@@ -1,5 +1,5 @@
-"""A FITS file of numbers as ehtim and astropy read it, in a virtual environment of its own: pixels to the bit, the
-total flux to 1e-6, the angular scale."""
+"""Tests that ehtim and astropy, in a virtual environment of their own, read a FITS file of numbers: pixels to the
+bit, the total flux to 1e-6, the angular scale."""
 
 import json
 import math
@@ -50,15 +50,15 @@ class Ehtim(support.Case):
         return found
 
     def test_the_hole_of_m87(self):
-        """Through a beam; as many microarcseconds across as mass, distance and field say."""
+        """Blurred by a beam; as many microarcseconds across as mass, distance and field give."""
         found = self.read_by_ehtim("-p", "m87", "--size", "128x128")
         field = json.loads(self.good("scene", "-p", "m87"))["camera"]["field_m"]
         self.assertEqual(found["size"], [128, 128])
         self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
 
     def test_visibilities(self):
-        """Those of kerrd visibility beside ehtim's direct transform of the file, whose phase centre is the middle of
-        the picture too. ehtim 1.3.2 transforms by exp(+2 pi i), kerrd by exp(-2 pi i): each is the other's conjugate."""
+        """kerrd visibility against ehtim's direct transform of the file, whose phase centre is the middle of the
+        picture too. ehtim 1.3.2 transforms by exp(+2 pi i), kerrd by exp(-2 pi i): each is the other's conjugate."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -118,7 +118,7 @@ print(json.dumps([[z.real, z.imag] for z in v]))
                 self.assertAlmostEqual(imaginary / columns["re"][0], -theirs_im, delta=1e-5)
 
     def test_flux_and_polarisation(self):
-        """Stokes I, Q, U and V in Jy a pixel, each where it belongs; the flux is that which the file tells."""
+        """Stokes I, Q, U and V in Jy a pixel, each in its place; the flux is the one stated in the file."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -167,7 +167,8 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         )
 
     def test_numbers_that_are_compared_where_ehtim_is_not(self):
-        """tests/cli/files.py compares them: flux, polarisation, and where the light's middle is, east to the left."""
+        """tests/cli/files.py uses these numbers: flux, polarisation, and the centroid of the light, east to the
+        left."""
         code = """
 import json, sys
 import ehtim
@@ -188,8 +189,8 @@ print(json.dumps({"flux_jy": float(image.total_flux()), "linear": float(abs(imag
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-5, msg=name)
 
     def test_chi2(self):
-        """kerrd compare beside ehtim's chisq of the file of the same picture and of the same observation; what
-        tests/cli/compare.py compares where ehtim is not is what ehtim says now."""
+        """kerrd compare against ehtim's chisq for the file of the same picture and the same observation; and ehtim
+        still gives the numbers that tests/cli/compare.py uses where ehtim is not installed."""
         code = """
 import json, sys
 import ehtim
@@ -233,7 +234,7 @@ print(json.dumps(told))
                     self.assertAlmostEqual(case["ehtim"]["chi2"][name] / value, 1, delta=1e-4, msg=name)
 
     def test_the_python_client(self):
-        """kerrd.to_ehtim has what ehtim reads of the file of the same picture."""
+        """kerrd.to_ehtim gives what ehtim reads from the file of the same picture."""
         code = """
 import json, pathlib, sys
 import ehtim, numpy

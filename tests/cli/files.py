@@ -1,5 +1,5 @@
-"""Files of numbers: the same to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read them; units,
-world coordinates, the scene inside."""
+"""Tests of files of numbers: the same to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read them;
+units, world coordinates, the embedded scene."""
 
 import json
 import math
@@ -110,8 +110,8 @@ class Files(support.Case):
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
 
     def test_red_green_and_blue_come_first_in_an_exr_file(self):
-        """OpenImageIO orders channels without case, those without a layer first: what it shows of a file is the first
-        three."""
+        """OpenImageIO sorts channels without regard to case, those without a layer first: it shows the first three
+        of a file."""
         path = self.shot("a.exr", layers=["r", "g", "rgb"])
         names = OpenEXR.File(path, separate_channels=True).channels()
         order = {"r": 0, "g": 1, "b": 2}
@@ -157,7 +157,7 @@ class Files(support.Case):
         self.assertIn("sampled=", header["KDACCUR"])
 
     def test_world_coordinates(self):
-        """By hand: half a width of pixels from the middle, east to the left, north up."""
+        """Computed by hand: half a width of pixels from the middle, east to the left, north up."""
         header = self.opened(
             self.shot("a.fits", "--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", layers=["r"])
         )[0].header
@@ -193,7 +193,8 @@ class Files(support.Case):
         self.assertAlmostEqual(float(up), 45, places=6)
 
     def test_a_field_in_microarcseconds(self):
-        """The picture is that of the same width in M, to the byte; the file's coordinates say it."""
+        """The picture is that of the same width in M, to the byte; the file's coordinates give the width in
+        microarcseconds."""
         hole = ["--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
         on_sky = self.shot("a.fits", "--set", "camera.field_uas=200", *hole, layers=["r"])
         header, numbers = self.opened(on_sky)[0].header, self.opened(on_sky)[0].data
@@ -209,7 +210,7 @@ class Files(support.Case):
         self.assertEqual(json.loads(again)["camera"], camera)
 
     def test_janskys_of_each_pixel(self):
-        """They add up to the flux that is told; Stokes Q, U and V beside them have their unit, in FITS alone."""
+        """They add up to the stated flux; Stokes Q, U and V have the same unit, in FITS only."""
         layers = ["jy_per_pixel", "stokes_q", "stokes_u", "stokes_v", "intensity", "specific_intensity", "r"]
         hot = ["-p", "riaf", "--size", "48x40", "--set", "polarization.model=transfer"]
         for end in ("fits", "npz"):
@@ -244,7 +245,8 @@ class Files(support.Case):
         )
 
     def test_a_radio_source_begins_with_janskys(self):
-        """Without image.layers, so that ehtim reads a preset's file as it is; whoever names layers has those."""
+        """Without image.layers the file has janskys, so that ehtim reads a preset's file as it is; with image.layers
+        it has those layers."""
         hot = ["render", "-p", "riaf", "--size", "24x20"]
         polarised = ["--set", "polarization.model=transfer"]
         jansky, stokes = "jy_per_pixel", ["stokes_q", "stokes_u", "stokes_v"]
@@ -267,8 +269,8 @@ class Files(support.Case):
         self.assertEqual(self.read("a.fits"), self.read("b.fits"))
 
     def test_ehtim_would_say_the_same(self):
-        """By hand from the arrays, beside the numbers that ehtim told of the same picture: their sums, the direction
-        of their polarisation, north over east, and the middle of the light from that of the picture."""
+        """Computed by hand from the arrays and compared with ehtim's numbers for the same picture: their sums, the
+        direction of polarisation, north over east, and the offset of the light's centroid from the middle."""
         fixture = json.loads(pathlib.Path(__file__).with_name("ehtim_numbers.json").read_text())
         self.good("render", *fixture["scene"], "-o", self.path("a.fits"))
         units = self.opened(self.path("a.fits"))
@@ -289,7 +291,8 @@ class Files(support.Case):
             self.assertAlmostEqual(ours[name] / value, 1, delta=1e-4, msg=name)
 
     def test_the_day(self):
-        """Of a source that a scene names by hand, with the fraction of a day; astropy reads the same day of both."""
+        """The date of observation that a scene gives by hand, with the fraction of a day; astropy reads the same day
+        from both formats."""
         day = ["source.ra_deg=10.5", "source.dec_deg=-3.25", "source.mjd=57854.25"]
         header = self.opened(self.shot("e.fits", *(word for pair in day for word in ("--set", pair)), layers=["r"]))[
             0
@@ -303,7 +306,7 @@ class Files(support.Case):
         self.bad(2, "source.dec_deg is 91", "plan", "--set", "source.dec_deg=91")
 
     def test_the_standard(self):
-        """By the standard's own tool; and the sum of the pixels by astropy is that by numpy."""
+        """Checked by the standard's own tool; and the sum of the pixels by astropy equals that by numpy."""
         path = self.files["fits"]
         light = numpy.load(self.files["npy"])["intensity"].astype(float).sum()
         self.assertAlmostEqual(self.opened(path)["intensity"].data.astype(float).sum() / light, 1, delta=1e-9)

@@ -1,6 +1,6 @@
-"""Films by the command line: frames as `kerrd render` makes them, one exposure, what is kept in a folder and gone on
-with, what is refused. With FFMPEG=real (suite `film`) what the program ffmpeg makes of them, as ffprobe and ffmpeg read
-it."""
+"""Tests of films by the command line: frames equal those of `kerrd render`, one exposure, the folder of frames and
+its continuation, refusals. With FFMPEG=real (suite `film`) also the output of the program ffmpeg, as ffprobe and
+ffmpeg read it."""
 
 import json
 import os
@@ -34,7 +34,7 @@ LONG = {**TURN, "keyframes": [{"frame": 59, "scene": {"camera": {"inclination_de
 
 
 def wide_pixels(png):
-    """Those of a PNG of 16 bits and three channels, from its filtered rows (PNG 1.2, section 6)."""
+    """The pixels of a PNG of 16 bits and three channels, from its filtered rows (PNG 1.2, section 6)."""
     width, height, depth, colour = struct.unpack(">IIBB", png[16:26])
     assert (depth, colour) == (16, 2)
     data, at = b"", 8
@@ -61,14 +61,14 @@ def text_of(png, name):
 
 
 def as_shown(light):
-    """Of linear light, at 16 bits: sRGB."""
+    """Linear light encoded as sRGB, at 16 bits."""
     light = numpy.clip(light, 0, 1)
     return 65535 * numpy.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
 
 
 class Case(support.Case):
     def film(self, name, request, *options, code=0):
-        """Runs it; what --stats says, or the complaint."""
+        """Runs kerrd film; returns the output of --stats, or the error message."""
         done = support.run(
             "film", "-", "-o", self.path(name), "-t", *options, stdin=json.dumps(request).encode(), seconds=280
         )
@@ -84,12 +84,12 @@ class Case(support.Case):
         return json.loads(self.good("scene", "--from", self.write("some.png", png)))
 
     def again(self, png):
-        """What its scene gives once more."""
+        """The picture rendered again from the scene in its file."""
         self.good("render", "--from", self.write("one.png", png), "-o", self.path("again.png"))
         return self.read("again.png")
 
     def killed(self, name, request, folder, frames, *options):
-        """Kills a run when so many frames are there."""
+        """Kills a run when that many frames exist."""
         self.write("request.json", json.dumps(request))
         process = subprocess.Popen(
             [support.KERRD, "film", self.path("request.json"), "-o", self.path(name), "--state", folder, *options],
@@ -107,7 +107,7 @@ class Case(support.Case):
 
 
 class Shares(Case):
-    """Frames of one film by several processes into one folder."""
+    """Several processes write frames of one film into one folder."""
 
     def only(self, request, *options, code=0):
         done = support.run("film", "-", "-t", *options, stdin=json.dumps(request).encode(), seconds=120)
@@ -166,8 +166,8 @@ class Pictures(Case):
             self.assertEqual(self.again(frames[k]), frames[k], k)
 
     def test_one_exposure(self):
-        """The median of nine frames' own, measured at 160 pixels, unless each is to have its own, or a keyframe gives a
-        number."""
+        """The exposure of the film is the median of that of nine frames, measured at 160 pixels, unless each frame
+        is to have its own, or a keyframe gives a number."""
         stats = self.film("a.zip", TURN)
         scenes = [self.scene_of(png) for png in self.frames("a.zip")]
         self.assertEqual((stats["exposure_frames"], {s["style"]["exposure"] for s in scenes}), (9, {stats["exposure"]}))
@@ -214,7 +214,7 @@ class Pictures(Case):
     }
 
     def light_at(self, place, image=SIZE):
-        """Linear light of one picture, at a place between the keyframes of BLURRED."""
+        """Linear light of one picture, at a time between the keyframes of BLURRED."""
         scene = {
             **self.BLURRED["scene"],
             "image": {**image, "layers": ["rgb"]},
@@ -225,8 +225,8 @@ class Pictures(Case):
         return numpy.load(self.path("light.npz"))["rgb"].astype(float)
 
     def test_motion_blur(self):
-        """A frame is the mean of the light of five pictures, made here of five files of light; not of pictures as they
-        are shown."""
+        """A frame is the mean of the light of five pictures, computed here from five files of light, not the mean of
+        encoded pictures."""
         stats = self.film("a.zip", self.BLURRED)
         self.assertEqual(stats["lens_maps_traced"], 4 * 5 + 1, "of the last frame all pictures are the same")
         frame = self.frames("a.zip")[1]
@@ -244,7 +244,7 @@ class Pictures(Case):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
 
     def test_motion_blur_in_bands(self):
-        """Of a picture that is made in two parts, from the top down."""
+        """The same for a picture made in two parts, from the top down."""
         image = {"width": 320, "height": 180, "samples": 8}
         request = {
             **self.BLURRED,
@@ -261,7 +261,7 @@ class Pictures(Case):
         self.assertLess(off.max(), 2)
 
     def test_motion_blur_by_options(self):
-        """Samples and shutter of the command line; one sample is the picture itself."""
+        """Samples and shutter given on the command line; with one sample the frame is the picture itself."""
         plain = {k: v for k, v in self.BLURRED.items() if k != "motion_blur"}
         self.film("a.zip", plain)
         self.film("b.zip", self.BLURRED, "--samples", "1")
@@ -276,8 +276,8 @@ class Pictures(Case):
         self.assertEqual(text_of(self.frames("e.zip")[0], b"kerrd:motion_blur"), "samples=2 shutter=0.5")
 
     def test_motion_blur_of_what_is_refined(self):
-        """Where pixels get more rays by how they are shown, and the exposure is each frame's own: with glare and a beam
-        the mean is the same light."""
+        """With rays refined by the pixel's displayed value and an exposure for each frame, also with glare and a
+        beam, the mean is of the same light."""
         request = {
             "scene": {
                 "image": {**SIZE, "samples": "auto"},
@@ -362,7 +362,7 @@ class Pictures(Case):
         )
 
     def test_a_playground(self):
-        """As `kerrd playground --every` makes it, also where some of its frames are there already."""
+        """Same frames as `kerrd playground --every`, also if some of them exist already."""
         document = {
             "preset": "white-dwarf",
             "debris_per_body": 200,
@@ -402,8 +402,8 @@ class Pictures(Case):
         return text
 
     def test_goes_on(self):
-        """A run that was killed: the frames that were there stay, the rest is rendered, and the whole is that of a run
-        that was not."""
+        """After a killed run the existing frames stay, the rest is rendered, and the whole equals that of an
+        uninterrupted run."""
         folder = self.path("kept")
         there = self.killed("b.zip", LONG, folder, 3)
         self.assertLess(there, 60)
@@ -504,7 +504,7 @@ class Pictures(Case):
 
 
 class Films(Case):
-    """By the real ffmpeg."""
+    """Films by the real ffmpeg."""
 
     def probed(self, name):
         about = json.loads(
@@ -549,8 +549,8 @@ class Films(Case):
         return numpy.frombuffer(done.stdout, numpy.uint8).astype(float)
 
     def test_ten_seconds(self):
-        """240 frames of 1280 x 720, killed on the way and gone on with, are those of a run that was not, to the byte;
-        and the film shows them."""
+        """240 frames of 1280 x 720, from a run that is killed and continued, equal those of an uninterrupted run, to
+        the byte; and the film shows them."""
         request = {
             "scene": {"image": {"width": 1280, "height": 720}, "disk": {"gas": {"amplitude": 0}}},
             "keyframes": [{"frame": 239, "scene": {"camera": {"azimuth_deg": 90}, "time": 60}}],

@@ -1,5 +1,5 @@
-"""volume.model "grid": the torus that docs/examples/torus_grid.py samples beside the torus itself, polarised as well; a
-flow with a vertical field; and files that are refused."""
+"""Tests of volume.model "grid": the torus sampled by docs/examples/torus_grid.py against the torus itself, also
+polarised; a flow with a vertical field; and files that are refused."""
 
 import json
 import os
@@ -46,7 +46,7 @@ class Grid(Case):
             return {name: file[name].astype(float) for name in self.layers.split(",")}
 
     def test_it_becomes_the_torus(self):
-        """Twice as many nodes each way, a quarter of what is off: in the flux, and in each pixel."""
+        """With twice as many nodes in each direction the error is a quarter: in the flux, and in each pixel."""
         self.layers = "brightness_temperature"
         want, off = self.maps()[self.layers], []
         for shape in ((48, 24), (96, 48), (192, 96)):
@@ -64,8 +64,8 @@ class Grid(Case):
         )
 
     def test_a_dump(self):
-        """What a converter makes of B and u of a simulation is the field b in the frame of the matter that B was made
-        of, by the metric as a matrix."""
+        """A converter of B and u of a simulation gives the field b in the frame of the matter from which B was
+        computed, using the metric as a matrix."""
         random, a, rho_unit = numpy.random.default_rng(3), 0.9, 2e-18
         r, theta, phi = (
             numpy.geomspace(1.2, 40, 24),
@@ -160,8 +160,8 @@ class Grid(Case):
         self.assertTrue(all(3 < coarse / fine < 5.5 for coarse, fine in zip(*off)), off)
 
     def test_a_vertical_field(self):
-        """Beside the model riaf outside the ISCO: components of the field in r and theta, and what the motion makes of
-        them."""
+        """Against the model riaf outside the ISCO: components of the field in r and theta, and how the motion
+        changes them."""
         self.layers = "intensity,stokes_q,stokes_u,stokes_v"
         a, mp, c = 0.5, 1.67262192369e-24, 2.99792458e10
         r, theta = numpy.geomspace(5, 25, 128)[:, None], ((numpy.arange(96) + 0.5) * numpy.pi / 96)[None, :]
@@ -216,7 +216,7 @@ class Grid(Case):
             self.assertLess(off, 0.01)
 
     def test_what_uses_it(self):
-        """A density by its flux, a spectrum and a pixel."""
+        """Other commands that use a grid: a density from a flux, a spectrum and a pixel."""
         asset = self.sampled(48, 24)
         told = json.loads(
             run(

@@ -1,4 +1,4 @@
-"""Arguments and scenes, good and bad. Needs no device."""
+"""Tests of arguments and scenes, good and bad. Needs no device."""
 
 import json
 import os
@@ -61,7 +61,7 @@ class Usage(Case):
         self.bad(2, "it must be at most 1279", "scene", "--tile", "1280x720+1+0")
 
     def test_assets(self):
-        """Those that nothing names; tests/cli/render.py has one that is shown."""
+        """Assets that no field refers to; tests/cli/render.py has one that is shown."""
         picture = self.path("a.png")
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -167,7 +167,7 @@ class Usage(Case):
 
 
 class Names(Case):
-    """The end of a file's name is its format, or an error: nobody takes one for another."""
+    """The ending of a file's name determines its format, or is an error, so that no format is mistaken for another."""
 
     def test_a_name_that_ends_as_another_format_does(self):
         table, tabled = ["a.h5", "a.csv.gz", "a.fit", "a.txt", "a.xlsx", "a.png"], ["--output"]
@@ -279,7 +279,7 @@ class Files(Case):
 
     @unittest.skipIf("SANITIZED" in os.environ, "the address sanitizer reserves terabytes of addresses")
     def test_limit_of_the_address_space(self):
-        """A driver that has too little of it ends the process without a word."""
+        """A driver that has too little address space ends the process without a message."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (700 << 20, 700 << 20))
@@ -291,7 +291,7 @@ class Files(Case):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_limit_of_the_size_of_a_file(self):
-        """A file that grows past it is no half file."""
+        """If the file would grow beyond the limit no partial file is left."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
@@ -356,7 +356,7 @@ class Scenes(Case):
         self.assertEqual(merged["camera"]["inclination_deg"], 80)
 
     def test_rules_apply_to_the_whole(self):
-        # Each alone would do; together they put the edges of the disk in the wrong order.
+        # Each alone is valid; together they put the edges of the disk in the wrong order.
         document = self.write("scene.json", '{"disk":{"inner":30}}')
         self.bad(2, "(at /disk/", "scene", document)
         self.assertEqual(self.scene(document, "--set", "disk.outer=40")["disk"]["inner"], 30)

@@ -1,5 +1,5 @@
-"""Manual pages and the completions of bash, against what the program itself says: each option of --help stands in both,
-examples run, words are taken."""
+"""Tests of the manual pages and of bash completion against the program itself: each option of --help is in both,
+examples run, and the listed words are accepted."""
 
 import json
 import os
@@ -67,7 +67,8 @@ class Manual(Case):
                 )
 
     def test_docs_of_help(self):
-        """The text of --help before and after the options, a word at a time: it wraps lines elsewhere."""
+        """The text of --help before and after the options, compared word by word because its lines are wrapped
+        differently."""
         for context in contexts():
             words = " ".join(run(*context, "--help").stdout.decode().replace("`", "").split())
             text = plain(pages()[f"kerrd-{context[0]}.1"])
@@ -79,7 +80,7 @@ class Manual(Case):
                 self.assertIn(" ".join(paragraph.replace("`", "").split()), words, context)
 
     def test_environment(self):
-        """Each variable that the sources read is told."""
+        """Each environment variable that the sources read is documented."""
         text = "".join(path.read_text() for path in SOURCES.rglob("*.c"))
         read = set(re.findall(r'getenv\("(\w+)"\)', text)) - {"SOURCE_DATE_EPOCH"}
         self.assertIn("KERRD_DEVICE", read)
@@ -100,7 +101,7 @@ class Manual(Case):
 
 class Installed(Case):
     def test_places(self):
-        """Where Debian looks for them, below the prefix."""
+        """Installed where Debian looks for them, below the prefix."""
         build = MADE.parents[2]
         places = json.loads(
             subprocess.run(["meson", "introspect", "--installed", build], capture_output=True, check=True).stdout
@@ -139,7 +140,8 @@ class Examples(Case):
         self.assertGreater(seen, 20)
 
     def environment(self, line, env):
-        """A table that is measured beside other tests is not for whoever runs them: it would choose their engines."""
+        """An environment without stored tables: a table measured while other tests run must not decide which engines
+        are used."""
         if not line.startswith("kerrd bench"):
             return env
         shaders = env.get("MESA_SHADER_CACHE_DIR") or env.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
@@ -151,7 +153,7 @@ class Examples(Case):
         self.assertEqual((done.returncode, done.stderr.decode()), (0, ""), line)
 
     def serve(self, line, env):
-        """At a free port, until it listens."""
+        """Starts a server at a free port and waits until it listens."""
         server = subprocess.Popen(
             ["bash", "-c", f"exec {line} --port 0"],
             cwd=self.folder,
@@ -167,8 +169,8 @@ class Examples(Case):
 
 class Words(Case):
     def test_words_of_help(self):
-        """What --help spells out as a|b|c is what the program takes: a wrong word is refused, and the complaint names
-        each."""
+        """The words that --help lists as a|b|c are those that the program accepts: a wrong word is refused, and the
+        message lists each of them."""
         seen = 0
         for context in contexts():
             for option, argument in told(context).items():
@@ -190,10 +192,10 @@ class Words(Case):
 
 
 class Bash(Case):
-    """The function, called as bash calls it."""
+    """The completion function, called as bash calls it."""
 
     def complete(self, line):
-        """What is proposed for the line, the cursor at its end."""
+        """The proposals for this line, with the cursor at its end."""
         tokens = re.findall(r"[=:]+|[^\s=:]+", line) + ([""] if line.endswith(" ") else [])  # as bash splits them
         script = 'source "$1"; COMP_LINE=$2 COMP_POINT=${#2}; shift 2; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _kerrd; printf "%s\\n" "${COMPREPLY[@]}"'
         env = {**os.environ, "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
@@ -282,8 +284,8 @@ class Bash(Case):
         self.assertEqual(self.complete("kerrd scene --set camera.r="), ["infinity"])
 
     def test_words_of_fields_are_taken(self):
-        """Each word that is proposed for a field is one of it: it may be refused for its company, and not for
-        itself."""
+        """Each word proposed for a field is a value of it: it may be refused in combination with other fields, but
+        not for itself."""
         complaint = lambda field, word: run("scene", "--set", field + word).stderr.decode()
         words = 0
         for field in [name for name in self.complete("kerrd scene --set ") if ".0." not in name]:

@@ -1,4 +1,4 @@
-"""kerrd orbit: what it takes, what it says of mistakes, and that every form tells the same. Needs no device."""
+"""Tests of kerrd orbit: options, error messages, and that all output formats agree. Needs no device."""
 
 import csv
 import io

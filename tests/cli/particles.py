@@ -1,4 +1,4 @@
-"""kerrd particles: the array, what of it, and what is refused."""
+"""Tests of kerrd particles: the array, selections from it, and refusals."""
 
 import math
 import os
@@ -11,7 +11,7 @@ SCENE = ["--preset", "living-disk", "--set", "disk.particles=150000"]
 
 
 def read(data):
-    """Names, and rows of floats; without NumPy."""
+    """Column names, and rows of floats; without NumPy."""
     size = struct.unpack("<H", data[8:10])[0]
     header = data[10 : 10 + size].decode()
     names = re.findall(r"\('([a-z_]*)', '<f4'\)", header)
@@ -54,7 +54,7 @@ class Particles(Case):
             self.assertAlmostEqual(math.remainder(later - phi - 7 * rate, 2 * math.pi), 0, delta=2e-6)
 
     def test_lists_reach_beyond_the_edges_of_the_disk(self):
-        """Guiding orbits reach beyond both edges by the share disk.epicycles, and particles swing by as much."""
+        """Guiding orbits extend beyond both edges by the share disk.epicycles, and particles oscillate by as much."""
         swing = 0.1
         disk = ["disk.inner=10", "disk.outer=14", f"disk.epicycles={swing}", "disk.plunging=0"]
         options = [word for each in disk for word in ("--set", each)]

@@ -1,4 +1,4 @@
-"""kerrd physics: names, options, ranges, forms, and what is refused."""
+"""Tests of kerrd physics: names, options, ranges, output formats, and refusals."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""kerrd pixel: tables and JSON say the same, and bad places are refused."""
+"""Tests of kerrd pixel: tables and JSON agree, and bad places are refused."""
 
 import json
 import math

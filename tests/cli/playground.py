@@ -1,4 +1,4 @@
-"""kerrd playground: what it takes, what it says of mistakes, and what it writes. Needs no device."""
+"""Tests of kerrd playground: options, error messages, and output. Needs no device."""
 
 import csv
 import json
@@ -65,8 +65,8 @@ class Playground(Case):
         self.assertLess(separations[-1], 0.5 * separations[0])
 
     def test_all_that_happens_is_told(self):
-        """Of more events than are kept at once none is lost while the motion goes on; of more in a single sub-step it
-        is said which are."""
+        """If there are more events than are stored at once none is lost while the motion goes on; if there are more
+        in a single sub-step the lost ones are reported."""
         events, document = self.path("events.ndjson"), self.path("many.json")
         ring = [
             {
@@ -127,7 +127,7 @@ class Playground(Case):
             return [{name: float(text or "nan") for name, text in row.items()} for row in csv.DictReader(file)]
 
     def test_the_documented_chirp(self):
-        """It comes to its end; its series is even from the begin to the time asked for."""
+        """The inspiral reaches its end; the series is even from the beginning to the requested time."""
         path = self.path("chirp.csv")
         done = run("playground", "--preset", "emri", "--time", "20000", "--series", path, "-o", "-")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
@@ -142,7 +142,7 @@ class Playground(Case):
         self.assertTrue(all(math.isnan(row["separation"]) for row in rows[len(falling) :]))
 
     def test_rows_between_sub_steps(self):
-        """A circle at 20 M is one between its sub-steps, too: h+ is 4 m v^2 cos(2 phi), as of a short step."""
+        """A circle at 20 M stays one between its sub-steps: h+ is 4 m v^2 cos(2 phi), as with short steps."""
         path, document = self.path("circle.csv"), self.path("circle.json")
         speed = math.sqrt(20) / 18
         with open(document, "w") as file:
@@ -169,7 +169,8 @@ class Playground(Case):
         self.assertIn(b"time ends at 1e+12 M", done.stderr)
 
     def test_momentum_that_is_lost_at_c_is_told(self):
-        """Bodies smaller than 2 (m1 + m2) pull each other to more than c, and are held at it."""
+        """Bodies smaller than 2 (m1 + m2) accelerate each other beyond c; their speed is limited to c, and the
+        momentum lost by that is reported."""
         document = self.path("small.json")
         for radius, told in (1.0, False), (0.2, True):
             with open(document, "w") as file:

@@ -1,4 +1,4 @@
-"""kerrd playground --picture: films, what their files say, and what is refused."""
+"""Tests of kerrd playground --picture: films, the metadata of their files, and refusals."""
 
 import hashlib
 import json

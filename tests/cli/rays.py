@@ -1,4 +1,4 @@
-"""kerrd rays: what it takes, what it says of mistakes, and that every form tells the same. Needs no device."""
+"""Tests of kerrd rays: options, error messages, and that all output formats agree. Needs no device."""
 
 import csv
 import io
@@ -137,8 +137,8 @@ class Rays(Case):
         self.assertTrue(done.stderr.startswith(b"kerrd: "), done.stderr)
 
     def test_a_tolerance_is_held_ray_by_ray(self):
-        """On a device. What 32 bits do not hold of five orders next to the critical curve is followed again; what no
-        double holds says so."""
+        """On a device: values of five orders next to the critical curve that 32 bits cannot give to the tolerance
+        are traced again; those that double precision cannot give either are marked."""
         near = [
             "--ray=5.8396981340323952,-2.9198490670161976",
             "--ray=5.8438,-2.9219",

@@ -1,4 +1,4 @@
-"""Pictures from the command line, on a real device."""
+"""Tests of pictures from the command line, on a real device."""
 
 import ast
 import hashlib
@@ -53,7 +53,7 @@ class Pictures(Case):
         self.assertEqual(stat.S_IMODE(os.stat(self.path("a.png")).st_mode), 0o666 & ~mask)
 
     def test_the_eht_style(self):
-        """False colours, and scales of them where there is room; what is set behind the style is the user's own."""
+        """False colours, with scales where there is room; options given after the style override it."""
         eht = "--preset", "m87", "--set", "style.name=eht", "--set", "image.samples=1"
         self.good("render", *eht, "--size=320x180", "-o", self.path("a.png"))
         style = json.loads(text(self.read("a.png"))[b"kerrd:scene"])["style"]
@@ -188,8 +188,8 @@ class Pictures(Case):
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
 
     def test_layers_are_numbers(self):
-        """NumPy's header and records, read by hand: NaN where there is no disk, and the picture's light is the
-        layer's."""
+        """NumPy's header and records, read by hand: NaN where there is no disk, and the picture's light is that of
+        the layer."""
         self.good("render", *SMALL, "--set", "image.layers=r,rgb,intensity", "-o", self.path("a.npy"))
         file = self.read("a.npy")
         (length,) = struct.unpack("<H", file[8:10])
@@ -355,8 +355,8 @@ class Pictures(Case):
         )
 
     def test_every_preset(self):
-        """Each is known by its name, and another scene than the others. That each can be rendered say
-        tests/http/kerrd.py and the pictures."""
+        """Each preset is found by its name, and differs from the others. That each can be rendered is tested by
+        tests/http/kerrd.py and the reference pictures."""
         names = [line.split()[0] for line in self.good("presets").decode().splitlines()]
         plans = {self.good("plan", *SMALL, "--preset", name) for name in names}
         self.assertGreater(len(names), 10)
@@ -393,7 +393,7 @@ class Outputs(Case):
         self.assertEqual(self.read("a.png")[:4], b"\x89PNG")
 
     def test_pipes_stay(self):
-        # Not /dev/null: were this to fail for root, the whole machine would suffer.
+        # Not /dev/null: if this test failed as root, the whole machine would lose it.
         os.mkfifo(self.path("pipe"))
         read = threading.Thread(target=lambda: self.assertEqual(self.read("pipe")[:4], b"\x89PNG"), daemon=True)
         read.start()

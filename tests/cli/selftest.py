@@ -1,5 +1,5 @@
-"""kerrd doctor --selftest: the table, the same as JSON, and its exit codes. tests/gpu/test_selftest.c: that a wrong
-number is seen."""
+"""Tests of kerrd doctor --selftest: the table, the same as JSON, and its exit codes. That a wrong number is noticed
+is tested by tests/gpu/test_selftest.c."""
 
 import json
 import re

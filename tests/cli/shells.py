@@ -1,4 +1,4 @@
-"""Completions in zsh and fish as these run them, and manual pages as mandoc and man read them. Suite `shells`:
+"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. Suite `shells`:
 scripts/setup --shells installs the programs."""
 
 import fcntl
@@ -21,7 +21,7 @@ from support import KERRD, Case, run
 MADE = pathlib.Path(sys.argv.pop(1))  # where the build has made them
 NEEDED = ["zsh", "fish", "mandoc", "man"]
 
-# Writes down what is proposed, instead of showing it: one to a line, the whole word.
+# Writes the proposals, one whole word to a line, instead of displaying them.
 ZSH = r"""
 PROMPT= RPROMPT=
 unsetopt zle_bracketed_paste 2> /dev/null
@@ -57,7 +57,7 @@ print ready >> $CAPTURE
 
 
 class Completes:
-    """What each shell must know, by its own complete(line); folder_completed: how it writes a folder."""
+    """Tests for each shell, by its own complete(line); folder_completed: how the shell writes a completed folder."""
 
     def test_commands(self):
         self.assertEqual(self.complete("kerrd ren"), ["render"])
@@ -181,7 +181,7 @@ class Fish(Completes, Case):
 
 
 class Read(Case):
-    """Syntax, and what mandoc and groff have to say."""
+    """Manual pages: syntax, and messages of mandoc and groff."""
 
     def test_syntax(self):
         for shell, name in ("bash", "kerrd"), ("zsh", "_kerrd"), ("fish", "kerrd.fish"):
@@ -189,7 +189,7 @@ class Read(Case):
             self.assertEqual((done.returncode, done.stderr.decode()), (0, ""), name)
 
     def lint(self, path):
-        """What both say of a page: nothing."""
+        """Neither program has anything to say about a page."""
         mandoc = subprocess.run(["mandoc", "-Tlint", "-W", "warning", path], capture_output=True, text=True)
         env = {**os.environ, "LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80"}  # as Debian's lintian reads them
         man = subprocess.run(
@@ -208,7 +208,7 @@ class Read(Case):
             self.assertEqual(self.lint(path), ("", ""), path.name)
 
     def test_bad_page(self):
-        """Both would say something."""
+        """Both programs do report a bad page."""
         page = (MADE / "kerrd.1").read_text()
         mandoc, man = self.lint(
             self.write("bad.1", page.replace(".SH OPTIONS", ".SH\n.XX\n.ft NONE\nOPTIONS\\[nothing]"))

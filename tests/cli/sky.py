@@ -38,8 +38,8 @@ class Sky(support.Case):
                 self.assertLess(places.length(where), TEXEL, (name, off))
 
     def test_the_panorama_and_the_catalogue_are_aligned(self):
-        """Where the catalogue has stars the panorama has light, by far more than elsewhere; in the middle, as a picture
-        of the catalogue has."""
+        """The panorama has light where the catalogue has stars, far more than elsewhere; in the centre, as much as a
+        picture of the catalogue has."""
         for row in places.aligned(self.seen, places.shown(support.KERRD, None, *places.STARS_ALONE)):
             self.assertGreater(row.peak, 10, row)
             self.assertLess(places.length(row.panorama), 0.1, row)

@@ -1,4 +1,4 @@
-"""Run the real kerrd and look at its exit code, its output and its one line of complaint."""
+"""Runs the real kerrd and checks its exit code, its output and its one-line error message."""
 
 import os
 import subprocess
@@ -40,7 +40,7 @@ class Case(unittest.TestCase):
         return done.stdout
 
     def bad(self, code, words, *args, **kwargs):
-        """The exit code, nothing on stdout, and one line on stderr that holds the words."""
+        """Checks the exit code, that stdout is empty, and that stderr is one line that contains the words."""
         done = run(*args, **kwargs)
         text = done.stderr.decode()
         self.assertEqual(done.returncode, code, (args, text))

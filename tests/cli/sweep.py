@@ -1,5 +1,5 @@
-"""Sweeps: a cube as astropy and numpy read it, to the bit what single renders give; axes, world coordinates, tables;
-pictures and light by axes; what is refused."""
+"""Tests of sweeps: a cube as astropy and numpy read it, equal to the bit to single renders; axes, world coordinates,
+tables; pictures and light by axes; refusals."""
 
 import csv
 import io
@@ -48,7 +48,7 @@ def bits(array):
 
 class Sweep(support.Case):
     def setUp(self):
-        """The same cube in both formats, made once: cube.fits, cube.npz, and what the command line says of each."""
+        """The same cube in both formats, made once: cube.fits, cube.npz, and the command line's output for each."""
         super().setUp()
         if not MADE:
             for name in "cube.fits", "cube.npz":
@@ -73,8 +73,8 @@ class Sweep(support.Case):
         return units
 
     def test_planned(self):
-        """What a plan says of all scenes together is what the sweep then does: scenes, lens maps, and the time of those
-        that are shared."""
+        """What a plan states for all scenes together is what the sweep then does: scenes, lens maps, and the time
+        with shared maps counted once."""
         plan = json.loads(self.good("plan", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), *ARGUMENTS))
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (self.stats["scenes"], self.stats["lens_maps_traced"]))
         self.assertEqual({path: [str(value) for value in values] for path, values in plan["axes"].items()}, AXES)
@@ -93,7 +93,7 @@ class Sweep(support.Case):
         self.bad(2, "scene 1", "plan", *SCENE, "-x", "image.width=64,9000", "--set", "image.height=9000")
 
     def test_a_cube_is_its_scenes(self):
-        """In both formats, against a file of each scene by itself."""
+        """In both formats, against a file of each single scene."""
         self.assertEqual(
             (self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6)
         )  # three inclinations, of two disks that need different things of a map
@@ -144,7 +144,7 @@ class Sweep(support.Case):
         header = units[0].header
         self.assertEqual((json.loads(header["KDAXES"]), json.loads(header["KDSCENE"])), (told["axes"], told["scene"]))
         self.assertEqual((header["SPIN"], "CAM_INCL" in header), (0.7, False))
-        # world coordinates by astropy: the second outer radius, the third inclination, the first disk, of the layer r
+        # world coordinates by astropy: the second outer radius, the third inclination, the first disk, layer r
         self.swept("b.fits", axes=ARGUMENTS[:2] + ARGUMENTS[4:])
         for name in "cube.fits", "b.fits":
             world = WCS(self.opened(name)["r"].header)
@@ -165,7 +165,7 @@ class Sweep(support.Case):
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
     def test_cards_leave_out_what_of_the_source_is_swept(self):
-        """The axis has it; what is the same in all scenes has its card."""
+        """A property of the source that is swept is on the axis; one that is the same in all scenes has its card."""
         cards = {
             "source.name": ["OBJECT"],
             "source.ra_deg": ["OBSRA"],
@@ -220,7 +220,8 @@ class Sweep(support.Case):
         return json.loads(done.stderr)
 
     def test_a_cube_of_a_radio_source_has_the_layers_that_are_asked_for(self):
-        """Not janskys in the picture's place, as a FITS file has them: beside a sky they are not known."""
+        """A cube has the requested layers, not janskys instead of the picture as a FITS file has: with a sky these
+        are undefined."""
         for name in ("a.fits", "a.npz"):
             sky = ["-x", "sky.model=none,grid"]
             done = support.run("sweep", "-p", "riaf", "--size", "12x12", *sky, "-o", self.path(name))
@@ -230,7 +231,7 @@ class Sweep(support.Case):
 
     def test_frequencies(self):
         """Maps at a list of frequencies: each plane is the picture at its frequency, astropy finds the frequency of
-        each, and each has its flux."""
+        each, and each has its own flux."""
         layers, given = ["rgb", "brightness_temperature", "specific_intensity"], [345, 86, 230]
         axes = ["-x", "camera.inclination_deg=30,60", "-x", "volume.frequency_ghz=" + ",".join(map(str, given))]
         stats = self.radio("a.fits", *axes, layers=",".join(layers))
@@ -259,7 +260,7 @@ class Sweep(support.Case):
             self.assertEqual((alone[0].header["FREQ"], alone[0].header["FLUX_JY"]), (given[j] * 1e9, fluxes[i, j]))
             for name in layers:
                 self.assertTrue(numpy.array_equal(bits(alone[name].data), bits(units[name].data[i, j])), (name, at))
-        # the mean of I_nu times the solid angle is the flux: by the plane's own frequency, and nothing else
+        # the mean of I_nu times the solid angle is the flux, at the plane's own frequency only
         pixel = units["specific_intensity"].header["CDELT2"] * numpy.pi / 180
         self.assertTrue(
             numpy.allclose(
@@ -278,7 +279,8 @@ class Sweep(support.Case):
             self.assertEqual([*first.celestial.wcs.cdelt], [*world.celestial.wcs.cdelt])
 
     def test_frequencies_that_are_even(self):
-        """They are an axis FREQ in Hz of the usual world coordinates; a sweep of other pictures has no flux."""
+        """Evenly spaced frequencies become an axis FREQ in Hz of the usual world coordinates; a sweep of other
+        pictures states no flux."""
         for text, expected in (
             ("86:230:72", [86e9, 158e9, 230e9]),
             ("230", [230e9]),
@@ -309,7 +311,7 @@ class Sweep(support.Case):
         self.assertNotIn("FREQ", units[0].header)
 
     def test_every_credit_is_told(self):
-        """Of two photographs of the sky, each by somebody else; one name is long."""
+        """For two photographs of the sky, by different authors, both are credited; one name is long."""
         names = ["Ada " + "of Somewhere " * 12, "Bo"]
         for name, text, grey in zip("ab", names, (90, 200)):
             parts = (

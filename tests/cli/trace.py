@@ -1,4 +1,5 @@
-"""kerrd rays --trace: one ray step by step and as a path, the same in every form; the case of its roots by numpy."""
+"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats; the case of its roots by
+numpy."""
 
 import csv
 import io
@@ -50,8 +51,8 @@ class Trace(Case):
                 )
 
     def test_the_case_of_its_roots(self):
-        """R(r) = (r^2 + a^2 - a lambda)^2 - Delta K, by its residues at the roots that are told; theta by the polar
-        potential's own zeros."""
+        """R(r) = (r^2 + a^2 - a lambda)^2 - Delta K, by its residues at the roots given; theta by the zeros of the
+        polar potential."""
         cases = set()
         for a, i, alpha, beta in (
             (0.9, 70, -3.75, 1),

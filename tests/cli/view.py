@@ -1,5 +1,5 @@
-"""kerrd view in a terminal of our own, which answers as kitty does, as one with sixel, as neither, or not at all; what
-it is sent is decoded again."""
+"""Tests of kerrd view in a simulated terminal, which answers like kitty, like one with sixel, like one with neither,
+or not at all; the pictures sent to it are decoded again."""
 
 import base64
 import fcntl
@@ -21,7 +21,7 @@ KITTY, SIXEL, NEITHER = b"\x1b_Gi=31;OK\x1b\\\x1b[?62;c", b"\x1b[?62;4;22c", b"\
 
 
 class Terminal:
-    """Runs kerrd with a pseudo-terminal as its own; answers all queries together, once the last has come."""
+    """Runs kerrd with a pseudo-terminal; answers all queries at once after the last has come."""
 
     def __init__(self, *args, answer=b"", columns=80, rows=24, pixels=(640, 384), env=None, cwd=None, keys=b""):
         master, slave = pty.openpty()
@@ -69,7 +69,7 @@ class Terminal:
 
 
 def kitty(sent):
-    """The controls of the first command and the bytes of the picture; what stands outside the commands."""
+    """The controls of the first command and the bytes of the picture; and the output outside the commands."""
     commands = re.findall(rb"\x1b_G([^;]*);([^\x1b]*)\x1b\\", sent)
     for i, (controls, text) in enumerate(commands):
         last = i + 1 == len(commands)
@@ -83,7 +83,7 @@ def kitty(sent):
 
 
 def sixel(sent):
-    """Width, height and rows of (r, g, b) of 0 to 255; what stands after the picture."""
+    """Width, height and rows of (r, g, b) from 0 to 255; and the output after the picture."""
     body, _, rest = sent.partition(b"\x1bP")[2].partition(b"q")[2].partition(b"\x1b\\")
     head = re.match(rb'"1;1;(\d+);(\d+)', body)
     width, height = int(head[1]), int(head[2])
@@ -108,7 +108,7 @@ def sixel(sent):
 
 
 def pixels(png):
-    """Those of an 8-bit RGB file, and its size."""
+    """The pixels of an 8-bit RGB file, and its size."""
     at, data = 8, b""
     while at < len(png):
         length, kind = struct.unpack(">I4s", png[at : at + 8])
@@ -129,7 +129,7 @@ def pixels(png):
 
 
 def block_means(rows, size=6):
-    """Of blocks of pixels: dither goes out in them."""
+    """Means over blocks of pixels, which remove dithering."""
     for y in range(0, len(rows) - size + 1, size):
         for x in range(0, len(rows[0]) - size + 1, size):
             block = [rows[y + j][x + i] for j in range(size) for i in range(size)]
@@ -161,8 +161,8 @@ class View(Case):
         self.assertEqual((width, height, rest), (192, 108, b"\n"))
         _, _, wanted = pixels(self.rendered("--size", "192x108"))
         self.assertNotIn(None, [pixel for row in rows for pixel in row])
-        # 256 colours of the picture's own, in steps of a hundredth, dithered: 2.55 / 2 from the steps, the rest from
-        # the palette.
+        # A palette of 256 colours of this picture, in steps of 1/100, dithered: 2.55 / 2 comes from the steps, the rest
+        # from the palette.
         errors = [abs(a - b) for mean, want in zip(block_means(rows), block_means(wanted)) for a, b in zip(mean, want)]
         self.assertLess(max(errors), 12)
         self.assertLess(sum(errors) / len(errors), 2)
@@ -264,7 +264,7 @@ class View(Case):
         )  # 22 of 24 lines high
 
     def test_bits(self):
-        """16 bits a channel, as sixel: the same picture but for rounding."""
+        """16 bits a channel, shown as sixel: the same picture except for rounding."""
         low, high = (
             sixel(self.good("view", *SMALL, "--set", f"image.bit_depth={bits}", "--protocol", "sixel"))[2]
             for bits in (8, 16)

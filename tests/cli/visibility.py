@@ -1,5 +1,5 @@
-"""kerrd visibility and kerrd spectrum of a scene: beside a Fourier transform of the map that kerrd render writes, the
-universal signature of photon rings, and fluxes in closed form."""
+"""Tests of kerrd visibility and kerrd spectrum of a scene, against a Fourier transform of the map that kerrd render
+writes, the universal signature of photon rings, and fluxes in closed form."""
 
 import cmath
 import csv
@@ -15,7 +15,7 @@ GIGA_UAS = 1e9 * math.radians(1) / 3.6e9
 
 
 def fft(row):
-    """By halves (Cooley & Tukey 1965)."""
+    """Recursion by halves (Cooley & Tukey 1965)."""
     if len(row) == 1:
         return row
     even, odd = fft(row[::2]), fft(row[1::2])
@@ -65,7 +65,7 @@ class Visibility(Case):
         flux = sum(light) * pixel**2
         self.assertAlmostEqual(told["values"]["flux_jy"] / flux, 1, delta=1e-6)
         for (a, b), re, im in zip(ks, told["columns"]["re"], told["columns"]["im"]):
-            # indices grow to the right and down, x and y to the left and up: so u and v are below 0
+            # indices grow to the right and down, x and y to the left and up: therefore u and v are negative
             want = columns[a][b] * pixel**2 * cmath.exp(2j * math.pi * (a + b) * (n - 1) / 2 / n)
             self.assertLess(abs(complex(re, im) - want), 1e-6 * flux, (a, b))
         rows = list(csv.DictReader(io.StringIO(self.good("visibility", *options, "-f", "csv").decode())))
@@ -114,8 +114,8 @@ class Visibility(Case):
             self.assertAlmostEqual(part, all_, delta=1e-5)
 
     def test_spectra(self):
-        """A picture's flux, and that of a sphere in flat space: R = 100 GM/c^2, too small a hole to bend its light, far
-        too thin to absorb: F = j V/D^2, as Pandya's fit has j."""
+        """The flux of a picture, and that of a sphere in flat space: R = 100 GM/c^2, the hole too small to bend its
+        light, and far too thin to absorb: F = j V/D^2, with j by Pandya's fit."""
         self.good(
             "render", "-p", "riaf", "--size", "48x48", "-o", self.path("a.png"), "--set", "camera.inclination_deg=45"
         )
@@ -178,8 +178,8 @@ class Visibility(Case):
             self.assertAlmostEqual(jy / self.thin_sphere(radius, n, field, hz), 1, delta=0.01)
 
     def test_a_spectrum_of_a_given_flux(self):
-        """The density that gives 2 Jy at the scene's own 223 GHz is the matter at all frequencies: the spectrum is that
-        of a scene which has it."""
+        """The density that gives 2 Jy at the scene's 223 GHz holds at all frequencies: the spectrum equals that of a
+        scene with that density."""
         settings = ("--set", "camera.inclination_deg=45", "--set", "volume.normalise_to_jy=2")
         told = json.loads(
             run("render", "-p", "riaf", "--size", "48x48", *settings, "--stats", "-o", self.path("n.png")).stderr

@@ -1,12 +1,12 @@
-"""What schemathesis sends is made cheap: values that are valid become smaller valid ones, so that a case stays as
-valid, or as wrong, as it was."""
+"""Makes the requests of schemathesis cheap: valid values become smaller valid ones, so that a case stays as valid,
+or as wrong, as it was."""
 
 import re
 
 RANGE = re.compile(r"^([^:]+):([^:]+):(\d+)$")
 WIDTH, HEIGHT = 40, 24
 
-# The most of a member that is a number, or that a list may hold, wherever it stands in a body.
+# The largest value of a member that is a number, or the largest length of a list, wherever it is in a body.
 NUMBERS = {
     "bins": 8,
     "rings": 3,
@@ -45,7 +45,7 @@ def is_count(value):
 
 
 def smaller_image(image):
-    """Of an object only, and of sizes only that are missing or valid."""
+    """Reduces an object only, and only sizes that are missing or valid."""
     if not isinstance(image, dict):
         return
     for name, most in (("width", WIDTH), ("height", HEIGHT)):
@@ -57,7 +57,7 @@ def smaller_image(image):
 
 
 def smaller_scene(scene, whole):
-    """whole: no picture of it may be of the usual size, so that it gets one where it says nothing."""
+    """whole: pictures of it must not have the default size, so that it gets a size where it has none."""
     if not isinstance(scene, dict):
         return
     if whole:
@@ -66,7 +66,7 @@ def smaller_scene(scene, whole):
 
 
 def smaller_duration(duration):
-    """Of an orbit."""
+    """The duration of an orbit."""
     if isinstance(duration, dict):
         for name, most in DURATIONS.items():
             if (
@@ -78,7 +78,7 @@ def smaller_duration(duration):
 
 
 def smaller(value, name=""):
-    """The same within, of a body that is valid: there is no number that is too large."""
+    """The same for everything inside a valid body: there is then no number that is too large."""
     if isinstance(value, list):
         if name in LISTS and len(value) > LISTS[name]:
             del value[LISTS[name] :]
@@ -123,8 +123,8 @@ def smaller_job(path, value):
 
 
 def body(path, value, sound):
-    """Changes it. sound: it is valid by the schema; of one that is not, pictures alone are made smaller, for a list
-    that is too long must stay so."""
+    """Changes the body. sound: it is valid by the schema; in one that is not, only pictures are made smaller,
+    because a list that is too long must stay so."""
     if not isinstance(value, dict):
         return
     if sound:
@@ -138,7 +138,7 @@ def body(path, value, sound):
 
 
 def query(path, value):
-    """Changes it, a mapping of names to values."""
+    """Changes the query, a mapping of names to values."""
     for name, one in value.items():
         match = RANGE.match(one) if isinstance(one, str) else None
         if match and 3 < int(match[3]) <= 100000:

@@ -1,5 +1,5 @@
-"""Hooks of schemathesis for kerrd: cases are made cheap, what they make is deleted again, answers are counted, and a
-check of our own sees headers that openapi.json does not name."""
+"""Hooks of schemathesis for kerrd: cases are made cheap, what they create is deleted again, answers are counted, and
+an additional check finds headers that openapi.json does not name."""
 
 import atexit
 import collections
@@ -21,10 +21,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import cheap  # noqa: E402
 import known  # noqa: E402
 
-# sessions, playgrounds, jobs and assets each that are left alive, so that stateful cases find what they have made
+# the number of sessions, playgrounds, jobs and assets of each kind that are left alive, so that stateful cases find
+# what they have made
 KEPT = 24
 ENDLESS = ("multipart/x-mixed-replace", "application/x-kerrd-frames")
-# Headers of HTTP itself, of caches, proxies and browsers, that any answer may have: openapi.json names the others.
+# Headers of HTTP itself, of caches, proxies and browsers, that any answer may have: openapi.json names all others.
 OF_ANY = {
     "date",
     "connection",
@@ -54,7 +55,7 @@ plain_send = HTTPAdapter.send
 
 
 def send(self, request, **more):
-    """Streams that end with their client are read to their first bytes."""
+    """Streams that end only with their client are read up to their first bytes."""
     response = plain_send(self, request, **{**more, "stream": True})
     if response.headers.get("Content-Type", "").startswith(ENDLESS):
         response._content = response.raw.read1(65536)
@@ -82,7 +83,7 @@ def before_call(context, case, kwargs):
 
 
 def kind_of(sentence):
-    """A refusal without its numbers and quoted words."""
+    """A refusal's message without its numbers and quoted words."""
     sentence = re.sub(r"'[^']*'|\"[^\"]*\"", "'…'", sentence)
     return re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", sentence)[:130]
 
@@ -101,7 +102,7 @@ def delete(base, path, token):
 
 
 def remember(case, response):
-    """Deletes the oldest of a kind that there are more than enough of."""
+    """Deletes the oldest of a kind if there are more than needed."""
     try:
         one = response.json()
         path = f"{case.operation.path}/{one.get('id') or one['sha256']}", one["token"]
@@ -135,7 +136,7 @@ def after_call(context, case, response):
 
 @schemathesis.hook
 def filter_failure(context, failure, case, response):
-    """Drops what lies in the protocol; known.py has the reasons."""
+    """Drops failures that are due to the protocol; known.py has the reasons."""
     reason = known.why(failure, case, response)
     if reason:
         with lock:

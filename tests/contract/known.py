@@ -1,5 +1,5 @@
-"""Failures of schemathesis' checks that lie in the protocol: each for some operations, one check and what the answer
-says, with the reason. All else fails the run."""
+"""Failures of schemathesis' checks that are due to the protocol: each for some operations, one check and a text in
+the answer, with the reason. Any other failure fails the run."""
 
 import pathlib
 import re
@@ -13,7 +13,7 @@ CONVERSION = re.compile(r"%(?:\.\*|\.\d+)?(?:ll|z|h)?([a-zA-Z])")
 
 
 def words(sentence):
-    """The pattern of what a format of C makes."""
+    """A regular expression for the output of a format of C."""
     parts, at = [], 0
     for one in CONVERSION.finditer(sentence):
         parts += [re.escape(sentence[at : one.start()].replace("%%", "%")), ".*?" if one[1] == "s" else r"[-+.\deinf]+"]
@@ -34,7 +34,7 @@ RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)"; ')  # as it is quoted: a long 
 
 
 def together(label, sentence):
-    """The listed sentence of values that do not go together which a refusal is; None: it is none."""
+    """The listed sentence for values that do not fit together to which a refusal belongs; None if there is none."""
     for operation, sentences in RULES:
         if operation.match(label):
             for name, one in sentences:
@@ -45,8 +45,8 @@ def together(label, sentence):
 
 
 def of_an_axis(label, problem):
-    """Whether a value of an axis of a sweep is refused. It is one of its field, whose schema depends on the axis' name:
-    the document would have to say each of its 331 again."""
+    """Whether a value of a sweep's axis is refused. It is a value of the axis' field, and its schema depends on the
+    axis' name: the document would have to repeat each of its 331."""
     name = re.match(r"/axes/([^/]+)(/\d+)?$", problem.get("pointer", ""))
     return (
         label in ("POST /v1/jobs", "POST /v1/plan")
@@ -58,7 +58,7 @@ def of_an_axis(label, problem):
 
 
 def refused(label, problem):
-    """Why a refusal of what fits the document lies in the protocol; None: it does not."""
+    """Why the refusal of a request that fits the document is due to the protocol; None: it is not."""
     sentence, pointer = problem.get("detail", ""), problem.get("pointer", "")
     if problem.get("status") == 400:  # U+0000 is JSON, and in no text of kerrd: a schema would have to say so of each
         return "NUL in a text" if "NUL in a string" in sentence else None
@@ -98,8 +98,8 @@ def has_a_list_by_index(value):
 
 
 def is_null(body, found):
-    """Whether what a message names, as in body - scene -> spots -> 0 -> r, is null: with RFC 7396 that takes a value
-    back."""
+    """Whether the value named in a message, as in body - scene -> spots -> 0 -> r, is null: by RFC 7396 that resets
+    a value."""
     for name in found[1].split(" -> ") if found else []:
         body = (
             body.get(name, 0)
@@ -112,14 +112,14 @@ def is_null(body, found):
 
 
 def why(failure, case, response):
-    """Why a failure lies in the protocol; None: it does not."""
+    """Why a failure is due to the protocol; None: it is not."""
     label, status, kind = case.operation.label, response.status_code, type(failure).__name__
     if kind == "RejectedPositiveData":
         return refused(label, response.json())
     if kind == "ServerError" and status in (501, 503, 507):  # no ffmpeg; a server, or its disk, that is full
         return "what this server lacks"
-    # docs/scene.md has this form for what lies over a preset, and for a patch; the schema is that of a whole scene, as
-    # answers have it, too.
+    # docs/scene.md describes this form for a document over a preset, and for a patch; the schema is that of a whole
+    # scene, which answers have as well.
     if (
         kind == "AcceptedNegativeData"
         and re.match(OF_SCENES, label)
@@ -133,21 +133,21 @@ def why(failure, case, response):
         and is_null(case.body, re.search(r"in body - (.*): Incorrect type", failure.message))
     ):
         return "null in a scene that lies over another"
-    # An empty list or object is nothing in a query: the request is as good as without the parameter.
+    # An empty list or object disappears in a query: the request is as valid as without the parameter.
     named = re.search(r"parameter `([^`]+)` in query", failure.message) if kind == "AcceptedNegativeData" else None
     if named and named[1] not in urllib.parse.parse_qs(
         urllib.parse.urlsplit(response.request.url).query, keep_blank_values=True
     ):
         return "a parameter that is not in the request"
-    # OpenAPI 3.1 has the schema of the whole stream, a text; schemathesis holds it against each event.
+    # OpenAPI 3.1 has the schema of the whole stream, a text; schemathesis applies it to each event.
     if (
         failure.title == "SSE event violates schema"
         and status == 200
         and response.headers["content-type"][0].startswith("text/event-stream")
     ):
         return "an event of a stream"
-    # A session's, playground's, job's or asset's token is a capability: without it the answer is 403 with its problem
-    # type, and 401 is of the server's token file alone.
+    # The token of a session, playground, job or asset is a capability: without it the answer is 403 with its problem
+    # type; 401 is only for the server's token file.
     if (
         kind == "MissingHeaderNotRejected"
         and status == 403
@@ -158,7 +158,7 @@ def why(failure, case, response):
 
 
 def gone():
-    """Sentences of TOGETHER that are in the source no more."""
+    """Sentences of TOGETHER that are no longer in the source."""
     text = re.sub(r'"\s*\n\s*"', "", "\n".join(file.read_text() for file in sorted(SOURCE.rglob("*.c")))).replace(
         '\\"', '"'
     )

@@ -6,7 +6,7 @@ round it. The test contract_sentences sees that each is in the source. What a sc
 that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a
 mistake of the document."""
 
-# What an observer cannot be, by the names that a scene, rays or physics have for its fields.
+# What an observer cannot be, with the names of the fields that a scene, rays or physics have for it.
 OBSERVER = (
     '%s%s |is %s M; for %s%s "infall" it must be more than %s M, the inner horizon, where the model ends',
     '%s%s |is %s M; for %s%s "%s" at this inclination it must be more than %s M, %s; %s%s %s can be inside',
@@ -17,8 +17,8 @@ OBSERVER = (
     "%sinfall_momentum |is %s M, with which the observer turns outside %s%s %s M; it must be nearer to 0",
 )
 
-# Fields of a scene beside each other. A document lies over a preset, and a patch over the scene that there is, so that
-# a member which is not in the request has a value all the same, which decides.
+# Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the present scene,
+# so that a member that is not in the request has a value all the same, which counts.
 SCENE = (
     "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu",
     "%s is an old name of %s.%zu, and %s is given too; only one of them may be given",
@@ -69,7 +69,7 @@ SCENE = (
     'polarization.model is "transfer", which needs a scene where nothing but the volume shines: disk.model and sky.model "none", no jets, spots or bodies',
     'polarization.model is "transfer"; it must be "none" with camera.projection "ring", where a picture has no up',
     "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; it must be the same",
-    # what a plan of the scene finds
+    # found by the plan of a scene
     "image.layers holds %s; its image orders must be below accuracy.orders, %d",
     "image.layers holds %s; where there it must be volumes or bodies is %.*s: their light is between the crossings",
     'image.layers holds %s with polarization.model "none", where no light is polarised: it must be another',
@@ -107,7 +107,7 @@ SCENE = (
     'volume.grid is "%s", and the bytes of this asset are not here; it must be %s',
     'sky.image is "%s", and the bytes of this asset are not here; it must be %s',
 )
-# Of a device, or of the table of a driver: by the engine and its precision.
+# By a device, or by the table of a driver: depends on the engine and its precision.
 ENGINE = (
     'the closed engine works in double precision: precision must be "f64", or the engine another one',
     "the closed engine takes no steps: steps must be 0, or the engine another one",
@@ -117,7 +117,7 @@ ENGINE = (
     'precision is f64, which this device has not: it must be f32, or the engine "closed"',
     "the accuracy table of this device has no row that can be relied on for what was asked; `kerrd bench accuracy` makes a new one",
 )
-# A scene as one format, or another, has it.
+# Whether a scene can be given in a format.
 PICTURE = (
     "image.layers holds %d; in a file of the format %s it must hold one; fits, exr, npz and npy hold all",
     'sky.model is not "catalogue": the stars of no other sky have names',
@@ -188,7 +188,7 @@ TOGETHER = [
             "count is %zu with %zu bytes a particle; it must be 1 to %llu: the rest with first, or fewer with stride",
         ),
     ),
-    # what there is of a job
+    # depends on the contents of a job
     (
         "GET /v1/jobs/{id}/result",
         (
@@ -271,7 +271,7 @@ TOGETHER = [
         "POST /v1/rays",
         ENGINE
         + (
-            # OpenAPI's parameters are those of all bodies of an operation
+            # OpenAPI's parameters apply to all bodies of an operation
             "the query may hold parameters beside a body of application/x-npy| only; in JSON they belong to the document",
             'r is %.16g; it must be "infinity" or a radius above that of the horizon, %.9g at this spin, up to %g',
             *OBSERVER,
@@ -365,7 +365,7 @@ TOGETHER = [
     ),
     ("GET /v1/physics/(shadow|sky)$", ("there is no critical curve for this observer",)),
     ("GET /v1/physics/", ("the ranges make more than %d points together",)),
-    # A scene of a sweep, or between two keyframes, is one of its own.
+    # A scene of a sweep, or between two keyframes, with its own message.
     (
         "POST /v1/(jobs|plan)",
         (
@@ -416,5 +416,5 @@ TOGETHER = [
         ),
     ),
 ]
-# A scene of several is named in front of its sentence.
+# If there are several scenes, the scene is named before its sentence.
 AMONG = ("scene %u: ", "frame %u: ", "with %s: ", "between keyframes, frame %.9g is no valid scene: ")

@@ -31,7 +31,7 @@ NEW = {
 
 
 class Damage(state.Case):
-    """A start goes on with what it can read, and touches nothing else."""
+    """A start continues with what it can read, and changes nothing else."""
 
     def setUp(self):
         super().setUp()
@@ -105,8 +105,8 @@ class Damage(state.Case):
             return f.read()
 
     def outcome(self, name, unseen):
-        """What becomes of what the file belongs to; all else is as it was. Unseen: what is wrong with it only its
-        reader can find, as by the checksums of a PNG."""
+        """A word for the effect on what the file belongs to; everything else is unchanged. Unseen: damage that only
+        the reader of the content can find, as by the checksums of a PNG."""
         with open(os.path.join(self.folder, "told"), "wb") as told:
             server = self.start(by=lambda *options: daemon.Daemon("--log", 1, *options, stderr=told))
         word = "whole"
@@ -143,10 +143,10 @@ class Damage(state.Case):
 
 
 class Disk(state.Case):
-    """A file system of the server's own, which others reach by its process."""
+    """A file system of the server's own, which others reach through its process."""
 
     def in_a_namespace(self, script, *options):
-        """A server after a line of shell, in a mount namespace of its own; None where there is none to be had."""
+        """A server started after a line of shell, in a mount namespace of its own; None where none is permitted."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
             if os.geteuid() == 0
@@ -162,7 +162,8 @@ class Disk(state.Case):
         return server
 
     def test_it_fills_up(self):
-        """Jobs wait, new ones and assets are refused, others are answered; all goes on when there is room again."""
+        """Jobs wait, new ones and assets are refused, other requests are answered; everything continues when there
+        is room again."""
         server = self.in_a_namespace(
             f"mount -t tmpfs -o size=512k none {self.folder}", "--state", self.folder + "/state"
         )
@@ -190,8 +191,8 @@ class Disk(state.Case):
         self.assertEqual(server.stop(), 0)
 
     def test_it_is_read_only(self):
-        """A folder that cannot be written is no state folder, and a start says so; without one a server serves, and
-        refuses jobs until it can keep them."""
+        """A folder that cannot be written cannot be the state folder, and the start says so; if it becomes
+        unwritable later the server goes on, and refuses jobs until it can store them."""
         script = (
             f"mount -t tmpfs none {self.folder} && mkdir {self.folder}/state && mount -o remount,ro none {self.folder}"
         )

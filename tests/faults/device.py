@@ -98,7 +98,7 @@ class Memory(sweep.Case):
 
 
 class Drawing:
-    """kerrd render -o FILE, over and over."""
+    """kerrd render -o FILE, repeatedly."""
 
     def __init__(self, case):
         folder = tempfile.TemporaryDirectory()
@@ -126,8 +126,8 @@ class Drawing:
         )
 
     def judge(self, done, n):
-        """A word for how it ended: the old file is as it was, or the new one is whole, there is nothing else, and no
-        memory was left behind."""
+        """A word for how it ended: the old file is unchanged, or the new one is complete, there are no other files,
+        and no memory leaked."""
         case = self.case
         case.assertEqual(os.listdir(self.folder), ["a.png"], n)
         with open(self.out, "rb") as f:
@@ -145,7 +145,7 @@ class Drawing:
         return "exit code 1 with a reason"
 
     def memory(self, stack, n, count=1):
-        """What has come of it when the n-th allocation that is asked for by this stack fails; stack 0: of all."""
+        """The outcome when the n-th allocation requested by this stack of calls fails; stack 0: of all."""
         failed = self.faults.failed
         self.faults.set("by_stack", stack)
         self.faults.memory(n, count)
@@ -168,8 +168,8 @@ class CommandMemory(unittest.TestCase):
         self.one = Drawing(self)
 
     def test_memory(self):
-        """Most of the allocations come from a few places, over and over: each place fails when it is called for the
-        first, the second and the last time. A place is a stack of calls."""
+        """Most of the allocations come from a few places, again and again: each place fails at the first, the second
+        and the last call. A place is a stack of calls."""
         self.one.faults.set("by_stack", 1)
         self.one.draw()
         stacks = self.one.faults.stacks()
@@ -225,8 +225,8 @@ class Command(unittest.TestCase):
                 faults.record(errno.errorcode[number], "kerrd render", outcomes, count + 1)
 
     def test_a_cache_that_is_read_only(self):
-        """What is learnt of a device is not kept, and is no worse for that. A disk of its own takes a mount namespace,
-        which not every machine lets a user have."""
+        """What is learnt about a device is not stored, and nothing else suffers. A disk of its own takes a mount
+        namespace, which not every machine lets a user have."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
             if os.geteuid() == 0
@@ -242,7 +242,7 @@ class Command(unittest.TestCase):
         faults.record("EROFS", "kerrd render, caches of a device", ["whole picture"])
 
     def test_a_machine_that_was_held(self):
-        """Ten minutes between any two looks at the steady clock are no lost device."""
+        """Ten minutes between two readings of the steady clock are not taken for a lost device."""
         clocks = self.one.faults
         clocks.set("steady_step_ms", 600_000)
         self.assertEqual(self.one.judge(self.one.draw(), "held"), "whole picture")
@@ -255,8 +255,8 @@ class Command(unittest.TestCase):
         )
 
     def test_pipes(self):
-        """Nobody reads the picture: it ends by SIGPIPE without a word, as other tools do. Nobody reads what it says:
-        the picture is made."""
+        """If nobody reads the picture, it ends by SIGPIPE without a message, as other tools do. If nobody reads its
+        messages, the picture is made."""
         read, write = os.pipe()
         os.close(read)
         done = self.one.draw("-o", "-", stdout=write)
@@ -282,7 +282,7 @@ class Command(unittest.TestCase):
         )
 
     def test_caches(self):
-        """What is kept of a device is no more than that: damaged, it is made again."""
+        """What is cached about a device can be made again: after damage it is."""
         folder = os.path.join(CACHES.name, "kerrd")
         names = sorted(os.listdir(folder))
         self.assertTrue([name for name in names if name.endswith(".pipelines")], names)
@@ -306,7 +306,7 @@ class Command(unittest.TestCase):
 
 class Streams(unittest.TestCase):
     def test_nobody_reads_what_a_server_says(self):
-        """Closed pipes behind its standard output and error, with all that it logs."""
+        """Standard output and error are closed pipes, with all that it logs."""
         read, write = os.pipe()
         os.close(read)
         server = daemon.Daemon("--log-level", "debug", stderr=write)
@@ -319,7 +319,8 @@ class Streams(unittest.TestCase):
         faults.record("EPIPE", "a server's standard output and error", ["serves"])
 
     def test_streams_that_are_not_open(self):
-        """Neither a client nor a file of the state folder stands where it says what it has to say."""
+        """Neither a client's connection nor a file of the state folder gets the number of a standard stream, where
+        messages would go into it."""
         port = daemon.free_port()
         with tempfile.TemporaryDirectory() as folder:
             process = subprocess.Popen(

@@ -40,14 +40,14 @@ class Case(state.Case):
         self.assets = os.path.join(os.path.dirname(self.jobs), "assets")
 
     def half_written(self):
-        """Files of the state folder that are not under their names yet."""
+        """Files of the state folder that do not have their final names yet."""
         return [name for at, _, names in os.walk(os.path.dirname(self.jobs)) for name in names if name.count(".") > 1]
 
     def job(self, server):
         return server.post("/v1/jobs", {"scenes": [{**SCENE, "time": 1}, {**SCENE, "time": 2}]})
 
     def outcome(self, answer, number, good):
-        """A word for an answer to a request whose operations on files have failed with this number."""
+        """A word for an answer to a request during which operations on files failed with this errno."""
         if answer.status in good:
             return "whole"
         problem = self.assertProblem(answer, *REASONS[number])
@@ -57,8 +57,8 @@ class Case(state.Case):
         return str(answer.status)
 
     def reached(self, word, failed):
-        """The word for an outcome, if so many failures were before and there are more now. Without one all is as it
-        always is."""
+        """The word for an outcome, given the number of failures before, if there are more now. Without a failure
+        everything is as usual."""
         if self.faults.files_failed > failed:
             return word
         self.assertIn(word, ("whole", "started"))
@@ -66,12 +66,11 @@ class Case(state.Case):
 
 
 class Operations(Case):
-    """The n-th operation on files fails, and only that: a disk that is full for a moment, or a sector that cannot be
-    written."""
+    """Only the n-th operation on files fails: a disk that is full for a moment, or a sector that cannot be written."""
 
     def sweep(self, scenario, number, mask, ask):
-        """ask(server, number) returns a word; what it is told of a failure that has no part in the answer stands in the
-        log, or else the failure was overlooked."""
+        """ask(server, number) returns a word; a failure that does not affect the answer must be in the log,
+        otherwise it was overlooked."""
         told = open(os.path.join(self.folder, "told"), "w+", encoding="utf-8")
         self.addCleanup(told.close)
         server = self.start("--log", 1, by=lambda *options: self.faults.start(*options, stderr=told))
@@ -127,7 +126,7 @@ class Operations(Case):
                 self.assertEqual(self.sweep("PUT /v1/assets", number, mask, put).stop(), 0)
 
     def test_a_job_to_its_end(self):
-        """Once it is accepted it ends with its bytes, and is there with them after a restart."""
+        """Once accepted it ends with its right bytes, and is there with them after a restart."""
         for number, mask in FAULTS:
             with self.subTest(errno.errorcode[number]):
                 accepted, good = [], []
@@ -163,8 +162,8 @@ class Operations(Case):
                 self.assertEqual(self.half_written(), [])
 
     def test_a_restart(self):
-        """A start that cannot read or write says so and ends, or sets aside what it cannot read: whatever it was, the
-        next one has it all."""
+        """A start that cannot read or write says so and ends, or sets aside what it cannot read; in any case the
+        next start has everything."""
         server = self.start()
         job = self.job(server).json()
         self.until(job, "done", server)
@@ -205,14 +204,15 @@ class Operations(Case):
 
 
 class Scarce(Case):
-    """What runs out for a while."""
+    """A resource that runs out for a while."""
 
     def refused(self, server, status, word):
         problem = self.assertProblem(self.job(server), status, word)
         self.assertNotIn(self.folder, problem["detail"])
 
     def test_an_asset_without_a_place(self):
-        """What could not be written is not there, not counted, and has left nothing; later it can be."""
+        """An asset that could not be written does not exist, is not counted, and has left nothing; later it can be
+        put."""
         server = self.start(by=self.faults.start)
         put = lambda: server.request("PUT", "/v1/assets", assets.png(seed=1), {"Content-Type": "image/png"})
         for number, mask in ((errno.ENOSPC, faults.WRITE), (errno.EMFILE, faults.OPEN | faults.CREATE)):
@@ -226,7 +226,7 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_what_runs_out_comes_back(self):
-        """The running job waits and says why, others are refused; then all goes on."""
+        """The running job waits and says why, others are refused; then everything continues."""
         for number, mask in (
             (errno.ENOSPC, faults.WRITE),
             (errno.EMFILE, faults.OPEN | faults.CREATE),
@@ -256,8 +256,8 @@ class Scarce(Case):
                 self.assertEqual(self.half_written(), [])
 
     def test_several_jobs_wait(self):
-        """A disk that is full long enough for a second attempt, with three jobs behind one another; deleting one is
-        possible meanwhile."""
+        """A disk that is full long enough for a second attempt, with three jobs in the queue; one can be deleted
+        meanwhile."""
         server = self.start(by=self.faults.start)
         jobs = [self.make({"scenes": [{**SCENE, "time": 30}] * 4}, server=server) for _ in range(3)]
         self.faults.files(faults.WRITE, errno.ENOSPC)
@@ -276,7 +276,7 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_a_stop_while_a_disk_is_full(self):
-        """What waits when the server is told to stop, or is killed, goes on after the next start."""
+        """Jobs that wait when the server is told to stop, or is killed, continue after the next start."""
         for end in ("stop", "kill"):
             server = self.start(by=self.faults.start)
             job = self.make({"scenes": [{**SCENE, "time": 20}] * 4}, server=server)
@@ -295,8 +295,8 @@ class Scarce(Case):
             self.assertEqual(server.stop(), 0)
 
     def test_one_exposure_is_kept_before_it_is_used(self):
-        """All frames of a film have one exposure, which is measured first: while its record cannot be written the job
-        waits, or those after a restart might have another."""
+        """All frames of a film have one exposure, which is measured first: while its record cannot be written the
+        job waits, because after a restart another might be measured."""
         server = self.start(by=self.faults.start)
         scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
         self.faults.files(faults.RENAME, errno.ENOSPC, 4)  # three for the job that is accepted, one for its strike
@@ -311,8 +311,7 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_files_that_are_slow(self):
-        """A cube is looked through, and a table read, by a worker: others are answered while a disk keeps it
-        waiting."""
+        """A worker checks a cube and reads a table: others are answered while a disk keeps it waiting."""
         server = self.start(by=self.faults.start)
         scene = {"image": {"width": 8, "height": 4, "layers": ["rgb"]}}
         for asked, query in (
@@ -354,8 +353,8 @@ class Scarce(Case):
             return daemon.read_answer(s)
 
     def test_a_disk_that_is_slow_to_write(self):
-        """While what is put, deleted, accepted, or evicted waits for the disk, others are told of assets and jobs all
-        the same."""
+        """While an operation (put, delete, accept, evict) waits for the disk, others can still ask for assets and
+        jobs."""
         server = self.start("--assets", 3, "--client-share", 100, "--asset-keep-s", 1, by=self.faults.start)
         put = lambda seed: server.request("PUT", "/v1/assets", assets.png(seed=seed), {"Content-Type": "image/png"})
         remove = lambda path, token: server.request("DELETE", path, headers={"Authorization": "Bearer " + token})

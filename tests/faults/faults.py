@@ -47,7 +47,7 @@ WHOLE = bool(os.environ.get("KD_WHOLE"))
 
 
 class Faults:
-    """What a program that is started with it is told. `set` takes effect at once."""
+    """The memory through which a program is told what is to fail. `set` takes effect at once."""
 
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
@@ -63,14 +63,14 @@ class Faults:
         struct.pack_into("<q", self.map, 8 * FIELDS.index(name), value)
 
     def memory(self, n, count=1):
-        """The n-th allocation from now on, from 0, fails, and those after it, `count` in all."""
+        """The n-th allocation from now on, counted from 0, fails, and so do those after it, `count` in all."""
         self.set("fail_at", -1)
         self.set("fail_for", count)
         self.before, self.counted = self.allocations, None
         self.set("fail_at", n)
 
     def files(self, mask, errno, n=0, count=ALWAYS):
-        """Likewise of operations on files."""
+        """The same for operations on files."""
         self.set("files_at", -1)
         self.set("files_mask", mask)
         self.set("files_errno", errno)
@@ -78,25 +78,25 @@ class Faults:
         self.set("files_at", n)
 
     def mend(self):
-        """Nothing fails any more. The first after `memory` says in `counted` how many allocations there were to
-        fail."""
+        """Nothing fails any more. The first call after `memory` stores in `counted` how many allocations could have
+        failed."""
         if self.counted is None:
             self.counted = self.allocations - self.before
         self.set("fail_at", -1)
         self.set("files_at", -1)
 
     def blocks(self):
-        """Blocks of the program's that are not freed: where they are -> where they were asked for."""
+        """Blocks that the program has not freed: address -> where they were allocated."""
         words = struct.unpack_from(f"<{2 * BLOCKS}Q", self.map, 8 * len(FIELDS))
         return {at: place for at, place in zip(words[::2], words[1::2]) if at}
 
     def forget(self):
-        """Before another program is started with it: it has no blocks yet."""
+        """Call before another program is started with it: that has no blocks yet."""
         self.set("live", 0)
         self.map[8 * len(FIELDS) : 8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
 
     def stacks(self):
-        """Those by which allocations were asked for while by_stack was 1: stack -> how many."""
+        """The stacks of calls that allocated while by_stack was 1: stack -> how often."""
         words = struct.unpack_from(f"<{3 * STACKS}q", self.map, 8 * len(FIELDS) + 16 * BLOCKS)
         return {stack: count for stack, count in zip(words[::3], words[2::3]) if stack}
 
@@ -122,12 +122,12 @@ class Faults:
 
 
 def fake():
-    """The server under test is the one without a device, which has options of its own."""
+    """Whether the server under test is the one without a device, which has additional options."""
     return "fake_server" in daemon.COMMAND[0]
 
 
 def where(place):
-    """The line of a place that control.h calls `from`; of a library its number."""
+    """The source line of a place that control.h calls `from`; in a library its number."""
     if place >> 48:
         return f"library {place >> 48}+{place & (1 << 48) - 1:#x}"
     done = subprocess.run(
@@ -137,14 +137,15 @@ def where(place):
 
 
 def some(count, most):
-    """Numbers from 0 below count: all of them where the whole is asked for, else at most so many, evenly."""
+    """Numbers from 0 up to below count: all of them if the whole is asked for, otherwise at most that many, evenly
+    spaced."""
     return (
         range(count) if WHOLE or count <= most else sorted({round(i * (count - 1) / (most - 1)) for i in range(most)})
     )
 
 
 def record(kind, scenario, outcomes, points=None):
-    """Notes what has come of faults: outcomes counts words; points: how many there were to choose from."""
+    """Records the outcomes of faults: outcomes counts words; points: how many places there were to choose from."""
     outcomes = collections.Counter(outcomes)
     tried = sum(outcomes.values())
     print(

@@ -21,14 +21,14 @@ class Jumps(state.Case):
         self.addCleanup(self.faults.close)
 
     def make_by(self, hours, server):
-        """A job of its own that is done and deleted, and has the time of the clock that is ahead: else the other ones
-        would prove nothing."""
+        """A job that is done and deleted, with the time of the clock that is ahead: shows that the clock did jump,
+        without which the tests would prove nothing."""
         made = self.make({"scene": SCENE}, server=server)
         self.assertAlmostEqual(self.until(made, "done", server)["created"], time.time() + hours * 3600, delta=60)
         self.assertEqual(self.delete(made, server).status, 204)
 
     def test_the_clock_on_the_wall(self):
-        """Finished jobs are kept for a day by the other clock, whatever this one says, and over restarts."""
+        """Finished jobs are kept for a day by the steady clock, whatever the wall clock says, and over restarts."""
         server = self.start(by=self.faults.start)
         job = self.make({"scene": SCENE}, server=server)
         self.until(job, "done", server)
@@ -63,8 +63,8 @@ class Jumps(state.Case):
         self.assertEqual(server.stop(), 0)
 
     def test_a_machine_that_was_held(self):
-        """What was under way may have been given up for lateness, with an answer that says so; jobs, sessions that
-        somebody watches, and connections in use go on."""
+        """Requests that were running may have been given up as too late, with an answer that says so; jobs, sessions
+        that are watched, and connections in use continue."""
         server = self.start("--sessions", 4, by=self.faults.start)
         session = server.post(
             "/v1/sessions", {**SCENE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}}

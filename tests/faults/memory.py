@@ -17,7 +17,7 @@ RING = {"spin": 0.5, "rays": [[5.0, 1.0], [2.0, -3.0]]}
 
 class Memory(sweep.Case):
     def owned(self, kind, body=None):
-        """Make one and end it; the answer to making it."""
+        """Create one and delete it; returns the answer to the creation."""
 
         def ask():
             answer = self.post(kind, body or ({"scene": IMAGE} if kind == "/v1/jobs" else IMAGE))()
@@ -51,7 +51,7 @@ class Memory(sweep.Case):
                 self.sweep(self.get(target), 200, "GET " + target)
 
     def test_a_new_connection(self):
-        """Whoever has just come may have to go, with a word where there is memory for that; others stay."""
+        """A new connection may be closed, with an answer if there is memory for it; others stay."""
         self.closes = True
 
         def ask():
@@ -66,7 +66,7 @@ class Memory(sweep.Case):
                 self.sweep(self.get(target), status, "GET " + target)
 
     def test_scene(self):
-        """A scene is checked by whoever plans it, and merged over a preset."""
+        """A scene is checked by planning it, and merged over a preset."""
         self.sweep(self.post("/v1/plan", IMAGE), 200, "POST /v1/plan")
         self.sweep(
             self.post(
@@ -119,8 +119,8 @@ class Memory(sweep.Case):
         self.sweep(self.owned("/v1/sessions"), 201, "POST /v1/sessions")
 
     def test_a_change_of_a_session(self):
-        """A change that was answered is there; one that was refused is there as a whole or not at all: the answer may
-        be what there was no memory for."""
+        """A change that was answered is there; one that was refused is there completely or not at all, because it
+        may be the answer for which there was no memory."""
         session = self.server.post("/v1/sessions", {**IMAGE, "time": 1}).json()
         at, owner = f"/v1/sessions/{session['id']}", {"Authorization": "Bearer " + session["token"]}
         turn = [20]
@@ -148,7 +148,7 @@ class Memory(sweep.Case):
         self.puts("a grid", lambda seed: assets.grid(seed / 1024), "application/x-npz")
 
     def test_pictures_of_assets(self):
-        """A scene that names a picture or a grid is never told that it is wrong where memory was short."""
+        """A scene that refers to a picture or a grid is never called wrong because memory was short."""
         for data, kind, scene in (
             (assets.png(32, 16), "image/png", lambda asset: {"sky": {"model": "image", "image": asset}}),
             (assets.grid(0.5), "application/x-npz", lambda asset: GRID | {"volume": {"model": "grid", "grid": asset}}),
@@ -160,7 +160,7 @@ class Memory(sweep.Case):
             self.end_one("/v1/assets", {"id": put["sha256"], "token": put["token"]})
 
     def puts(self, name, made, kind):
-        """Each attempt puts other bytes, which are found afterwards if they were taken, and only then."""
+        """Each attempt puts other bytes, which must be found afterwards exactly if they were accepted."""
         seed = [0]
 
         def put():
@@ -180,7 +180,7 @@ class Memory(sweep.Case):
         self.sweep(put, 201, "PUT /v1/assets of " + name)
 
     def test_a_job_to_its_end(self):
-        """A job that was accepted ends with the bytes that it has without a failure, if need be after a wait."""
+        """A job that was accepted ends with the same bytes as without a failure, if need be after a wait."""
 
         def ask():
             answer = self.post("/v1/jobs", {"scenes": [{**IMAGE, "time": 1}, {**IMAGE, "time": 2}]})()

@@ -23,7 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 DOCUMENT = ROOT / "docs/faults.md"
 BEGIN, END = "<!-- what run.py has found -->", "<!-- its end -->"
-# Side by side; of the last ones the cases.
+# Run side by side; of the last ones each case separately.
 TESTS = (
     "memory",
     "disk",
@@ -61,12 +61,12 @@ def start(build, name, ledger, whole):
 
 
 def happened(outcomes):
-    """How many faults have come about."""
+    """How many faults have been injected."""
     return sum(n for word, n in outcomes.items() if word != "not reached")
 
 
 def rows(entries):
-    """Markdown: a line a fault and scenario, in the order in which they were tried."""
+    """Markdown: a line for each fault and scenario, in the order in which they were tried."""
     found = {}
     for e in entries:
         points, outcomes = found.setdefault((e["kind"], e["scenario"]), [0, collections.Counter()])
@@ -89,8 +89,8 @@ def rows(entries):
 
 
 def run(build, folder, whole):
-    """Those that have failed. What the others have found is in files of the folder by their names, and those that were
-    there are not run again."""
+    """Runs them; returns those that failed. The results of the others are in files of the folder named after them;
+    those that have a file already are not run again."""
     running = {
         name: start(build, name, folder / f"{name}.part", whole) for name in TESTS if not (folder / name).exists()
     }

@@ -1,5 +1,5 @@
-"""Lets each allocation of a request fail once, and looks at the answer, at what is left behind, and at the answer to
-the same request afterwards."""
+"""Lets each allocation of a request fail once, and checks the answer, what is left behind, and the answer to the
+same request afterwards."""
 
 import collections
 import http.client
@@ -14,7 +14,7 @@ PROBLEM = {"type", "title", "status", "detail"}
 
 
 def shape(document):
-    """A document without its numbers and texts: a hole in it shows."""
+    """A document with its numbers and texts removed, which shows whether a part is missing."""
     if isinstance(document, dict):
         return {k: shape(v) for k, v in document.items()}
     return (
@@ -27,7 +27,7 @@ def shape(document):
 
 
 def plain(answer):
-    """Without what a job or a session says of its frame, which may have had no memory, or be done already."""
+    """Without what a job or a session states about its frame, which may have had no memory, or be done already."""
     document = answer.json()
     return (
         {
@@ -41,8 +41,7 @@ def plain(answer):
 
 
 class Case(unittest.TestCase):
-    """Each test has a server of its own, which has no leak in the end, under a sanitizer that looks for them as
-    well."""
+    """Each test has a server of its own, which must not leak; under a sanitizer that is checked as well."""
 
     options = ("--jobs", 100, "--sessions", 100)
     most = 12  # failures of each request where not the whole is asked for
@@ -83,13 +82,13 @@ class Case(unittest.TestCase):
         return lambda: self.ask("POST", target, body)
 
     def connect(self):
-        """A new connection that has carried a request: those who accept it have all they need."""
+        """A new connection that has carried one request, so that its thread has all it needs."""
         self.connection.close()
         self.assertEqual(self.get("/v1/schema")().status, 200)
 
     def with_failure(self, ask, n):
-        """The answer, None for a closed connection. Counted from the first that it asks of us, until it mends the
-        memory or has come to its end."""
+        """The answer; None for a closed connection. Allocations are counted from the start of the request until the
+        memory is mended or the request ends."""
         self.connect()
         self.armed = n
         try:
@@ -104,7 +103,7 @@ class Case(unittest.TestCase):
         return self.faults.live
 
     def leaks(self, ask, n):
-        """Blocks more after each of some failures at the same place, and where they were asked for."""
+        """Blocks that accumulate with each of several failures at the same place, and where they were allocated."""
         grown, begin = [], self.faults.blocks()
         for _ in range(4):
             before = self.faults.live
@@ -118,7 +117,7 @@ class Case(unittest.TestCase):
         )
 
     def judge(self, n, answer, good, by_library):
-        """A word for what has come of the n-th failure."""
+        """A word for the outcome of the n-th failure."""
         at = lambda: f"allocation {n}, asked for at {faults.where(self.faults.failed_from)}"
         if answer is None:
             if self.closes:

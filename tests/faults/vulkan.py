@@ -68,7 +68,7 @@ CODES = {
     FRAGMENTATION: "FRAGMENTATION",
 }
 MEMORY = (HOST, DEVICE)
-# In the order of vulkan_table.c, with what the specification of Vulkan 1.2 lets each return.
+# In the order of vulkan_table.c, with the codes that the specification of Vulkan 1.2 lets each return.
 ENTRIES = {
     "EnumerateInstanceVersion": (HOST,),
     "EnumerateInstanceLayerProperties": MEMORY,
@@ -135,7 +135,7 @@ class Faults:
             struct.pack_into("<q", self.map, 8 * FIELDS.index(field), value)
 
     def arm(self, name, n, code):
-        """The n-th call from now, counted from 0."""
+        """Arms a failure of the n-th call from now, counted from 0."""
         self.set(entry=NAMES.index(name), code=code, injected=0)
         self.set(countdown=n)
 
@@ -146,7 +146,7 @@ class Faults:
         return dict(zip(NAMES, struct.unpack_from(f"<{len(NAMES)}q", self.map, 8 * len(FIELDS))))
 
     def objects(self):
-        """Objects of Vulkan that are not destroyed, by the entry point that made them."""
+        """Objects of Vulkan that were not destroyed, by the entry point that created them."""
         made = dict(zip(NAMES, struct.unpack_from(f"<{len(NAMES)}q", self.map, 8 * (len(FIELDS) + len(NAMES)))))
         return {name: made[name] for name in MAKERS if made[name]}
 
@@ -172,11 +172,11 @@ class Server(daemon.Daemon):
 
 
 class Refused(Exception):
-    """A clear answer that is no success: status, type and detail."""
+    """A clear answer that is not a success: status, type and detail."""
 
 
 class Broken(Exception):
-    """Something that no fault may bring about."""
+    """A result that no fault may cause."""
 
 
 def wanted(answer, statuses=(200,)):
@@ -196,7 +196,7 @@ def wanted(answer, statuses=(200,)):
     raise Refused(f"{answer.status} {problem['type'].rsplit(':', 1)[1]}: {problem['detail']}")
 
 
-# Each scenario returns what is compared: bytes. The server is new, and its device has done nothing but be opened.
+# Each scenario returns bytes that are compared. The server is new, and its device has only been opened.
 
 
 def render(server):
@@ -204,7 +204,7 @@ def render(server):
 
 
 def last_frame(server, session, after):
-    """Of a picture that does not move: the one behind which nothing finer follows. With its number."""
+    """The last frame of a picture that does not move, after which none finer follows. With its number."""
     for _ in range(60):
         answer = wanted(
             server.request(
@@ -270,7 +270,7 @@ def rays(server):
     ).body
 
 
-# Pictures of one view in several ways, which hand each other's lens maps on, and of others.
+# Pictures of one view in several ways, which share lens maps, and pictures of other views.
 REFINED = {"image": {**IMAGE, "samples": "auto"}, "disk": {"gas": {"amplitude": 0}}}
 SKY = {"image": IMAGE, "sky": {"model": "stars"}, "style": {"bloom": 0.3}, "camera": {"inclination_deg": 77}}
 
@@ -303,13 +303,13 @@ MIXED = {
 
 
 def mixed(server):
-    """Two kinds of requests at a time; what each gave, in the order of the list."""
+    """Two kinds of requests at the same time; the result of each, in the order of the list."""
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         under_way = [pool.submit(kind, server) for kind in MIXED.values()]
     return b"".join(one.result() for one in under_way)
 
 
-# at_start: the fault is in the start. loses: the device is lost besides. only: of these entry points.
+# at_start: the fault is during the start. loses: the device is lost as well. only: for these entry points.
 Scenario = collections.namedtuple(
     "Scenario", "run at_start loses incoherent only", defaults=(False, False, False, NAMES)
 )
@@ -344,7 +344,7 @@ def reopened(server):
 
 
 def stop(server):
-    """What it ends with. One that does not end hangs."""
+    """Stops the server; returns how it ended. One that does not end counts as hanging."""
     server.terminate()
     try:
         return server.wait(PATIENCE_S)
@@ -381,7 +381,7 @@ def live(server, scenario, faults, fault, same):
 
 
 def to_its_end(server, scenario, faults, fault, same):
-    """The same, and of stopping it."""
+    """The same for a fault until the server has stopped."""
     try:
         outcome, got = live(server, scenario, faults, fault, same)
         code = stop(server)
@@ -400,13 +400,13 @@ def to_its_end(server, scenario, faults, fault, same):
 
 
 def no_objects(faults):
-    """Whoever ends with a device that works has destroyed what was made."""
+    """A server that ends with a working device has destroyed all objects."""
     if left := faults.objects():
         raise Broken(f"objects are left: {left}")
 
 
 def starts_not(faults):
-    """The one line that says why."""
+    """The one line that says why it does not start."""
     done = subprocess.run(
         [*daemon.COMMAND, "--port", "0"],
         capture_output=True,
@@ -422,7 +422,7 @@ def starts_not(faults):
 
 
 def one(scenario, fault=None, same=None):
-    """A server with that fault: what came of it, the bytes, whether it came to that, and the calls that there were."""
+    """A server with that fault: the outcome, the bytes, whether the fault occurred, and the number of calls."""
     faults, server = Faults(), None
     try:
         faults.set(incoherent=scenario.incoherent)
@@ -487,8 +487,8 @@ def attempt(scenario, fault, same, until):
 
 
 def sweep(name, rotate, workers, until, kept):
-    """A row for each entry point that the scenario calls: name, calls, how many faults there may be, and how many came
-    to what. Adds to what is kept."""
+    """A row for each entry point that the scenario calls: name, calls, number of possible faults, and how many had
+    which outcome. Adds to the stored results."""
     scenario = SCENARIOS[name]
     _, same, _, calls = one(scenario)
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:

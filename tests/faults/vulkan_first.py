@@ -1,5 +1,5 @@
-"""First calls of Vulkan that fail, devices beyond repair, and devices and drivers that hang; vulkan.py has all
-calls."""
+"""Tests of first calls of Vulkan that fail, devices that cannot be recovered, and devices and drivers that hang;
+vulkan.py tests all calls."""
 
 import concurrent.futures
 import contextlib
@@ -50,7 +50,7 @@ class Case(unittest.TestCase):
 
 class Vulkan(Case):
     def test_first_calls(self):
-        """One server: each request comes as far as the entry point that fails it."""
+        """One server: each request gets as far as the entry point at which it fails."""
         server, told = self.start(), {}
         for name in (
             "CreateBuffer",
@@ -107,7 +107,7 @@ class Vulkan(Case):
             self.assertIn(f"vk{name}: VK_ERROR_OUT_OF_HOST_MEMORY", done.stderr.decode())
 
     def test_all_go_on_when_the_device_is_opened_again(self):
-        """A session, a job and a list of rays that were under way when a render lost the device."""
+        """A session, a job and a list of rays that were running when a render lost the device continue."""
         server = self.start()
         calm = session(server), job(server), rays(server)
         for n in (1, 3):
@@ -120,8 +120,8 @@ class Vulkan(Case):
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_each_kind_is_as_before_after_faults_under_mixed_load(self):
-        """Device memory that is short for one call, in the middle of two kinds of requests: nobody is told that it was
-        his fault, and afterwards each kind is as it was."""
+        """Device memory is short for one call while two kinds of requests are running: no client is blamed for it,
+        and afterwards each kind works as before."""
         server = self.start()
         before = {name: kind(server) for name, kind in MIXED.items()}
         reached = 0
@@ -144,7 +144,7 @@ class Vulkan(Case):
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_often(self):
-        """No more than so many times; and the job that was accepted is there after the next start."""
+        """The device is opened again only a limited number of times; an accepted job is there after the next start."""
         for how, options in (("often", ("--device-reopenings", 1)), ("dead", ())):
             with self.subTest(how), tempfile.TemporaryDirectory() as state:
                 server = self.start("--state", state, *options)
@@ -164,8 +164,8 @@ class Vulkan(Case):
                 self.assertEqual(server.stop(), 0, server.said())
 
     def test_a_device_that_hangs(self):
-        """Whoever waits is told, and the process ends. The kernels are there: on a busy machine compiling them takes
-        longer than a hanging driver is given."""
+        """Clients that wait get an answer, and the process ends. The kernels are compiled before: on a busy machine
+        that takes longer than the time allowed to a hanging driver."""
         server = self.start()
         self.assertEqual(server.get(RENDER).status, 200)
         self.assertEqual(server.stop(), 0, server.said())
@@ -179,10 +179,11 @@ class Vulkan(Case):
 
 
 class Long(Case):
-    """A call that does not return: nobody can be told but by the end of the process."""
+    """A call that does not return: clients notice only by the end of the process."""
 
     def test_a_driver_that_hangs(self):
-        """The device that compiles a picture's kernels, or, where they are there, the device that renders it."""
+        """Either the device that compiles a picture's kernels hangs or, if they are compiled, the one that renders
+        it."""
         for there in (False, True):
             with self.subTest(there=there):
                 server = self.start("--device-timeout", 1)
@@ -196,8 +197,8 @@ class Long(Case):
                 self.faults.set(hang=0)
 
     def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
-        """Its first piece of work never ends, and the second cannot be begun: what hangs cannot be closed, so there is
-        no other."""
+        """Its first piece of work never ends, and the second cannot begin: a hanging device cannot be closed, so no
+        other is opened."""
         server = self.start("--device-timeout", 1)
         self.assertEqual(server.get(RENDER).status, 200)  # its kernels are there from now on
         before = self.faults.calls()["CreateDevice"]

@@ -1,11 +1,11 @@
-"""What has come of faults of Vulkan: kept in a file from run to run, and as docs/faults-vulkan.md (vulkan.py)."""
+"""Outcomes of faults of Vulkan, kept in a file from run to run and written as docs/faults-vulkan.md (for vulkan.py)."""
 
 import collections
 import json
 
 
 class Kept(dict):
-    """What has come of each fault: (scenario, entry point, n, code) -> a word."""
+    """The outcome of each fault: (scenario, entry point, n, code) -> a word."""
 
     def __init__(self, path):
         super().__init__()

@@ -43,7 +43,8 @@ def sanitized():
 
 
 def replay(build):
-    """Exit code: 1 if an input in BUILD/crash still fails, or if there is none: the run failed otherwise then."""
+    """Exit code: 1 if an input in BUILD/crash still fails, or if there is none, because then the run failed for
+    another reason."""
     paths = sorted(path for path in (build / "crash").glob("*-*") if path.suffix != ".log")
     found = not paths
     if not paths:
@@ -83,7 +84,7 @@ class Target:
             )
 
     def measured(self):
-        """What its log says of a run that is over."""
+        """Figures from the log of a finished run."""
         text = self.log.read_text(encoding="utf-8", errors="replace")
         seconds, total, covered = time.monotonic() - self.begun, TOTAL.search(text), COVERED.findall(text)
         edges, features, inputs = map(int, covered[-1]) if covered else (0, 0, 0)
@@ -109,14 +110,14 @@ class Target:
 
 
 def limit_of(name, limit):
-    """-runs=N: a tenth of the inputs for a target whose inputs unpack to megabytes each."""
+    """-runs=N: a tenth of the inputs for a target whose inputs decompress to megabytes each."""
     if name != "assets" or not limit.startswith("-runs="):
         return limit
     return f"-runs={max(1, int(limit.removeprefix('-runs=')) // 10)}"
 
 
 def longest_of(name):
-    """Bytes of an input: large documents alone hold what they are for."""
+    """The maximum length of an input in bytes: some targets test only large documents."""
     return {
         "access": 4096,
         "http": 2048,
@@ -143,7 +144,7 @@ def processor():
 
 
 def write(path, rows, limit, jobs):
-    """Adds this run to what the file has: inputs and seconds of a target add up, coverage is the latest."""
+    """Adds this run to the file: inputs and seconds of a target add up, coverage is the latest."""
     path = pathlib.Path(path)
     known = (
         {row["target"]: row for row in json.loads(path.read_text(encoding="utf-8"))["targets"]} if path.exists() else {}

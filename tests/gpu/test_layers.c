@@ -522,8 +522,8 @@ static void test_tiny_fields(void **state)
     }
 }
 
-/* Light that 32 bits do not hold is refused by name; what they hold is finite, and as many times brighter as the
- * matter is. */
+/* Light too bright for 32 bits is refused by name; other light is finite, and scales with the brightness of the
+ * matter. */
 static void test_too_bright(void **state)
 {
     (void)state;
@@ -541,7 +541,7 @@ static void test_too_bright(void **state)
             OK(kd_scene_set(&scene, "image.layers", layers[k], &error));
             const struct kd_plan plan = plan_of(&scene, 0);
             const enum kd_status status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &why);
-            const bool too_bright = e == 2 && k < 2; /* light itself is cut off at 1e30 */
+            const bool too_bright = e == 2 && k < 2; /* light itself is clipped at 1e30 */
             if (too_bright != (status == KD_EINVAL) || (status && !too_bright))
                 fail_msg("%s of %g: status %d", layers[k], emissions[e], (int)status);
             if (too_bright) {
@@ -571,7 +571,7 @@ static void test_each_is_a_picture(void **state)
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
                 if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
                     kind == KD_LAYER_jy_per_pixel ||
-                    kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency, alone */
+                    kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency only */
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;
                     scene.polarization.model =

@@ -1,5 +1,5 @@
-/* Lens maps from listed rays, in double, beside those of the kernels in single: two ways from a pixel to its ray,
- * three methods from a ray to its end. And what becomes of rays that were given up. */
+/* Lens maps from listed rays in double precision, against the kernels' in single: two ways from a pixel to its ray,
+ * three methods from a ray to its end; and the treatment of rays that were given up. */
 #include "render_support.h"
 
 #include "physics/spacetime/kerr.h"
@@ -34,7 +34,8 @@ static double quantile(double *values, int n, double q)
     return values[(int)(q * (n - 1))];
 }
 
-/* Rays whose fate or number of crossings differs; the others' median errors of r, phi and the angle on the sky. */
+/* Counts rays whose fate or number of crossings differs, and gives the others' median errors of r, phi and the angle
+ * on the sky. */
 static void compare(const char *what, const struct lens *a, const struct lens *b, double bound, int stray)
 {
     uint64_t n = a->plan.rays;
@@ -74,7 +75,7 @@ static const struct {
     int observer;
 } views[] = {
     { "from infinity", 0.9, INFINITY, 65, 0, KD_OBSERVER_STATIC },
-    { "static, looking past the hole", 0.9, 12, 80, 60, KD_OBSERVER_STATIC }, /* many rays set out outwards */
+    { "static, looking past the hole", 0.9, 12, 80, 60, KD_OBSERVER_STATIC }, /* many rays start outwards */
     { "zero angular momentum, below the plane", -0.6, 6, 120, -20, KD_OBSERVER_ZAMO },
     { "in the ergosphere, where some rays have negative energy", 0.9, 1.7, 80, 150, KD_OBSERVER_ZAMO },
 };
@@ -101,9 +102,9 @@ static void test_engines_agree(void **state)
     (void)state;
     static const struct {
         int engine, precision;
-        double
-            bound; /* of medians: single precision's on one side or on both; Kerr-Schild's start in single costs more */
-        int stray; /* rays of 1440 on the rim of the shadow */
+        /* of medians: single precision on one side or both; Kerr-Schild's start in single precision costs more */
+        double bound;
+        int stray; /* maximum of such rays at the rim of the shadow, of 1440 */
     } engines[] = {
         { KD_ENGINE_CLOSED, KD_PRECISION_F64, 5e-7, 3 },    { KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-7, 3 },
         { KD_ENGINE_MINO_RKN4, KD_PRECISION_F32, 5e-6, 3 }, { KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 5e-7, 3 },
@@ -120,7 +121,7 @@ static void test_engines_agree(void **state)
             char what[120];
             bool wide = engines[k].precision == KD_PRECISION_F64 && engines[k].engine != KD_ENGINE_CLOSED;
             if (views[v].r < 2 && (wide || engines[k].engine >= KD_ENGINE_KS_EULER))
-                continue; /* refused: test_refused */
+                continue; /* refused: see test_refused */
             if (wide && !has_float64(kd_engine_name((enum kd_engine)engines[k].engine)))
                 continue;
             scene.accuracy.engine = engines[k].engine + 1;
@@ -136,14 +137,14 @@ static void test_engines_agree(void **state)
     }
 }
 
-/* Slices of a few rows, supersampled and in bands, are the whole picture. */
+/* A map made in slices of a few rows, supersampled and in bands, equals the whole one. */
 static void test_slices(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(0);
     scene.image.samples = 2;
     bool wide = has_float64("slices in f64, in f32 instead");
-    scene.accuracy.engine = (wide ? KD_ENGINE_MINO_RKN6 : KD_ENGINE_KS_RK4) + 1; /* as listed rays both ways */
+    scene.accuracy.engine = (wide ? KD_ENGINE_MINO_RKN6 : KD_ENGINE_KS_RK4) + 1; /* listed rays in both cases */
     scene.accuracy.precision = (wide ? KD_PRECISION_F64 : KD_PRECISION_F32) + 1;
     struct lens whole = trace(&scene), cut = { .planes = NULL };
     struct kd_capacity capacity;
@@ -160,8 +161,8 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* What the profiles promise of crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form:
- * the median, and the worst. The rows of the accuracy table that they stand for hold less over all sets. */
+/* Promises of the profiles for crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form:
+ * median and worst. The rows of the accuracy table that they stand for promise less, over all sets. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -217,7 +218,7 @@ static void test_profiles(void **state)
 
 static bool magenta(const unsigned char *pixel) { return pixel[0] > 200 && pixel[1] < 60 && pixel[2] > 200; }
 
-/* Rays that were given up, planted in a map that is kept: a crossing in row 3, the sky in row 20. */
+/* Rays that were given up, planted in a cached map: a crossing in row 3, the sky in row 20. */
 static void test_given_up(void **state)
 {
     (void)state;
@@ -259,10 +260,10 @@ static void test_given_up(void **state)
         sky += magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 20 + i));
     assert_true(sky > 0); /* where no disk is in front */
     kd_frame_finish(&frame);
-    memset(map->key, 0, sizeof map->key); /* nobody else gets it */
+    memset(map->key, 0, sizeof map->key); /* keeps other tests from finding it */
 }
 
-/* What an engine, a precision or a tolerance cannot be had for is said before anything is traced. */
+/* An engine, precision or tolerance that is not available is refused before anything is traced. */
 static void test_refused(void **state)
 {
     (void)state;
@@ -270,7 +271,7 @@ static void test_refused(void **state)
     struct kd_capacity capacity;
     struct kd_plan plan;
     kd_renderer_capacity(renderer, &capacity);
-    capacity.accuracy = kd_accuracy_built_in(); /* by a table of this device another engine may be the fastest */
+    capacity.accuracy = kd_accuracy_built_in(); /* with a table of this device another engine might be the fastest */
     capacity.accuracy_measured = false;
     scene.accuracy.tolerance = 1e-15;
     FAILS(KD_EINVAL, "holds 6e-08 and above", kd_plan_make(&scene, &capacity, &plan, &error));
@@ -317,7 +318,7 @@ static bool says_noise(const struct kd_plan *plan)
     return false;
 }
 
-/* The answer calls the sky noise exactly where the map's own neighbours see places far from one another. */
+/* The answer reports sky noise exactly where neighbouring rays of the map end far from each other. */
 static void test_noise_is_named(void **state)
 {
     (void)state;
@@ -325,7 +326,7 @@ static void test_noise_is_named(void **state)
         double spin, radius;
         bool noise;
     } cases[] = {
-        /* radius: in horizons */
+        /* radius: in units of the horizon's */
         { 0.999999, 1.0001, true }, { 0.999999999, 1.001, true }, { 0.999999, 1.3, false }, { 0.9, 1.05, false },
         { 0, 1.4, false },
     };

@@ -1,9 +1,8 @@
 /* The lens map on the device against the Kerr-Schild oracle, which traces the same pixels in double precision by
  * another method (tests/oracle).
  *
- * How far a crossing may be off: the last bits of a float, times how much that crossing amplifies any change of the
- * ray. The amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
- * curve. */
+ * Tolerance of a crossing: the last bits of a float, times the crossing's amplification of a change of the ray. The
+ * amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical curve. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/render.h"
@@ -21,7 +20,7 @@ struct view {
     double a, inclination, r; /* r: INFINITY, or a pinhole camera there */
     bool zamo;
     double field; /* M, or degrees for a pinhole */
-    bool away;    /* a pinhole that looks outwards */
+    bool away;    /* a pinhole camera that looks outwards */
 };
 
 struct sample {
@@ -55,10 +54,10 @@ struct lens {
     float *planes;
 };
 
-/* Whether the plan chooses the closed form: outside the orbits of light. */
+/* True if the plan chooses the closed form: outside the photon orbits. */
 static bool has_closed_form(const struct view *v) { return v->r > 1.05 * kd_kerr_photon_orbit(kd_hole(-fabs(v->a))); }
 
-/* steps: of a half period; 0: as the plan chooses. */
+/* steps: of a half period; 0: the plan's choice. */
 static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, int steps)
 {
     struct kd_scene scene;
@@ -95,8 +94,8 @@ static double median(struct tally *t)
     return t->count ? t->errors[t->count / 2] : 0;
 }
 
-/* A ray whose number of crossings changes when it is moved by 3e-6, or that just grazes the edge of what is kept,
- * decides nothing. */
+/* True if a ray decides nothing: its number of crossings changes when it is moved by 3e-6, or it grazes the edge of
+ * the crossings kept. */
 static bool undecided(const struct sample *s, int n, double inner)
 {
     if ((s->path.crossings > n) != (s->beside.crossings > n))
@@ -105,7 +104,7 @@ static bool undecided(const struct sample *s, int n, double inner)
     return r < inner * 1.001 || r > 1e4;
 }
 
-/* Judge one plane of radii and, if the map has them, azimuths. Errors are divided by 1 + the amplification. */
+/* Judges one plane of radii and, if the map has them, azimuths. Errors are divided by 1 + the amplification. */
 static void judge(const struct view *v, const struct lens *lens, const struct sample *samples, int n,
                   struct tally *radius, struct tally *azimuth)
 {
@@ -167,8 +166,8 @@ enum { VIEWS = sizeof views / sizeof *views };
 
 static struct sample samples[VIEWS][GRID * GRID];
 
-/* Per order: median and worst of the errors over 1 + amplification. Float arithmetic alone (6e-8 an operation, tens of
- * them) gives some 3e-7; the bounds leave a factor for other devices' square roots and divisions. */
+/* Per order: median and worst error over 1 + amplification. Float arithmetic alone (6e-8 an operation, tens of them)
+ * gives some 3e-7; the bounds leave a factor for other devices' square roots and divisions. */
 static void check(const struct view *v, const struct lens *lens, const struct sample *s, double worst_r,
                   double worst_phi)
 {
@@ -260,7 +259,7 @@ static void test_sky_closed(void **state)
     check_sky(0);
 }
 
-/* A row of rays in the equatorial plane, where Q = 0: no crossing, and the direction stays in the plane. */
+/* A row of rays in the equatorial plane, Q = 0: no crossing, and the direction stays in the plane. */
 static void test_in_plane(void **state)
 {
     (void)state;
@@ -298,7 +297,7 @@ static void test_in_plane(void **state)
     assert_true(escaped > GRID / 2 && escaped < GRID);
 }
 
-/* What the project promises of the first crossing, without allowance for amplification: 1e-5, median 1e-6. */
+/* The project's promise for the first crossing, without allowance for amplification: 1e-5, median 1e-6. */
 static void test_promise(void **state)
 {
     (void)state;
@@ -318,7 +317,7 @@ static void test_promise(void **state)
 }
 
 /* The edge of a Schwarzschild shadow: the captured pixels of 1024^2 fill a disk of radius 3 sqrt(3) M. The area
- * averages over the 2 pi R/pixel = 2900 pixels of the rim, so that 0.1 % is ten times what chance leaves. */
+ * averages over the 2 pi R/pixel = 2900 pixels of the rim, so that 0.1 % is ten times the statistical error. */
 static void test_shadow(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
 /* Stokes Q and U of light curves: against the light of each ray by the Kerr-Schild oracles, which share no equation
- * with the kernels; against the loops of a spot that is seen face on, in closed form; and against the layers of the
- * same picture. */
+ * with the kernels; against the loops of a face-on spot in closed form; and against the layers of the same picture. */
 #include "kerr_schild.h"
 #include "kerr_schild_transport.h"
 #include "render/output/curve.h"
@@ -63,8 +62,8 @@ static void near(double got, double want, double scale, double bound, const char
                  bound);
 }
 
-/* The circular orbit: g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r in the plane, the radial
- * force 0 where their slopes by r are so. */
+/* Omega of the circular orbit: g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r in the plane; the
+ * radial force from their derivatives in r vanishes. */
 static double orbit_omega(double a, double r)
 {
     const double tt = -2 / (r * r), tphi = 2 * a / (r * r), phiphi = 2 * r - 2 * a * a / (r * r);
@@ -88,8 +87,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* I, Q and U of the spot, whose gas is that of each place's own orbit: light of nu^-index is seen times g^(3 +
- * index), polarised by 3/4. */
+/* I, Q and U of the spot, whose gas moves on each place's own orbit: light of nu^-index is seen times g^(3 + index),
+ * polarised by 3/4. */
 static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco,
                          double out[3])
 {
@@ -122,8 +121,8 @@ static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, 
     }
 }
 
-/* At places all round the orbit, of both image orders, from infinity and from near; a sign of the field, of Q or of
- * U that were wrong would be off by all of it. */
+/* Places all round the orbit, both image orders, from infinity and nearby; a wrong sign of the field, of Q or of U
+ * would be an error of 100 %. */
 static void test_oracle(void **state)
 {
     (void)state;
@@ -178,10 +177,10 @@ static void test_oracle(void **state)
     printf("against the oracle: I, Q and U within %.2g of I\n", worst);
 }
 
-/* Face on and without spin a small spot's light is polarised from outwards to +phi by 0 for a toroidal field and by
- * atan2(cos, v sin) for a vertical one, by the light's angle to the radius and the speed v of the orbit (R. Narayan
- * et al. 2021; Z. Gelles et al. 2021): so Q and U go round twice in an orbit, the way the spot goes (GRAVITY 2018;
- * M. Wielgus et al. 2022). */
+/* Face-on and without spin the polarisation of a small spot's light, from outwards to +phi, is 0 for a toroidal
+ * field and atan2(cos, v sin) for a vertical one, by the light's angle to the radius and the speed v of the orbit
+ * (R. Narayan et al. 2021; Z. Gelles et al. 2021). So Q and U go round twice in an orbit, in the spot's sense
+ * (GRAVITY 2018; M. Wielgus et al. 2022). */
 static void test_loops(void **state)
 {
     (void)state;
@@ -201,7 +200,7 @@ static void test_loops(void **state)
             const double want = out + (vertical ? atan2(sqrt(1 - sine * sine), v * sine) : 0), evpa = kd_light_evpa(&s);
             off = fmax(off, fabs(remainder(evpa - want, M_PI)));
             assert_true(kd_light_fraction(&s) < 0.75 &&
-                        kd_light_fraction(&s) > 0.74); /* less than one place's: it is the mean of some */
+                        kd_light_fraction(&s) > 0.74); /* less than at a single place, because it is a mean */
             turned += k ? remainder(atan2(s.u, s.q) - angle, 2 * M_PI) : 0;
             went += k ? remainder(out - place, 2 * M_PI) : 0;
             angle = atan2(s.u, s.q);
@@ -211,7 +210,7 @@ static void test_loops(void **state)
                "the closed form\n",
                vertical ? "vertical" : "toroidal", turned / (2 * M_PI), went / (2 * M_PI), off / RADIAN);
         assert_true(fabs(turned / went - 2) < 1e-3 && fabs(fabs(went) - 2 * M_PI) < 1e-3);
-        assert_true(off < 0.3 * RADIAN); /* of order size^2/r^2 */
+        assert_true(off < 0.3 * RADIAN); /* error of order size^2/r^2 */
     }
 }
 
@@ -226,8 +225,8 @@ static double sum_of(const struct kd_frame *frame, const struct kd_scene *scene,
     return sum * step * step;
 }
 
-/* What the curve has are the sums of the layers, on a grid of rays, with more of them at the critical curve, through
- * a volume, and of one that is polarised itself; no picture changes. */
+/* The curve's values are sums of the layers, on a grid of rays, with more rays at the critical curve, through a
+ * volume, and of one that is polarised itself; pictures do not change. */
 static void test_layers(void **state)
 {
     (void)state;
@@ -260,7 +259,7 @@ static void test_layers(void **state)
                     fabs(all->u) > 1e-3 * all->flux);
         const struct kd_light_report curve = light(&scene);
         assert_memory_equal(&curve.all, all, sizeof *all);
-        if (i == 2) { /* its I is not that of unpolarised transfer */
+        if (i == 2) { /* its I differs from that of unpolarised transfer */
             kd_frame_finish(&frame);
             continue;
         }
@@ -275,7 +274,7 @@ static void test_layers(void **state)
     }
 }
 
-/* A crossing that there is not lies at 1/r = 0, and a spot at azimuth 0 would give no number there. */
+/* A missing crossing is stored as 1/r = 0, where a spot at azimuth 0 would give NaN. */
 static void test_no_crossing(void **state)
 {
     (void)state;

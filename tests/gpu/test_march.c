@@ -1,6 +1,6 @@
-/* Light along rays through volumes: against closed forms along paths whose length the Kerr-Schild oracle measures,
- * which knows no Mino time and no Nystroem method; against integrals of emission and absorption along them; in its
- * order with crossings of the plane; and against itself. */
+/* Light along rays through volumes: against closed forms along paths measured by the Kerr-Schild oracle, which uses
+ * neither Mino time nor a Nystroem method; against integrals of emission and absorption along them; its order with
+ * crossings of the plane; and self-consistency. */
 #include "render/device/store.h"
 #include "render_support.h"
 
@@ -41,7 +41,7 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int i)
                : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
 }
 
-/* A uniform shell as the oracle sees it; with its shift, by observers of zero angular momentum from the metric. */
+/* A uniform shell for the oracle; with its shift, for observers of zero angular momentum from the metric. */
 static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -91,7 +91,7 @@ static void at_most(double off, double allowed, const char *what, size_t view, i
         fail_msg("%s, view %zu, pixel %d: off by %.2g, allowed %.2g", what, view, pixel, off, allowed);
 }
 
-/* What is the same everywhere comes to j/alpha (1 - exp(-alpha length)), or j length. */
+/* Uniform matter gives j/alpha (1 - exp(-alpha length)), or j length. */
 static void test_closed_form(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void test_closed_form(void **state)
     printf("%d rays: worst %.2g\n", lit, worst);
 }
 
-/* With its shift, against the integral of emission and absorption. */
+/* With the frequency shift, against the integral of emission and absorption. */
 static void test_shift(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void test_shift(void **state)
     printf("with its shift: worst %.2g\n", worst);
 }
 
-/* A shell beyond the disk dims it by what lies in front of it, and no more: the disk is opaque. */
+/* A shell beyond the disk dims it only by the part in front of it: the disk is opaque. */
 static void test_order(void **state)
 {
     (void)state;
@@ -189,8 +189,8 @@ static double largest(const float *light, int n)
 
 enum { THIN_WIDTH = 48, THIN_HEIGHT = 36, THIN = THIN_WIDTH * THIN_HEIGHT };
 
-/* A thick disk's light as its height goes to 0, off by the most relative to its own or to a twentieth of the
- * brightest. */
+/* Errors of a thick disk's light as its height goes to 0: the largest, relative to its own light or to a twentieth
+ * of the brightest. */
 struct thin_errors {
     double worst, half, limit;
     int lit, off;
@@ -220,10 +220,10 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
     return e;
 }
 
-/* A thick disk of next to no height is the thin one, whatever its light takes: by depth, by a chosen opacity, with
- * its fade. Where the flux vanishes steeply, at the inner edge of a disk seen nearly along its plane, what is left
- * is the height itself, which shows the ray a place a little further in: half of it with half the height, and
- * nothing in the limit, by the line through both. */
+/* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper.
+ * Where the flux vanishes steeply, at the inner edge of a disk seen nearly edge-on, the difference is the height
+ * itself, because the ray sees a place a little further in. It halves with the height, and vanishes in the limit, by
+ * the line through both. */
 static void test_thin_limit(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void test_thin_limit(void **state)
 
 enum { COLUMNS = 128, ROWS = 32 };
 
-/* The mean light of a row, over the columns whose rays both frames have followed to their ends. */
+/* Mean light of a row, over the columns whose rays both frames followed to their ends. */
 static double row_of(const struct kd_frame *frame, const struct kd_frame *other, int y, int *left_out)
 {
     double sum = 0;
@@ -261,8 +261,8 @@ static double row_of(const struct kd_frame *frame, const struct kd_frame *other,
     return sum / COLUMNS;
 }
 
-/* Seen along the plane there are no bands: the vertical profile is that of a march of 16 times as many stretches,
- * row by row, by the row's own light. */
+/* Edge-on there are no bands: the vertical profile is that of a march with 16 times as many steps, row by row,
+ * relative to the row's own light. */
 static void test_no_bands(void **state)
 {
     (void)state;
@@ -289,13 +289,13 @@ static void test_no_bands(void **state)
         printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
                compared, worst, left_out / 2);
         assert_true(compared == ROWS && worst < 0.005 &&
-                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe ends so long a march: 832 of 4096 rays */
+                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe stops so long a march: 832 of 4096 rays */
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }
 }
 
-/* A ray that stays in the plane, where cos theta is 0 exactly, meets what its neighbours meet. */
+/* A ray that stays in the plane, where cos theta is exactly 0, sees what its neighbours see. */
 static void test_in_the_plane(void **state)
 {
     (void)state;
@@ -312,7 +312,7 @@ static void test_in_the_plane(void **state)
     kd_frame_finish(&frame);
 }
 
-/* What is off has no pass, and what is on has one, which takes the place of the transfer. */
+/* Without a volume there is no march pass; with one it replaces the transfer pass. */
 static void test_plan(void **state)
 {
     (void)state;
@@ -339,7 +339,7 @@ static void test_plan(void **state)
     assert_int_equal(kd_plan_make(&scene, &c, &with, &refused), KD_EINVAL);
 }
 
-/* Numbers without measure leave no NaN, and no ray given up. */
+/* Extreme numbers leave no NaN and no ray given up. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -409,13 +409,13 @@ static struct kd_frame picture_of(int32_t width, enum kd_volume_model model)
     return rendered(&scene);
 }
 
-/* A picture is the same whatever was rendered before it: one without a volume needs the same map of rays, and has no
+/* A picture does not depend on what was rendered before: one without a volume needs the same lens map, and has no
  * pixels at the critical curve. */
 static void test_order_of_pictures(void **state)
 {
     (void)state;
     struct kd_frame first = picture_of(90, KD_VOLUME_UNIFORM);
-    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) { /* which leave no map of the first */
+    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) { /* enough to evict the first picture's map */
         struct kd_frame other = picture_of(40 + k, KD_VOLUME_UNIFORM);
         kd_frame_finish(&other);
     }

@@ -1,6 +1,6 @@
-/* Slow light of volumes: when light left each place of a ray, against the Kerr-Schild oracle, which knows no Mino
- * time; and what turbulent gas with a height shows by it, against pictures of the times at which light left by the
- * lens map, and by the oracle. */
+/* Slow light of volumes: emission times along a ray against the Kerr-Schild oracle, which does not use Mino time;
+ * and the turbulence that gas of some height shows, against pictures of the emission times by the lens map and by
+ * the oracle. */
 #include "physics/spacetime/kerr.h"
 #include "render/explain/explain.h"
 #include "scene/hole.h"
@@ -67,7 +67,7 @@ struct judged {
     double worst, least, most;
 };
 
-/* Both ends of each stretch of a ray. */
+/* Both ends of each step of a ray. */
 static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged *all)
 {
     static double places[2 * KD_PROBED_STRETCHES][2], want[2 * KD_PROBED_STRETCHES], off[2 * KD_PROBED_STRETCHES];
@@ -99,7 +99,7 @@ static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged 
     kd_frame_finish(&frame);
 }
 
-/* The march's own times, all along rays that go by, circle and fall in. */
+/* The march's own times, along rays that pass by, circle and fall in. */
 static void test_delays(void **state)
 {
     (void)state;
@@ -142,8 +142,7 @@ static const float *layer(const struct kd_frame *frame, const char *name)
     "{\"time\":5000,\"camera\":{\"field_m\":20,\"fov_deg\":45},\"disk\":{\"outer\":16,\"slow_light\":true,\"gas\":{" \
     "\"amplitude\":0.8,\"octaves\":2,\"scale\":1}}}"
 
-/* The delays of the crossings that pixels show: by the lens map of the thin disk; or, of a near observer, by the
- * oracle. */
+/* Delays of the crossings that pixels show: by the lens map of the thin disk or, for a near observer, by the oracle. */
 static void thin_delays(struct kd_scene scene, double out[PIXELS])
 {
     for (int i = 0; i < PIXELS && isfinite(scene.camera.r); i++)
@@ -158,8 +157,8 @@ static void thin_delays(struct kd_scene scene, double out[PIXELS])
     kd_frame_finish(&frame);
 }
 
-/* Opaque gas of next to no height shows what lies where the ray first crosses the plane: as a picture of the time at
- * which its light left shows it. */
+/* Opaque gas of almost no height shows the place where the ray first crosses the plane, as in a picture of its
+ * emission time. */
 static void test_thin(void **state)
 {
     (void)state;
@@ -197,8 +196,8 @@ static void test_thin(void **state)
     }
 }
 
-/* Seen along the axis light of a circle left at one time, and so the circle is that of one earlier picture, all the
- * way round. */
+/* Seen along the axis, the light of a circle was emitted at one time, so that the circle equals that of one earlier
+ * picture. */
 static void test_face_on(void **state)
 {
     (void)state;
@@ -228,8 +227,7 @@ static void test_face_on(void **state)
     kd_frame_finish(&slow);
 }
 
-/* Next to the horizon, where that time has no end, and far away there is no NaN; within the horizon there is no such
- * picture. */
+/* No NaN next to the horizon, where that time diverges, and far away; within the horizon there is no such picture. */
 static void test_extremes(void **state)
 {
     (void)state;
@@ -237,7 +235,7 @@ static void test_extremes(void **state)
         double spin, inclination, r;
         const char *json;
     } hard[] = {
-        { 0.999999999999, 88, INFINITY, "{}" }, /* gas all but at the horizon */
+        { 0.999999999999, 88, INFINITY, "{}" }, /* gas almost at the horizon */
         { 0.998, 90, 1.0633, "{\"camera\":{\"observer\":\"zamo\"}}" },
         { 0.7, 60, 1.71432, "{\"camera\":{\"observer\":\"zamo\",\"yaw_deg\":180}}" },
         { 0.5, 75, 1.87, "{\"camera\":{\"observer\":\"infall\"}}" },

@@ -1,5 +1,5 @@
-/* What a frame says of the error of its volumes is what a march of 16 times as many stretches, on 4 times as many
- * steps, finds in all of its pixels. */
+/* A frame's stated error of its volumes agrees with a march of 16 times as many steps, on rays of 4 times as many
+ * steps, over all of its pixels. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -38,8 +38,8 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
 
 static const float *intensity(const struct kd_frame *frame) { return kd_frame_layer(frame, "intensity")->data; }
 
-/* Relative to a pixel's light, or to a thousandth of the brightest: what 8, 9 and 9.6 of ten pixels with light are
- * within, of those that differ at all, and the worst. */
+/* Errors relative to a pixel's light, or to a thousandth of the brightest, over the pixels that differ: the 80, 90
+ * and 96 % quantiles, and the worst. */
 struct errors { double eight, nine, most, worst; };
 
 static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
@@ -59,7 +59,7 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
     }
     print_message("%d of %d rays left out\n", left_out, pixels);
     assert_true(n > pixels / 20 &&
-                left_out < pixels / 40); /* lavapipe ends so long a march: 252 of 20 736 rays in turbulence */
+                left_out < pixels / 40); /* lavapipe stops so long a march: 252 of 20 736 rays in turbulence */
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
@@ -74,8 +74,8 @@ static const struct {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* Nine of ten of a hundred rays stand for 80 to 96 of a hundred pixels (two deviations), and what twice as many
- * stretches leave is half of the error at most. */
+/* Nine of ten of a hundred rays stand for 80 to 96 of a hundred pixels (two standard deviations), and doubling the
+ * steps leaves at most half of the error. */
 static void test_said(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void test_said(void **state)
     }
 }
 
-/* The path of a ray through a shell, as the oracle has it. */
+/* The oracle's path of a ray through a shell. */
 static void path(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     (void)user, (void)p, (void)r, (void)u;
@@ -103,7 +103,7 @@ static void path(void *user, const struct ks_photon *p, double r, double u, doub
     out[1] = 0;
 }
 
-/* The largest relative error of a shell that is the same everywhere, against its closed form. */
+/* Largest relative error of a uniform shell, against its closed form. */
 static double shell_error(struct kd_scene scene)
 {
     enum { N = 9 };
@@ -136,7 +136,7 @@ static double shell_error(struct kd_scene scene)
     return worst;
 }
 
-/* Each profile holds what it aims at where all is smooth: a shell in each ray, a thick disk in nine of ten. */
+/* Each profile meets its target where all is smooth: a shell in each ray, a thick disk in nine of ten. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -155,18 +155,18 @@ static void test_profiles(void **state)
         assert_true(shells[profile] < aims[profile] && is.nine < aims[profile]);
         kd_frame_finish(&frame);
     }
-    assert_true(shells[0] > 5 * shells[2] && shells[1] > 2 * shells[2]); /* each is another one */
+    assert_true(shells[0] > 5 * shells[2] && shells[1] > 2 * shells[2]); /* the profiles differ */
     kd_frame_finish(&fine);
 }
 
-/* And each of those that take less than minutes holds what it aims at in turbulence, of which the march tells no
- * less than there is. */
+/* Each profile that takes less than minutes meets its target in turbulence too, and its stated error is no less than
+ * the true one. */
 static void test_stirred(void **state)
 {
     (void)state;
     static const double aims[] = KD_MARCH_STIRRED_ERRORS;
     struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":96,\"height\":54}}");
-    struct kd_frame fine = by_plan(&scene, 2, 1); /* at balanced, twice that is off by a seventh */
+    struct kd_frame fine = by_plan(&scene, 2, 1); /* at "balanced" this is accurate to a seventh of the target */
     for (int profile = 0; profile <= KD_PROFILE_BALANCED; profile++) {
         scene.accuracy.profile = profile;
         struct kd_frame frame = rendered(&scene);
@@ -180,8 +180,8 @@ static void test_stirred(void **state)
     kd_frame_finish(&fine);
 }
 
-/* The closer rays are the more octaves of the noise they see, and the closer they are followed: a picture of usual
- * size holds what balanced aims at. */
+/* Closer rays resolve more octaves of the noise and are marched more finely: a picture of usual size meets the
+ * target of "balanced". */
 static void test_close_rays(void **state)
 {
     (void)state;
@@ -207,8 +207,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a view that changes is said to be one, is as close as it says, and measures that; it leaves fine
- * octaves out, and the lens map as it is. */
+/* The sketch of a changing view is marked as one, is as accurate as it says, and measures that; it leaves out fine
+ * octaves and does not touch the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;
@@ -245,7 +245,7 @@ static void test_sketch(void **state)
     kd_frame_finish(&all);
 }
 
-/* A tolerance that 32 bits cannot hold is refused, and what is held is told. */
+/* A tolerance beyond 32 bits is refused, and the possible one is named. */
 static void test_refused(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Pixels that have several rays through a volume: their light is the mean of their rays', whatever the driver makes
- * of many loops one after the other. */
+/* Pixels with several rays through a volume: their light is the mean of their rays', whatever the driver does with
+ * many loops in succession. */
 #include "render_support.h"
 
 #include "render/frame/probe.h"
@@ -9,7 +9,7 @@
 
 enum { WIDTH = 12, HEIGHT = 4, SIDE = 4 };
 
-/* Turbulent gas, fine and seen nearly along the plane: some hundred stretches a ray, of 22 loop passes each. */
+/* Turbulent gas, fine and seen nearly edge-on: some hundred steps a ray, of 22 loop passes each. */
 static struct kd_frame picture(int width, int height, const char *samples, const char *critical)
 {
     struct kd_scene scene;
@@ -63,15 +63,15 @@ static void test_mean(void **state)
     }
     printf("%d pixels: worst %.2g; %d refined: worst %.2g\n", WIDTH * HEIGHT, worst, refined, worst_chosen);
     assert_true(worst < 1e-5 && refined > WIDTH * HEIGHT / 8 &&
-                worst_chosen < 0.01); /* what a listed ray stands for is measured otherwise */
+                worst_chosen < 0.01); /* a listed ray's footprint is measured differently */
     struct kd_frame *all[] = { &rays, &many, &one, &chosen };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         kd_frame_finish(all[i]);
 }
 
-/* Rays along a turbulent disk of 5e5 M, some hundred M of which can be seen: their stretches in the dark are few, and
- * lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 are given up,
- * and 5 places of the layer have no light. */
+/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible: they take few steps in the dark, so
+ * that lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 were
+ * given up, and 5 places of the layer had no light. */
 static void test_wide(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void test_wide(void **state)
     kd_frame_finish(&frame);
 }
 
-/* A tile of a tall turbulent disk as closely as it goes: its rays take thousands of stretches. */
+/* A tile of a tall turbulent disk at the finest setting: its rays take thousands of steps. */
 static struct kd_scene tall(int width, int samples, int left, int top, int columns, int rows)
 {
     char json[512];
@@ -112,7 +112,7 @@ static struct kd_scene tall(int width, int samples, int left, int top, int colum
     return scene;
 }
 
-/* The light of one ray of it, followed by itself, over that of its pixel. */
+/* The light of one ray followed alone, over that of its pixel. */
 static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
 {
     struct kd_capacity c;
@@ -133,8 +133,8 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
     return worst;
 }
 
-/* lavapipe ends the loops of eight such rays, not of one: those that it ends go on in pieces, and have the light that
- * they have alone, and their part in that of their pixel. Without pieces 16 rays of the tile were given up. */
+/* lavapipe ends the loops of eight such rays, not of one. Rays that it ends are continued in pieces; they then have
+ * the light that they have alone, also within their pixel. Without pieces 16 rays of the tile were given up. */
 static void test_pieces(void **state)
 {
     (void)state;

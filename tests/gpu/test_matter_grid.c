@@ -1,6 +1,6 @@
-/* Matter on a grid: each ray against the integral of emission and absorption along the path that the Kerr-Schild
- * oracle follows, through numbers that are interpolated here anew, with velocities and fields by the metric's
- * components and emissivities in CGS; and numbers that no float holds. */
+/* Matter on a grid: each ray against the integral of emission and absorption along the Kerr-Schild oracle's path,
+ * with interpolation reimplemented here, velocities and fields from the metric's components and emissivities in CGS;
+ * and numbers beyond single precision. */
 #include "image/npy.h"
 #include "image/zip.h"
 #include "render/emit/matter_grid.h"
@@ -18,7 +18,7 @@ static const char *const names[] = { "density",   "temperature", "u_con_r",     
                                      "u_cov_phi", "b_con_r",     "b_con_theta", "b_cov_phi" };
 enum { ARRAYS = 8 };
 
-/* A grid as its file has it. */
+/* A grid as in its file. */
 struct numbers {
     uint32_t rows, columns, layers;
     double a, r[2];
@@ -61,7 +61,7 @@ static void add_line(struct kd_zip *zip, const char *name, const double *at, siz
         &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { n }, .n_dimensions = 1 }, at);
 }
 
-/* Puts the file of a grid in the place of the one before, under another hash. */
+/* Replaces the previous grid's file, under another hash. */
 static void keep(const struct numbers *g)
 {
     static int n;
@@ -125,7 +125,7 @@ static const float *kelvin_of(const struct kd_frame *frame)
 
 static double random_of(uint32_t *seed) { return (double)((*seed = *seed * 1664525u + 1013904223u) >> 8) / 16777216; }
 
-/* Each node has numbers of its own, about a flow that falls in and goes round. */
+/* Each node has different numbers, about a flow that falls in and rotates. */
 static void fill(struct numbers *g, uint32_t seed, double rough)
 {
     for (uint32_t i = 0; i < g->rows * g->columns * g->layers; i++) {
@@ -145,8 +145,8 @@ static void fill(struct numbers *g, uint32_t seed, double rough)
     }
 }
 
-/* Trilinear: what each of the eight nodes about a place has of it. Components are taken by what they are for a
- * length of M: those of theta times r, those of phi over r sin^2 theta. */
+/* Trilinear interpolation over the eight nodes about a place. Components are converted to those for a length of M:
+ * theta's times r, phi's over r sin^2 theta. */
 static double between(const struct numbers *g, int which, double r, double theta, double phi)
 {
     const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1),
@@ -173,14 +173,14 @@ struct view {
     const struct numbers *g;
 };
 
-/* Of a metric with g_tphi alone off the diagonal. */
+/* For a metric whose only off-diagonal component is g_tphi. */
 static double product(const double g[5], const double x[4], const double y[4])
 {
     return g[0] * x[0] * y[0] + g[1] * x[1] * y[1] + g[2] * x[2] * y[2] + g[3] * x[3] * y[3] +
            g[4] * (x[0] * y[3] + x[3] * y[0]);
 }
 
-/* u^t is the root of u.u = -1, u^phi follows from u_phi; b^t is that of b.u = 0. */
+/* u^t is the root of u.u = -1, u^phi follows from u_phi; b^t from b.u = 0. */
 static void medium(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct view *view = user;
@@ -200,7 +200,7 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     double field[4] = { 0, at[5], at[6], at[7] / g[3] }, axis[4] = { 1, 0, 0, -g[4] / g[3] };
     assert_true(fabs(product(g, flow, flow) + 1) < 1e-9);
     const double more =
-        -product(g, field, flow) / product(g, axis, flow); /* along the normal, whose phi component covariant is 0 */
+        -product(g, field, flow) / product(g, axis, flow); /* along the normal, whose covariant phi component is 0 */
     for (int i = 0; i < 4; i++)
         field[i] += more * axis[i];
     assert_true(fabs(product(g, field, flow)) < 1e-6);
@@ -250,7 +250,7 @@ static void compare(const struct numbers *g, const char *json, double allowed)
 
 #define HIGH "\"accuracy\":{\"profile\":\"high\"}"
 
-/* Off by the oracle's own steps, which do not end at the cells' edges either, and by floats. */
+/* Errors come from the oracle's own steps, which do not end at the cells' edges either, and from single precision. */
 static void test_rays(void **state)
 {
     (void)state;
@@ -268,7 +268,7 @@ static void test_rays(void **state)
     compare(&ingoing, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
 }
 
-/* Numbers far from any that are meant: light is a number, 0 or more, polarised or not. */
+/* Extreme numbers: light is a number, 0 or more, polarised or not. */
 static void test_adversarial(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* A camera that moves any way: every leg of its tetrad has every component. The lens map, by both kernels, and the
- * labels of a pixel are judged by the Kerr-Schild oracle: it follows, from a frame of its own of zero angular
- * momentum, the directions into which aberration turns those of the picture. No observer of the table moves so; this
- * one is put in its place. */
+/* A camera with an arbitrary velocity, so that every leg of its tetrad has every component. The lens map by both
+ * kernels, and the labels of a pixel, against the Kerr-Schild oracle: it follows, from a frame of zero angular
+ * momentum, the directions that aberration gives those of the picture. No observer of the table moves so; this one
+ * replaces one. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/spacetime/observer.h"
@@ -40,13 +40,12 @@ struct kd_tetrad __wrap_kd_observer_tetrad(const struct kd_observer_motion *moti
                                 kd_tetrad_covector(&rest, x[2]), kd_tetrad_covector(&rest, x[3]) };
 }
 
-/* The photon seen at (x, y) of the picture, -1 to 1, per unit of what the moving camera measures. */
+/* The photon seen at (x, y) of the picture, -1 to 1, in units of the energy that the moving camera measures. */
 static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;
     double t = tan(0.5 * c->fov_deg * RADIAN), n = 1 / sqrt(1 + t * t * (x * x + y * y));
-    const double m[3] = { n, t * y * n,
-                          -t * x * n }; /* it flies along m, and is looked at along -m, inwards in the middle */
+    const double m[3] = { n, t * y * n, -t * x * n }; /* it flies along m and is seen along -m, inwards in the middle */
     double along = v[0] * m[0] + v[1] * m[1] + v[2] * m[2], energy = gamma_ * (1 + along), k[3];
     for (int i = 0; i < 3; i++)
         k[i] = -(m[i] + v[i] * (gamma_ + gamma_ * gamma_ / (gamma_ + 1) * along)) / energy;
@@ -90,8 +89,8 @@ static void labels(const struct kd_scene *scene)
     }
 }
 
-/* Errors over what the crossing amplifies, as in test_lens_map.c. A ray that crosses more or less often when it is
- * moved is unsure. */
+/* Errors over the crossing's amplification, as in test_lens_map.c. A ray whose number of crossings changes when it
+ * is moved is unsure. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path, const char *engine)
 {
     static float planes[4 * RAYS];
@@ -122,9 +121,9 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path, const char
     qsort(errors, n, sizeof *errors, by_value);
     print_message("%s: %zu crossings, error %.1e in the median, %.1e at most\n", engine, n, errors[n / 2],
                   errors[n - 1]);
-    assert_true(wrong == 0 && n > 30); /* who looks past the hole from near by sees little of the plane */
+    assert_true(wrong == 0 && n > 30); /* a near camera that looks past the hole sees little of the plane */
     assert_true(errors[n / 2] < 2e-7 &&
-                errors[n - 1] < 1e-5); /* some roundings of a float, and where turning points are near some more */
+                errors[n - 1] < 1e-5); /* some roundings of a float, and more near turning points */
 }
 
 static void moving(void **state)

@@ -1,4 +1,4 @@
-/* Every kind of observer by what its camera sees: the whole sky in six pictures, judged by frames and rays in
+/* Every kind of observer by the view of its camera: the whole sky in six pictures, against frames and rays in
  * Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
@@ -19,7 +19,7 @@ static const struct seer {
     const char *name;
     double spin, inclination, r;
     struct kd_observer_motion motion;
-    double energy; /* of what falls, and of what goes round: by Bardeen, Press & Teukolsky or by hand */
+    double energy; /* of bodies in free fall and on circular orbits: by Bardeen, Press & Teukolsky or by hand */
     double momentum;
 } seers[] = {
     { "zamo", 0.9, 60, 4, { .observer = KD_OBSERVER_ZAMO }, 0, 0 },
@@ -136,7 +136,7 @@ static void photon(const struct seer *seer, int face, double x, double y, double
     ks_seen(&f, k, p);
 }
 
-/* What the kernels start from, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of
+/* The kernels' starting values, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of
  * the whole sky, over the size of the legs that they are made of. */
 static double constants(const struct seer *seer)
 {
@@ -172,7 +172,8 @@ static double constants(const struct seer *seer)
     return worst;
 }
 
-/* And in double, aberration: where a photon of given constants is seen, by contraction with the oracle's legs. */
+/* In double precision, aberration: the direction in which a photon of given constants is seen, by contraction with
+ * the oracle's legs. */
 static double aberration(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);
@@ -211,19 +212,18 @@ struct judged {
     size_t n, wrong, sky;
 };
 
-/* A place has this: Boyer-Lindquist less ingoing azimuth, the integral of a/Delta from r to infinity. */
+/* Boyer-Lindquist minus ingoing azimuth at a place: the integral of a/Delta from r to infinity. */
 static double twist(const struct seer *seer)
 {
     double a = seer->spin, root = sqrt((1 - a) * (1 + a));
-    if (seer->motion.observer == KD_OBSERVER_INFALL) /* whose own azimuth is ingoing */
+    if (seer->motion.observer == KD_OBSERVER_INFALL) /* its own azimuth is ingoing */
         return 0;
     return a / (2 * root) * log1p(2 * root / (seer->r - 1 - root));
 }
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors over what the map amplifies: a ray that ends elsewhere or crosses more or less often when it is moved is
- * unsure. */
+/* Errors over the map's amplification. A ray whose end or number of crossings changes when it is moved is unsure. */
 static void judge(const struct seer *seer, int face, int k, const float *planes, struct judged *o)
 {
     const struct ks_place at = place_of(seer);
@@ -287,16 +287,16 @@ static void maps(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* How far from the middle of the hole the darkness of rain in Schwarzschild ends: sqrt(27) = b = r sin/(1 - cos
- * sqrt(2/r)), a quadratic equation of the tangent of half the angle, of which light that goes inwards at the orbits
- * of light is the one root and what goes outwards the other. */
+/* Angular radius of the dark disk for rain in Schwarzschild: sqrt(27) = b = r sin/(1 - cos sqrt(2/r)), a quadratic
+ * equation for the tangent of half the angle. One root is for light moving inwards at the photon orbits, the other
+ * for light moving outwards. */
 static double dark_angle(double r)
 {
     double q = sqrt(54 / r), middle = atan2(r, q), half = acos(fmin(1, sqrt(27) / hypot(r, q)));
     return r < 3 ? middle + half : middle - half;
 }
 
-/* The edge of the darkness along a row of pixels a few microradians apart that crosses it. */
+/* The edge of the dark disk along a row of pixels a few microradians apart. */
 static void dark_disk(void **state)
 {
     (void)state;
@@ -334,7 +334,7 @@ static void dark_disk(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* What rain sees of the whole sky at a radius: of each ray cos(theta) and azimuth where it ends, and its fate. */
+/* The whole sky that rain sees at a radius: for each ray cos(theta) and azimuth of its end, and its fate. */
 static void look_around(double spin, double inclination, double r, float ends[FACES][3 * RAYS])
 {
     static float planes[(ORDERS + 3) * RAYS];
@@ -353,8 +353,8 @@ static void look_around(double spin, double inclination, double r, float ends[FA
     }
 }
 
-/* On both sides of the horizon, and on it, one sees the same, in all directions, on the axis too: no ray is given
- * up, none ends nowhere, and none elsewhere than it does a millionth of the radius away. */
+/* The view is continuous across the horizon, in all directions, also on the axis: no ray is given up or lost, and
+ * each ends where it does a millionth of the radius away. */
 static void no_seam_at_the_horizon(void **state)
 {
     (void)state;
@@ -382,7 +382,7 @@ static void no_seam_at_the_horizon(void **state)
                                  moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
-            /* What is within 0.01 of the critical curve is moved by 100 times as much: some rays in a hundred. */
+            /* Rays within 0.01 of the critical curve move by 100 times as much: some in a hundred. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
                 fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
                          inclinations[i], r, turned, sky);

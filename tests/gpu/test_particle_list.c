@@ -1,5 +1,5 @@
-/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit/timelike.h and the
- * metric, rates against differences; parts of a list, and what is refused. */
+/* Particles as numbers: against the closed form in double precision; constants and the norm by
+ * physics/orbit/timelike.h and the metric; rates against differences; parts of a list; and refused requests. */
 #include "render/output/particle_list.h"
 
 #include "physics/orbit/timelike.h"
@@ -56,7 +56,7 @@ static struct kd_particle_orbit orbit_of(const struct kd_scene *scene, const str
     return kd_particle_orbit(scene, grid->radii, kd_particle_guide(grid, 3 + 29 * (uint32_t)row));
 }
 
-/* On circles: the azimuth after 1e4 M, and where that is in space. */
+/* On circles: the azimuth after 1e4 M, and its place in space. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -83,8 +83,7 @@ static void test_phase(void **state)
     assert_true(worst < 1e-6);
 }
 
-/* E, L and the norm in the metric of Kerr, from a place in the equatorial plane or off it and the rates of change
- * there. */
+/* E, L and the norm in the Kerr metric, from a place in or off the equatorial plane and the rates of change there. */
 struct constants { double energy, momentum, norm; };
 static struct constants constants_of(double a, const struct row *p)
 {
@@ -98,8 +97,8 @@ static struct constants constants_of(double a, const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* Those that fall: their rates are those of a body with the ISCO's E and L, which are what the list says. Next to
- * the horizon the norm, to which both are worked out from floats, is all but 0. */
+/* Falling particles: their rates are those of a body with the ISCO's E and L, as the list says. Next to the horizon
+ * the norm, to which both contribute in single precision, is almost 0. */
 static void test_falling(void **state)
 {
     (void)state;
@@ -128,8 +127,8 @@ static void test_falling(void **state)
     }
 }
 
-/* The guiding orbit by physics/orbit/timelike.c; on it rates and constants are of one orbit, about it they are to first
- * order: what is left falls with the square of the epicycles. */
+/* The guiding orbit by physics/orbit/timelike.c: on it rates and constants belong to one orbit, about it to first
+ * order: the rest falls as the square of the epicycles. */
 static void test_constants(void **state)
 {
     (void)state;
@@ -161,8 +160,8 @@ static void test_constants(void **state)
     }
 }
 
-/* Central differences over 2 M of what is listed: the third derivative of an epicycle, and floats, leave 2e-5 of the
- * largest rates. */
+/* Central differences over 2 M of the listed values: the third derivative of an epicycle, and single precision,
+ * leave 2e-5 of the largest rates. */
 static void test_rates(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Particles as the device computes them, against the closed form in double and against tracks: phases after long
- * times, periods, the seed; and frames that hold them. */
+/* Particles as the device computes them, against the closed form in double precision and against tracks: phases
+ * after long times, periods, the seed; and frames that show them. */
 #include "render/emit/particles.h"
 
 #include "physics/orbit/orbit_bound.h"
@@ -19,7 +19,7 @@ static struct kd_scene particle_scene(double spin, double epicycles)
     scene.spacetime.spin = spin;
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 20000;
-    scene.disk.plunging = 0; /* test_plunging.c */
+    scene.disk.plunging = 0; /* see test_plunging.c */
     scene.disk.epicycles = epicycles;
     return scene;
 }
@@ -34,7 +34,7 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
     OK(kd_particles_places(&work, scene, 5, 20000 / N, N, out, &error));
 }
 
-/* The i-th of them swings about this. */
+/* Guiding radius of the i-th particle. */
 static double radius(const struct kd_scene *scene, int i)
 {
     struct kd_particle_grid grid = kd_particle_grid(scene);
@@ -44,9 +44,9 @@ static double radius(const struct kd_scene *scene, int i)
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), worked out here in 64 bits of mantissa; r is one of the
- * radii that hold equal shares of the disk. The float that reports r is worth 1e-7 of it, which would be 1e-4 rad
- * after 1e4 M: the radius in double is that of the share, and the float must agree. */
+/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), computed here with 64 bits of mantissa; r is one of the
+ * radii of equal shares of the disk. The reported r has single precision, 1e-7, which would be 1e-4 rad after 1e4 M.
+ * So the radius in double is computed from the share, and the float must agree. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -64,7 +64,7 @@ static void test_phase(void **state)
                 long double x = sqrtl(r), phase = times[k] / (x * x * x + spins[s]);
                 double off =
                     remainder((double)remainderl(phase, 2 * M_PIl) - angle(then[i].phi - start[i].phi), 2 * M_PI);
-                /* the double that holds a large phase has 1e-16 of it */
+                /* a double resolves a large phase to 1e-16 of it */
                 double bound = 1e-8 + 4e-16 * (double)fabsl(phase);
                 if (!(fabs(off) < bound))
                     fail_msg("a = %g, r = %g, t = %g: phase off by %.2g", spins[s], r, times[k], off);
@@ -75,7 +75,7 @@ static void test_phase(void **state)
     printf("orbital phase after 1e4 M: within %.2g rad\n", worst);
 }
 
-/* The mean time between upward zeros of samples that are `step` apart. */
+/* Mean time between upward zero crossings of samples `step` apart. */
 struct period {
     double first, last, before;
     int zeros;
@@ -92,8 +92,8 @@ static void sample(struct period *p, int i, double step, double value)
 }
 static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
 
-/* The frequencies of small oscillations by another way: those of a bound geodesic that hardly leaves the circle,
- * from its actions (src/physics/orbit/orbit_bound.h, which shares nothing with epicyclic.c). */
+/* The frequencies of small oscillations by another method: those of a bound geodesic close to a circle
+ * (src/physics/orbit/orbit_bound.h, which shares nothing with epicyclic.c). */
 static struct kd_orbit_frequencies frequencies(double a, double r)
 {
     struct kd_orbit orbit;
@@ -103,7 +103,7 @@ static struct kd_orbit_frequencies frequencies(double a, double r)
     return kd_orbit_frequencies_of(&bound);
 }
 
-/* Tracks of some particles: how long r and the latitude take. */
+/* Tracks of some particles: periods of r and latitude. */
 static void test_periods(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void test_periods(void **state)
         }
         for (int i = 0; i < N; i++) {
             struct kd_orbit_frequencies f = frequencies(spins[s], r[i]);
-            /* Beside the ISCO the oscillation takes for ever and is too small for the float that reports r. */
+            /* Next to the ISCO the oscillation is too slow and too small for the float that reports r. */
             if (f.r < 0.1 * f.phi)
                 continue;
             judged++;
@@ -155,8 +155,8 @@ static double difference(const struct kd_frame *a, const struct kd_frame *b)
     return sum / (double)n;
 }
 
-/* Time, seed, number and azimuth are free: the lens map is kept. The same scene is the same picture, whatever came
- * between. */
+/* Changes of time, seed, number and azimuth keep the lens map. The same scene gives the same picture, whatever was
+ * rendered in between. */
 static void test_frames(void **state)
 {
     (void)state;
@@ -185,7 +185,7 @@ static void test_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* A near observer's slow light is of particles at another time than a list of the same scene: neither finds the
+/* A near observer's slow light uses particles at another time than a list of the same scene: neither uses the
  * other's. */
 static void test_lists_between_frames(void **state)
 {
@@ -210,7 +210,7 @@ static void test_lists_between_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* An observer who goes round with a narrow ring sees it stand still; one who goes round the other way does not. */
+/* An observer that co-rotates with a narrow ring sees it stand still; one that goes round the other way does not. */
 static void test_turning(void **state)
 {
     (void)state;
@@ -241,7 +241,7 @@ static void test_turning(void **state)
     kd_frame_finish(&against);
 }
 
-/* Particles swing across the edges of the disk; the picture shows those between them. From above, without spin,
+/* Particles oscillate across the edges of the disk; the picture shows those between them. From above, without spin,
  * the direct image of a circle of r has b^2 = r^2 + 2r to a percent (A. M. Beloborodov 2002, at 90 degrees). */
 static void test_edges(void **state)
 {
@@ -273,9 +273,9 @@ static void test_edges(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light that takes D to arrive shows the disk of D ago: a pixel of slow light is that of a fast-light picture at t -
- * D, D being the delay of its ray, for an observer at infinity and a near one. Not to the last step, for a grid
- * turned by a part of a cell is blurred another way. */
+/* Light with delay D shows the disk at t - D: a pixel of slow light equals that of a fast-light picture at t - D, D
+ * being the delay of its ray, for an observer at infinity and a near one. Not to the last step, because a grid
+ * rotated by a part of a cell is blurred differently. */
 static void test_slow_light(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What is told of one pixel: its light adds up to the picture's own linear light, and its crossings are those of
- * listed rays and of layers. The picture is the same whether it is told of or not. */
+/* The explanation of a pixel: its light adds up to the picture's linear light, and its crossings are those of listed
+ * rays and of layers. Explaining it does not change the picture. */
 #include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
 #include "render/explain/explain.h"
@@ -26,7 +26,7 @@ static struct kd_scene scene_of(const char *preset, const char *const *set)
     return scene;
 }
 
-/* A frame that tells of a pixel, with its linear light. */
+/* A frame that explains a pixel, with its linear light. */
 static struct kd_frame told_at(const struct kd_scene *scene, uint32_t x, uint32_t y, struct kd_plan *plan)
 {
     struct kd_needs needs = kd_needs_of(scene);
@@ -49,7 +49,7 @@ static void near(const char *what, double got, double want, double allowed)
         fail_msg("%s: %.9g, not %.9g: off by %.2g, allowed %.2g", what, got, want, fabs(got - want), allowed);
 }
 
-/* Those in front of the crossing of that order. */
+/* Adds the volume parts in front of the crossing of this order. */
 static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t order, double *through, double sum[3])
 {
     for (; *s < told->n_stretches && told->stretches[*s].order <= order; ++*s) {
@@ -61,7 +61,7 @@ static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t 
     }
 }
 
-/* All that emitters gave, as it arrives: by what they say of themselves, front to back. */
+/* The emitters' light as it arrives, combined front to back from their own parts. */
 static void add_up(const struct kd_probed_ray *told, double sum[3])
 {
     double through = 1;
@@ -83,7 +83,7 @@ static void add_up(const struct kd_probed_ray *told, double sum[3])
             sum[c] += through * (double)told->ends[k].light[c];
 }
 
-/* The sum that is told is the pixel's linear radiance. Returns how many emitters gave light. */
+/* Checks that the sum is the pixel's linear radiance. Returns the number of emitters with light. */
 static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
 {
     const struct kd_probed_ray *told = &frame->told->middle;
@@ -105,8 +105,8 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
     return n;
 }
 
-/* All rays of the pixel together are its light, each of them what its emitters gave: 0 where nothing of it is lost
- * on the way from the kernel. Returns how many rays have other light than the first. */
+/* Checks that all rays of the pixel together give its light, and each ray its emitters' light; 0 would mean that the
+ * data was lost on its way from the kernel. Returns the number of rays whose light differs from the first one's. */
 static uint32_t judge_rays(const struct kd_frame *frame)
 {
     const struct kd_probed_pixel *told = frame->told;
@@ -131,7 +131,7 @@ static uint32_t judge_rays(const struct kd_frame *frame)
     return others;
 }
 
-/* What the list of rays has of the direction that an observer at a finite radius looks in. */
+/* The list of rays for the viewing direction of an observer at a finite radius. */
 static void judge_direction(const struct kd_scene *scene, const struct kd_explained *x, uint32_t side,
                             struct kd_rays_params params)
 {
@@ -153,7 +153,7 @@ static void judge_direction(const struct kd_scene *scene, const struct kd_explai
     assert_int_equal(end.n_crossings, x->end.n_crossings);
     for (uint32_t n = 0; n < end.n_crossings; n++) {
         const double bound =
-            (1e-11 + 1e3 * x->end.error) * fmax(x->crossings[n].r, 1); /* a direction's rounding grows */
+            (1e-11 + 1e3 * x->end.error) * fmax(x->crossings[n].r, 1); /* rounding of the direction is amplified */
         near("r of a direction", x->crossings[n].r, crossings[n].r, bound);
         near("phi of a direction", x->crossings[n].phi, crossings[n].phi + x->frame.twist, bound);
         near("delay of a direction", x->crossings[n].delay, crossings[n].delay, bound);
@@ -161,7 +161,7 @@ static void judge_direction(const struct kd_scene *scene, const struct kd_explai
     }
 }
 
-/* The closed form's crossings are those that the list of rays has, and the picture's but for its rounding. */
+/* The closed form's crossings equal those of the list of rays, and the picture's up to rounding. */
 static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
 {
     const struct kd_picture picture = { frame, scene, plan, "", 0 };
@@ -204,11 +204,11 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         fail_msg("the path ends otherwise");
     if (!isnan(x.path.error))
         near("crossings of the path", x.path.error, 0,
-             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with how much a ray amplifies */
+             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with the ray's amplification */
     kd_explained_finish(&x);
 }
 
-/* Told or not, it is the same picture. */
+/* The explanation does not change the picture. */
 static void judge_picture(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
 {
     struct kd_plan silent = *plan;
@@ -282,7 +282,7 @@ static void sums(void **state)
     }
 }
 
-/* Layers of the pixel are the same numbers, to the bit: of the first crossing that lies on the disk. */
+/* Layers of the pixel are the same numbers bit for bit: of the first crossing on the disk. */
 static void layers(void **state)
 {
     static const char *const names[] = { "r", "g", "temperature", "emission_angle", "delay", "phi" };
@@ -320,7 +320,7 @@ static void layers(void **state)
     assert_true(compared > 3);
 }
 
-/* A pixel may be one eye's of a pair, one of a band that is not kept, or one of a ring. */
+/* A pixel may belong to one eye of a pair, to a band that is not kept, or to a ring. */
 static void other_pictures(void **state)
 {
     static const uint32_t columns[] = { 20, WIDTH + 20 };
@@ -351,8 +351,7 @@ static void other_pictures(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light of negative energy at infinity comes from gas within the ergosphere, too: there g, as the observer has it,
- * is the picture's. */
+/* Light of negative energy at infinity from gas within the ergosphere: g for the observer is the picture's. */
 static void negative_energies(void **state)
 {
     const struct kd_scene scene =
@@ -391,9 +390,9 @@ static void negative_energies(void **state)
     assert_true(compared > 0);
 }
 
-/* Pixels of many rays: where samples are asked for, at the critical curve, and those that "auto" chose, followed and
- * between others. The mean of what is told of each ray is the layer of the pixel's light; labels of the rays are as
- * far apart as they are in the picture. */
+/* Pixels of many rays: by image.samples, at the critical curve, and chosen by "auto", traced or interpolated. The
+ * mean over the explained rays is the layer of the pixel's light; the rays' labels are as far apart as in the
+ * picture. */
 static void many_rays(void **state)
 {
     const struct {
@@ -455,9 +454,9 @@ static void many_rays(void **state)
     }
 }
 
-/* From within the horizon: what double precision finds by steps, judged by unit/physics_course.c, is what the
- * picture's own kernel has: crossings with their azimuths and frequencies, the fate, and the direction in the sky;
- * and the light adds up. */
+/* From within the horizon: the stepwise double-precision path, which unit/physics_course.c judges, agrees with the
+ * picture's kernel: crossings with azimuths and frequencies, the fate, the direction in the sky; and the light adds
+ * up. */
 static void from_within(void **state)
 {
     const struct {
@@ -546,7 +545,7 @@ static void places(void **state)
     assert_int_equal(plan.told.y, 35);
 }
 
-/* The volume of that name in what is told; NULL: it is not there. */
+/* The volume of that name in an explanation; NULL: none. */
 static const struct kd_probed_volume *volume_of(const struct kd_frame *frame, const char *name)
 {
     for (size_t i = 0; i < frame->told->middle.n_volumes; i++)
@@ -555,7 +554,7 @@ static const struct kd_probed_volume *volume_of(const struct kd_frame *frame, co
     return NULL;
 }
 
-/* What each volume gave is all that they gave together. */
+/* The volumes' parts add up to their total. */
 static void judge_volumes(const struct kd_probed_ray *told)
 {
     double sum[3] = { 0 }, all[3] = { 0 }, depth = 0, passes = 1;
@@ -576,9 +575,9 @@ static void judge_volumes(const struct kd_probed_ray *told)
                 (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
 }
 
-/* Two volumes in the same place are each told to have the depth that they have alone, and, where nothing is hidden,
- * the light: that of a picture without the other, which adds up one volume only. The shell's edges lie within the
- * jets' bounds, where they are found to a part of the stretch: without that this is 1 % off. */
+/* Two overlapping volumes are each explained with the depth that they have alone and, where nothing is hidden, the
+ * light: that of a picture without the other, which adds up one volume only. The shell's edges lie within the jets'
+ * bounds and are resolved to a part of a step; without that the error is 1 %. */
 static void volumes(void **state)
 {
     static const char *const names[] = { "volume", "jets" };
@@ -626,8 +625,8 @@ static void encoded(const struct kd_scene *scene, const struct kd_plan *plan, st
     kd_frame_finish(&frame);
 }
 
-/* What of a pixel does not depend on the rest of the picture is told by it and a margin alone: the same, to the byte.
- * What does, a pixel with an exposure of its own, is not. */
+/* If a pixel does not depend on the rest of the picture, it is explained from itself and a margin alone, with the
+ * same bytes. A pixel with an exposure of its own is not. */
 static void alone(void **state)
 {
     (void)state;
@@ -653,7 +652,7 @@ static void alone(void **state)
         OK(kd_explain_at(at, &plan, &error));
         narrow = scene, less = plan;
         OK(kd_explain_narrow(&c, &narrow, &less, &error));
-        assert_true(less.rays < plan.rays || scene.sky.model); /* stars are sought in a wide margin */
+        assert_true(less.rays < plan.rays || scene.sky.model); /* stars need a wide margin */
         encoded(&scene, &plan, &texts[0]);
         encoded(&narrow, &less, &texts[1]);
         const char *by_itself = (char *)texts[1].data, *whole = (char *)texts[0].data;

@@ -1,6 +1,6 @@
 /* Matter at a radio frequency: each ray's brightness temperature against the integral of emission and absorption
- * along the path that the Kerr-Schild oracle follows, its velocities from the metric's components and its
- * emissivities in CGS; fluxes in Jy; and numbers that no float holds. */
+ * along the Kerr-Schild oracle's path, with velocities from the metric's components and emissivities in CGS; fluxes
+ * in Jy; and numbers beyond single precision. */
 #include "render_support.h"
 
 #include "cgs.h"
@@ -68,7 +68,7 @@ static void raise(const double g[4][4], const double x[4], double out[4])
         out[i] = g[i][0] * x[0] + g[i][1] * x[1] + g[i][2] * x[2] + g[i][3] * x[3];
 }
 
-/* Contravariant, of a circular orbit's angular velocity. */
+/* Contravariant velocity of a circular orbit. */
 static void circle(double a, double r, const struct metric *m, double out[4])
 {
     const double turns[4] = { 1, 0, 0, 1 / (pow(r, 1.5) + a) }, scale = 1 / sqrt(-dot(m->g, turns, turns));
@@ -104,7 +104,7 @@ static void flow_of(const struct kd_scene *scene, double a, double r, double u, 
     }
 }
 
-/* Of unit length and perpendicular to v. */
+/* A field of unit length perpendicular to v. */
 static void field_of(const struct kd_scene *scene, const struct metric *m, const double v[4], double r, double u,
                      double out[4])
 {
@@ -123,7 +123,7 @@ static void thermal(double n, double theta, double turn, double sine, double nu,
     const double x = nu / (2.0 / 9 * turn * theta * theta * sine),
                  shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6);
     out[0] = out[1] = 0;
-    if (!(x < 1e6)) /* e^-100 of what there is */
+    if (!(x < 1e6)) /* e^-100 of the total */
         return;
     out[0] = n * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
     out[1] = out[0] * expm1(H * nu / (theta * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
@@ -139,7 +139,7 @@ static void power_law(const struct kd_volume *v, double n, double turn, double s
              tgamma((3 * p + 22) / 12) * pow(x, -(p + 2) / 2);
 }
 
-/* The same paper's 35 to 44, the hypergeometric function by Euler's integral in ln t. */
+/* Equations 35 to 44 of the same paper, with the hypergeometric function by Euler's integral in ln t. */
 static void kappa_law(double kappa, double n, double theta, double turn, double sine, double nu, double out[2])
 {
     const double w = theta * (kappa - 3) / kappa, wk = w * kappa, x = nu / (turn * wk * wk * sine), a = kappa - 1.0 / 3,
@@ -232,8 +232,8 @@ static double kelvin(const struct kd_scene *scene, int i)
            (2 * K * nu * nu);
 }
 
-/* Inner edges are where light has none yet: the oracle's rule is not for what grows without bound. The outer ones
- * are near, to spare time. */
+/* Inner edges are where the light is still 0, because the oracle's rule is not for unbounded growth. The outer ones
+ * are close, to save time. */
 static const struct view {
     const char *preset, *json;
     double allowed;
@@ -286,7 +286,7 @@ static void test_rays(void **state)
     }
 }
 
-/* Numbers far from any that are meant: light is a number, 0 or more, and no ray is given up. */
+/* Extreme numbers: light is a number, 0 or more, and no ray is given up. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -315,8 +315,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* What is deep shines as a black body: its temperature, shifted, whatever the density, up to where depths are no
- * floats. */
+/* Optically thick matter shines as a black body: its temperature, shifted, whatever the density, up to depths beyond
+ * single precision. */
 static void test_deep(void **state)
 {
     (void)state;
@@ -342,9 +342,9 @@ static void test_deep(void **state)
     }
 }
 
-/* The sphere by which programs for such light are compared (ipole's model/sphere): R = 100 GM/c^2 of 4.1e6 suns,
- * Theta = 10, Thomson depth 1e-5, beta 20, the field along the axis. A hole of a hundredth of that mass bends next
- * to none of its light, and it is what it is in flat space: a closed form in depth. */
+/* The standard test sphere of such programs (ipole's model/sphere): R = 100 GM/c^2 of 4.1e6 suns, Theta = 10,
+ * Thomson depth 1e-5, beta 20, the field along the axis. A hole of a hundredth of that mass hardly bends its light,
+ * so that the flat-space closed form in depth applies. */
 static void test_sphere(void **state)
 {
     (void)state;
@@ -378,7 +378,7 @@ static void test_sphere(void **state)
     }
 }
 
-/* Whole pictures beside what others have: Gold et al. 2020, table 1; the program Blacklight (White 2022); ipole's
+/* Whole pictures against published values: Gold et al. 2020, table 1; the program Blacklight (White 2022); ipole's
  * model/riaf/riaf.txt. Blacklight's rays are parallel, but its observer is at rest at 1000 M: 230 GHz there are 230
  * sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
 static void test_published(void **state)
@@ -412,7 +412,7 @@ static void test_published(void **state)
     }
 }
 
-/* There is a flux, and layers in units of physics, where nothing else shines; else there is none, and they are
+/* If nothing else shines there are a flux and layers in physical units; otherwise there is no flux, and they are
  * refused. */
 static void test_alone(void **state)
 {
@@ -446,8 +446,7 @@ static double flux_of(const struct kd_scene *scene, double *scale)
     return jy;
 }
 
-/* A density that was looked for gives the flux that was asked for, and is what is told: a scene that has it by
- * itself is the same. */
+/* A normalised density gives the requested flux and is reported: a scene with that density gives the same picture. */
 static void test_normalised(void **state)
 {
     (void)state;
@@ -476,8 +475,8 @@ static void test_normalised(void **state)
     }
 }
 
-/* All pictures of an integral have one density, which is looked for once: sizes whose pixels round the shape of the
- * scene differently, for visibilities and at two frequencies. */
+/* All pictures of an integral share one density, which is determined once: for sizes whose pixels round the scene's
+ * aspect differently, for visibilities, and at two frequencies. */
 static void test_normalised_once(void **state)
 {
     (void)state;
@@ -512,7 +511,7 @@ static void test_normalised_once(void **state)
     }
 }
 
-/* While a view is dragged the density is that of the same matter from where it was seen before, and at rest its own. */
+/* While a view is dragged the density is the last one determined for the same matter; at rest it is its own. */
 static void test_held(void **state)
 {
     (void)state;
@@ -539,7 +538,7 @@ static void test_held(void **state)
     assert_true(fabs(exact / first - 1) > 0.01);
 }
 
-/* Where there is none it is said so: no matter, and matter that hides itself. */
+/* Errors where no density exists: no matter, and matter that absorbs itself. */
 static void test_not_normalised(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any
- * time, and against the steady stream that they are to be; and that those who are off cost nothing. */
+ * time, and against the expected steady stream; switched off they cost nothing. */
 #include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
@@ -35,8 +35,7 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
     OK(kd_particles_places(&work, scene, 0, 1, FALLING, out, &error));
 }
 
-/* dr/dt and dphi/dt of a body with the ISCO's E and L that falls: the inverse metric raises them, u.u = -1 gives
- * u^r. */
+/* dr/dt and dphi/dt of a falling body with the ISCO's E and L: raised by the inverse metric, u.u = -1 gives u^r. */
 static void slopes(double a, double r, double *dr, double *dphi)
 {
     double isco = kd_kerr_isco(kd_hole(a)), e = kd_kerr_energy(kd_hole(a), isco),
@@ -47,7 +46,7 @@ static void slopes(double a, double r, double *dr, double *dphi)
     *dphi = up / ut;
 }
 
-/* Runge and Kutta's fourth order. */
+/* Runge-Kutta of fourth order. */
 static void integrate(double a, double time, double *r, double *phi)
 {
     enum { STEPS = 400 };
@@ -64,8 +63,8 @@ static void integrate(double a, double time, double *r, double *phi)
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* What is at (r, phi) falls on along its geodesic, or begins anew; whether early, late or before 0. The float that
- * reports r is worth 6e-8 of it at either end. */
+/* A particle at (r, phi) falls on along its geodesic, or starts anew; at early, late and negative times. The
+ * reported r has single precision, 6e-8, at either end. */
 static void test_geodesics(void **state)
 {
     (void)state;
@@ -108,8 +107,8 @@ static void test_geodesics(void **state)
     printf("plunges over %g M: r within %.2g, phi within %.2g rad\n", step, worst[0], worst[1]);
 }
 
-/* A steady stream, at any time: uniform in coordinate time along the curve, and in azimuth; each lap has another
- * azimuth, and the same one whenever one looks. */
+/* A steady stream at any time: uniform in coordinate time along the curve, and in azimuth. Each lap has another
+ * azimuth, reproducibly. */
 static void test_stream(void **state)
 {
     (void)state;
@@ -134,12 +133,12 @@ static void test_stream(void **state)
         double mean = FALLING / BINS, sigma = sqrt(mean * (1 - 1.0 / BINS));
         for (int b = 0; b < BINS; b++)
             assert_true(fabs(phases[b] - mean) < 4 * sigma && fabs(turns[b] - mean) < 4 * sigma);
-        assert_true(same < 40); /* by chance 13 */
+        assert_true(same < 40); /* 13 would be so by chance */
     }
 }
 
-/* w' of the lens map, integrated in single, against what the constants of the ray say in double, with the sign of
- * the closed form. */
+/* w' of the lens map, integrated in single precision, against the value from the ray's constants in double, with the
+ * sign of the closed form. */
 static void test_slopes(void **state)
 {
     (void)state;
@@ -176,7 +175,7 @@ static void test_slopes(void **state)
             double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][slope], planes[1][slope] };
             if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 &&
                   1 / w[0] > 1.02 * kd_hole(0.3)->outer))
-                continue; /* not of both, or next to the critical curve */
+                continue; /* only in one of them, or next to the critical curve */
             double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
             far += off > 1e-3;
             worst = fmax(worst, off);
@@ -189,7 +188,7 @@ static void test_slopes(void **state)
     }
 }
 
-/* Without them neither planes nor a second grid. */
+/* Without them there are neither planes nor a second grid. */
 static void test_off(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* The direction of polarisation against an oracle that carries vectors along rays in Kerr-Schild coordinates
- * (kerr_schild_transport.h), which shares no equation with the kernels' constant of Walker and Penrose; and Stokes
- * layers among themselves. */
+/* Direction of polarisation against an oracle that transports vectors along rays in Kerr-Schild coordinates
+ * (kerr_schild_transport.h) and shares no equation with the kernels' Walker-Penrose constant; and consistency of the
+ * Stokes layers. */
 #include "kerr_schild_transport.h"
 #include "physics/disk/scattering.h"
 #include "physics/spacetime/kerr.h"
@@ -15,7 +15,7 @@
 enum { WIDTH = 28, HEIGHT = 20, PIXELS = WIDTH * HEIGHT, STRIDE = 13 };
 #define RADIAN (M_PI / 180)
 #define DEGREES(x) ((x) / RADIAN)
-#define MOST 0.005 /* degrees: four times what a float leaves at worst */
+#define MOST 0.005 /* degrees: four times the worst effect of single precision */
 
 struct view {
     double spin, inclination, r, roll;
@@ -91,7 +91,7 @@ static const float *layer(const struct kd_frame *frame, const char *name)
     return found->data;
 }
 
-/* The middle of a pixel. The oracle's observers at infinity have no roll: its screen is turned by it afterwards. */
+/* The centre of a pixel. The oracle's observers at infinity have no roll, so its screen is rotated afterwards. */
 static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
 {
     const double theta = scene->camera.inclination_deg * RADIAN, roll = scene->camera.roll_deg * RADIAN, c = cos(roll),
@@ -100,7 +100,7 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     const double across = pixel % WIDTH - 0.5 * (WIDTH - 1), upwards = 0.5 * (HEIGHT - 1) - pixel / WIDTH;
     const double step = (far ? scene->camera.field_m : 2 * tan(scene->camera.fov_deg * RADIAN / 2)) / WIDTH;
     double x = step * across, y = step * upwards;
-    if (far) { /* a camera that is turned clockwise */
+    if (far) { /* a camera rotated clockwise */
         const struct ks_screen flat = ks_screen_far(scene->spacetime.spin, theta, x * c + y * s, y * c - x * s);
         struct ks_screen turned = flat;
         for (int i = 0; i < 4; i++) {
@@ -121,9 +121,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* Each place is judged where its order shines. Half a turn more round the hole multiplies what a float is off by
- * some 20: so that of order 1 may be off by ten times as much, and its radius is what says that both follow the same
- * ray. */
+/* Each place is judged where its order shines. Each half turn round the hole amplifies single-precision errors by
+ * some 20. So the tolerance of order 1 is ten times as large, and its radius checks that both follow the same ray. */
 static void judge(const struct view *view)
 {
     static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0",
@@ -170,8 +169,8 @@ static void test_evpa(void **state)
         judge(&views[i]);
 }
 
-/* A pixel has the mean of Q and U of its rays, of which angle and fraction are made; orders add up to the whole; the
- * march says the same of what it lights. */
+/* A pixel has the mean Q and U of its rays, which give angle and fraction; orders add up to the total; the march
+ * gives the same for its light. */
 static void test_stokes(void **state)
 {
     (void)state;
@@ -213,12 +212,12 @@ static void test_stokes(void **state)
     }
 }
 
-/* Face on and without spin light stays in a plane through the axis, and carries its direction across that plane and
- * in it unchanged. By the ray's angle to the radius in the frame at rest, sin = b sqrt(1 - 2/r)/r, and the
- * aberration of the orbit, whose speed is 1/sqrt(r - 2), the electric field points from outwards to +phi by
+/* Face-on and without spin light stays in a plane through the axis, and its direction relative to that plane is
+ * unchanged. By the ray's angle to the radius in the rest frame, sin = b sqrt(1 - 2/r)/r, and the aberration of the
+ * orbit, whose speed is 1/sqrt(r - 2), the electric field points from outwards to +phi by
  *   a toroidal field 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin)
  * (Narayan et al. 2021, ApJ 912, 35; Gelles et al. 2021, PRD 104, 044060), which in closed form have cos = 2/r
- * (Beloborodov 2002): good to a part of 1/r. */
+ * (Beloborodov 2002): accurate to relative order 1/r. */
 static void test_face_on(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The post kernels alone: the sRGB curve at every level of 16 bits against double, places and packing, the kernel
- * that reads texels against the one that reads storage. */
+/* The post kernels alone: the sRGB curve at every level of 16 bits against double precision, places and packing, and
+ * the kernel that reads texels against the one that reads storage. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -7,10 +7,10 @@
 
 #include <math.h>
 
-/* IEC 61966-2-1, from an encoded value to light. */
+/* Light of an encoded value (IEC 61966-2-1). */
 
-/* Radiance through a kernel; words are `out`, room for whole groups. Returns how many pixels it counts that have light
- * that is no number. */
+/* Radiance through a kernel; out has room for whole groups. Returns the number of pixels whose light is not a
+ * number. */
 static uint32_t post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push,
                         void *out)
 {
@@ -45,9 +45,9 @@ static uint32_t post(bool texels, bool film, bool wide, const float *light, stru
     return post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
-/* Light a little less than half a step from each level still rounds to it. What is missing to the half step, 0.06,
- * is 9e-7 of the whole, and that is what the curve may be wrong by; a twentieth of it is the rounding of light to a
- * float and of 65535 times the curve. */
+/* Light slightly less than half a step from each level still rounds to it. The distance to the half step, 0.06, is
+ * 9e-7 of the whole, which is the tolerance of the curve; a twentieth of it is the rounding of light to a float and
+ * of 65535 times the curve. */
 static void every_level(void **state)
 {
     (void)state;
@@ -66,16 +66,16 @@ static void every_level(void **state)
     }
 }
 
-/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. What fract amplifies is the kernel's own
- * roundoff: 53 times that of sums of up to a few hundred. */
+/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. fract amplifies the kernel's rounding by
+ * 53, of sums of up to a few hundred. */
 static double noise(double x, double y)
 {
     double inner = 0.06711056 * x + 0.00583715 * y, outer = 52.9829189 * (inner - floor(inner));
     return outer - floor(outer) - 0.5;
 }
 
-/* Dithered grey: rows, columns and channels are where they belong, in pictures of any width, from any place on; far
- * behind 2^24, too, where a place is no float any more. What follows the last pixel is zero up to whole groups. */
+/* Dithered grey: rows, columns and channels are at their places, in pictures of any width and from any offset, also
+ * far beyond 2^24, where floats do not resolve offsets. After the last pixel there are zeros up to whole groups. */
 static void places(void **state)
 {
     (void)state;
@@ -93,8 +93,7 @@ static void places(void **state)
     };
     static float light[3 * 65536];
     static uint16_t found[3 * (65536 + KD_GROUP_SIZE * KD_POST_PIXELS)];
-    const float level[3] = { 1000.5f, 30000.5f,
-                             60000.5f }; /* dithered to the one below or above by the place's own threshold */
+    const float level[3] = { 1000.5f, 30000.5f, 60000.5f }; /* dithered down or up by the place's own threshold */
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         uint32_t n = cases[c].pixels, unsure = 0;
         for (uint32_t i = 0; i < 3 * n; i++)
@@ -106,8 +105,7 @@ static void places(void **state)
         for (uint32_t i = 0; i < 3 * n; i++) {
             uint32_t at = cases[c].first + i / 3;
             double d = 0.998 * noise(at % cases[c].width, at / cases[c].width), v = level[i % 3] + 0.5 + d;
-            /* A tie, to within what curve and noise may be wrong by, may go either way; so may a noise that wraps
-             * round. */
+            /* A tie, within the errors of curve and noise, may go either way; so may a noise that wraps round. */
             bool tie = fabs(v - round(v)) < 0.1 || fabs(d) > 0.45;
             unsure += tie;
             assert_true(tie ? abs(found[i] - (int)floor((double)level[i % 3] + 0.5)) <= 1 : found[i] == (int)floor(v));
@@ -118,8 +116,7 @@ static void places(void **state)
     }
 }
 
-/* One and the same to the byte, whichever way the light is read; NaN and infinite light do no harm to the pixels
- * beside them. */
+/* The same bytes for both readers; NaN and infinite light do not affect neighbouring pixels. */
 static void both_readers(void **state)
 {
     (void)state;
@@ -147,8 +144,7 @@ static void both_readers(void **state)
     }
 }
 
-/* Pixels are counted, not channels, wherever they stand among the four of an invocation; those behind the end are
- * none. */
+/* Counts pixels, not channels, at any of the four places of an invocation; places beyond the end do not count. */
 static void no_number(void **state)
 {
     (void)state;
@@ -171,8 +167,8 @@ static void no_number(void **state)
         }
 }
 
-/* Light at white and beyond stays white: no dither lifts it over the last level, nor lowers it by more than one of
- * 16 bits, and black stays black. */
+/* White and brighter light stays white: dither does not overflow the last level, nor lower it by more than one of 16
+ * bits; black stays black. */
 static void ends(void **state)
 {
     (void)state;
@@ -192,7 +188,7 @@ static void ends(void **state)
     }
 }
 
-/* Khronos PBR Neutral in double, as its specification has it (github.com/KhronosGroup/ToneMapping, 2024). */
+/* Khronos PBR Neutral in double precision, as specified (github.com/KhronosGroup/ToneMapping, 2024). */
 static void khronos(const double in[3], double out[3])
 {
     const double compress = 0.8 - 0.04, desaturate = 0.15, d = 1 - compress;
@@ -207,7 +203,7 @@ static void khronos(const double in[3], double out[3])
         out[c] = (out[c] * shown / peak) * (1 - g) + shown * g;
 }
 
-/* To two steps of 16 bits in what is encoded, of light from black to far beyond white. */
+/* To two steps of 16 bits of encoded value, from black to far beyond white. */
 static void neutral(void **state)
 {
     (void)state;

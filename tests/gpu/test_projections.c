@@ -1,6 +1,6 @@
-/* Pictures of all directions and of half of them, from a finite radius. The direction of a pixel is made here by
- * rotations about the axes of the camera, one after the other; the Kerr-Schild oracle says where the photon from
- * there was. Cameras of this kind look outwards too, where a picture through a pinhole seldom does. */
+/* Pictures of all directions, and of half of them, from a finite radius. A pixel's direction is computed here by
+ * successive rotations about the camera's axes; the Kerr-Schild oracle gives the origin of its photon. Such cameras
+ * look outwards too, which pinhole pictures seldom do. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/view/camera.h"
@@ -21,7 +21,7 @@ static void turn(double *x, double *y, double angle)
     *y = s * old + c * *y;
 }
 
-/* At (x, y) of the picture, in pixels from its upper left corner, before the camera is turned. */
+/* The direction at (x, y) of the picture, in pixels from its upper left corner, before the camera's rotations. */
 static struct direction seen(const struct kd_scene *scene, double x, double y)
 {
     struct direction d = { 1, 0, 0 };
@@ -36,8 +36,8 @@ static struct direction seen(const struct kd_scene *scene, double x, double y)
     return d;
 }
 
-/* Roll, pitch, yaw: a camera that rolls clockwise sees what was above it to its left, one that is pitched up looks
- * above the hole. */
+/* Roll, pitch, yaw: after a clockwise roll what was above is on the left; a camera that is pitched up looks above
+ * the hole. */
 static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;
@@ -85,8 +85,8 @@ static double apart(const struct ks_path *a, double u, double phi)
     return hypot(u - a->u, sqrt(fmax(0, 1 - a->u * a->u)) * remainder(phi - a->sky_phi, 2 * M_PI));
 }
 
-/* The angle by which directions of escape are off, over 1 + how much they change with the ray; the fates are the
- * oracle's wherever a ray beside it has the same. */
+/* Errors of the directions of escape, over 1 + their sensitivity to the ray; fates are the oracle's wherever a
+ * neighbouring ray has the same. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path)
 {
     static float planes[PLANES * RAYS];
@@ -140,9 +140,9 @@ static void wide(void **state)
     }
 }
 
-/* Rays that fly outwards along the axis of the hole more than round it never meet the plane, or meet it late: Q is 0
- * or nearly so, and the closed form of the polar motion loses the time to a crossing that there is not. At these
- * sizes a row of pixels lies there. */
+/* Rays that fly outwards along the hole's axis more than round it never meet the plane, or meet it late: Q is 0 or
+ * nearly so, and the polar motion's closed form gave a time for a crossing that does not exist. At these sizes a row
+ * of pixels lies there. */
 static void outwards(void **state)
 {
     (void)state;
@@ -159,8 +159,8 @@ static void outwards(void **state)
     }
 }
 
-/* So it is for rays inwards, of which a picture has an ellipse full: none of them may find a crossing that the
- * closed form in double, of another source, knows nothing of. One in this picture did. */
+/* The same for rays inwards, which fill an ellipse in a picture: none of them may have a crossing that the
+ * independent closed form in double does not have. One in this picture did. */
 static void inwards(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* What each ray says of its own error, by every engine, against Taylor series in extended precision
- * (tests/oracle/null_series.h): 999 rays of 1000 are within it, and no ray has another number of crossings or
- * another fate unsaid. Evenly over the image, at the critical curve, along the plane of the disk, and at the ends of
- * the ranges of spin, inclination and radius. */
+/* Stated errors of single rays, by every engine, against Taylor series in extended precision
+ * (tests/oracle/null_series.h): 999 rays of 1000 are within them, and no ray has an unmarked wrong number of
+ * crossings or fate. Rays are spread evenly over the image, at the critical curve, along the plane of the disk, and
+ * at the ends of the ranges of spin, inclination and radius. */
 #include "null_extremes.h"
 #include "null_reference.h"
 #include "null_series.h"
@@ -72,13 +72,13 @@ static void place(const struct view *v, const struct kd_critical *curve, size_t 
     double x = fraction(k, 0.7548776662466927), y = fraction(k, 0.5698402909980532), half = isinf(v->r) ? 12 : 8;
     out[0] = half * (2 * x - 1);
     out[1] = half * (2 * y - 1);
-    if (v->where == FLAT) { /* aimed at the hole along the disk's plane: the polar motion is as uneven as it can be */
+    if (v->where == FLAT) { /* aimed at the hole along the disk's plane, where the polar motion is most uneven */
         out[0] = 0.9 * (2 * x - 1);
         out[1] = -pow(10, -4 + 3.5 * y);
     }
     if (v->where != CRITICAL)
         return;
-    /* From a tenth of its distance to 1e-7 of it, either side. */
+    /* From a tenth of its distance to 1e-7 of it, on either side. */
     const struct kd_critical_point p = kd_critical_at(curve, 2 * M_PI * x);
     double rho = p.rho * (1 + (k % 2 ? 0.1 : -0.1) * pow(10, -6 * y));
     out[0] = curve->centre + rho * cos(p.angle);
@@ -103,7 +103,7 @@ static void prepare(void)
             double *out = l->rays + 2 * l->n;
             place(v, &curve, k, out);
             if (kd_rays_check(&params, out, 1, NULL))
-                continue; /* no light with these constants comes to where the observer is */
+                continue; /* no light with these constants reaches the observer */
             ray.alpha = out[0], ray.beta = out[1];
             l->paths[l->n++] = series_trace(&ray, ORDERS);
         }
@@ -133,12 +133,12 @@ static void test_series(void **state)
         const struct series_path p = series_trace(
             &(struct series_ray) { e->spin, e->radius, c, sqrtl((1 - c) * (1 + c)), e->alpha, e->beta, e->outward }, 8);
         assert_int_equal(p.crossings, e->crossings);
-        for (int k = 0; k < p.crossings; k++) /* to 1e-12 from the critical curve */
+        for (int k = 0; k < p.crossings; k++) /* up to 1e-12 from the critical curve */
             assert_true(fabsl(p.r[k] / e->crossing[k].r - 1) < 1e-10L);
     }
 }
 
-/* The worst error that `error` speaks of. */
+/* The worst error that `error` refers to. */
 static double off_by(const struct series_path *p, const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
     double off = 0;
@@ -230,7 +230,7 @@ static void test_double(void **state)
     check(KD_ENGINE_KS_TAO6, KD_PRECISION_F64, 64);
 }
 
-/* Eight crossings, of which four coarse steps a half turn find seven: no small error beside that. */
+/* A ray with eight crossings, of which four coarse steps a half turn find seven: its stated error must not be small. */
 static void test_few_steps_at_high_order(void **state)
 {
     (void)state;
@@ -248,7 +248,7 @@ static void test_few_steps_at_high_order(void **state)
     assert_true(end.n_crossings == 8 || end.error >= 1);
 }
 
-/* Crossings further off than a tolerance, in all lists; of them, those of rays that say that they are within it. */
+/* Crossings with errors above a tolerance, over all lists; silent: those of rays that claim to be within it. */
 struct held { size_t crossings, off, silent, again, beyond, rays; };
 
 static void count(const struct list *l, double tolerance, const struct kd_ray_end *ends,
@@ -261,7 +261,7 @@ static void count(const struct list *l, double tolerance, const struct kd_ray_en
         t->rays++;
         t->again += e->again;
         t->beyond += said;
-        for (int n = 0; n < p->crossings; n++) { /* one that is not told is as wrong as can be */
+        for (int n = 0; n < p->crossings; n++) { /* a missing crossing counts as wrong */
             bool off = n >= (int)e->n_crossings || fabsl(crossings[k * ORDERS + (size_t)n].r / p->r[n] - 1) > tolerance;
             t->crossings++;
             t->off += off;
@@ -292,8 +292,8 @@ static struct held hold(const struct kd_setting *by, double tolerance, bool agai
     return t;
 }
 
-/* A tolerance holds for each ray, whatever its place in the image, but for those that say that they are beyond it: few,
- * next to the critical curve, where double precision knows no better. */
+/* A tolerance is met by each ray at any place of the image, except those marked as beyond it: few, next to the
+ * critical curve, where even double precision is not enough. */
 static void test_tolerance(void **state)
 {
     (void)state;
@@ -309,11 +309,11 @@ static void test_tolerance(void **state)
                       asked_accuracy.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps,
                       once.crossings, once.off, 100.0 * (double)once.off / (double)once.crossings, held.off, held.again,
                       held.rays, held.beyond);
-        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* or the test proves nothing */
+        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* otherwise the test proves nothing */
         assert_true(10000 * held.silent <= held.crossings);
         assert_true(1000 * held.off <= held.crossings || k > 8);
         assert_true(10 * held.beyond <= held.rays ||
-                    k > 9); /* 1 in 24 at 1e-9; in closed form alone, without f64, 1 in 19 */
+                    k > 9); /* 1 in 24 at 1e-9; with the closed form alone, without f64, 1 in 19 */
     }
 }
 

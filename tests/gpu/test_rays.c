@@ -1,5 +1,5 @@
 /* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction,
- * fate, and the error that comes with each ray against the error that was made. */
+ * fate, and each ray's stated error against its true error. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -23,7 +23,7 @@ enum { HOLES = sizeof holes / sizeof *holes };
 static struct ks_path paths[HOLES][RAYS], beside[HOLES][RAYS];
 static double lists[HOLES][2 * RAYS];
 
-/* Coordinates that both precisions hold exactly, and off the axes of symmetry. */
+/* Coordinates that are exact in both precisions, and off the axes of symmetry. */
 static void prepare(void)
 {
     for (int h = 0; h < HOLES; h++) {
@@ -46,8 +46,7 @@ struct tally {
     int rays, bounded, crossings;
 };
 
-/* Errors over 1 + amplification, crossings near the horizon left out: there phi and t of Boyer and Lindquist
- * diverge. */
+/* Errors over 1 + amplification. Crossings near the horizon are left out, where Boyer-Lindquist phi and t diverge. */
 static void judge_crossing(const struct hole *o, const struct ks_path *p, const struct ks_path *q, int n,
                            const struct kd_ray_crossing *c, struct tally *t)
 {
@@ -67,7 +66,7 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &paths[h][k], *q = &beside[h][k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* the oracle itself changes its mind within a millionth */
+            continue; /* the oracle itself is not stable within a millionth */
         int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         if ((int)ends[k].n_crossings != wanted)
             fail_msg("hole %d, ray %d: %u crossings, the oracle has %d", h, k, ends[k].n_crossings, wanted);
@@ -89,7 +88,7 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     }
 }
 
-/* The oracle is good to some 2e-11 (its start at r = 1e6 and a thousand steps); its direction, taken at r = 1e8, to
+/* The oracle is accurate to some 2e-11 (start at r = 1e6, a thousand steps); its direction, taken at r = 1e8, to
  * 3e-7. */
 static void check(enum kd_engine engine, enum kd_precision precision, double bound_r, double bound_phi,
                   double bound_delay, double bound_sky)
@@ -165,8 +164,8 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
     return errors[n / 2];
 }
 
-/* The estimate of the error against the error itself, by the closed form, where the steps are coarse and their law
- * does not hold yet: a bound for 999 of 1000 rays, and no more than a hundred times too large for half of them. */
+/* The stated error against the true one, by the closed form, where the steps are too coarse for the asymptotic law:
+ * a bound for 999 of 1000 rays, and at most a hundred times too large for half of them. */
 static void check_estimate(enum kd_engine engine, uint32_t steps)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -218,8 +217,8 @@ static void test_estimate(void **state)
     }
 }
 
-/* Each method converges by its order: twice the steps leave 1/2, 1/16, 1/64 of the error, less what the coarse end
- * of the range spoils. Mino's is judged on the second crossing, where the oracle's 1e-11 does not yet show. */
+/* Each method converges with its order: twice the steps leave 1/2, 1/16, 1/64 of the error, except at the coarse
+ * end. Mino's is judged on the second crossing, where the oracle's 1e-11 is not yet visible. */
 static void test_orders(void **state)
 {
     (void)state;
@@ -245,9 +244,9 @@ static void test_orders(void **state)
     }
 }
 
-/* The Kerr-Schild engines where their start is hard, against the closed form: on the axis and next to it, in the
- * plane, an ulp from it, and where rays meet it far beyond the start at 1000 M, on the way in or out; impact
- * parameters beyond that start. */
+/* The Kerr-Schild engines at difficult starts, against the closed form: on the axis and next to it, in the plane, an
+ * ulp from it, and where rays meet it far beyond the start at 1000 M, on the way in or out; impact parameters beyond
+ * that start. */
 static void test_starts(void **state)
 {
     (void)state;
@@ -295,14 +294,14 @@ static void test_starts(void **state)
             views[v].r, views[v].inclination, views[v].half, wide ? "f64" : "f32", differ, n, errors[0][n / 2],
             errors[1][n / 2], errors[1][n - n / 100]);
         assert_true(n > RAYS / 2);
-        assert_true(differ <= (wide ? 0 : 2)); /* the critical curve, in single precision */
+        assert_true(differ <= (wide ? 0 : 2)); /* at the critical curve, in single precision */
         assert_true(errors[0][n / 2] < (wide ? 2e-7 : 3e-5));
         assert_true(errors[1][n - n / 100] < (wide ? 1e-4 : 3e-3));
     }
 }
 
-/* What the Kerr-Schild engines say of their errors, against the oracle: a bound for 999 of 1000 rays, 1 where fate
- * or crossings are others. Their azimuths count turns as the closed form's do. */
+/* Stated errors of the Kerr-Schild engines, against the oracle: a bound for 999 of 1000 rays, 1 if fate or crossings
+ * differ. Their azimuths count turns as the closed form's do. */
 static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision, int h)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -365,8 +364,8 @@ static bool stop_at_once(void *user, double fraction)
     return false;
 }
 
-/* The costliest rays come in submissions of a few, so that a request for many can be cancelled and others have their
- * turn. */
+/* The costliest rays are submitted in small groups, so that long requests can be cancelled and others can
+ * interleave. */
 static void test_submissions_are_short(void **state)
 {
     (void)state;
@@ -392,7 +391,7 @@ static void test_submissions_are_short(void **state)
     assert_true(done > 0 && done < 0.1);
 }
 
-/* The most steps that each engine takes do not run into llvmpipe's limit of 65535 rounds, past which a ray ends
+/* The maximum number of steps of each engine stays below llvmpipe's limit of 65535 rounds, beyond which a ray ends
  * anywhere. */
 static void test_most_steps(void **state)
 {
@@ -435,9 +434,9 @@ static void test_most_steps(void **state)
     }
 }
 
-/* A ray that leaves the plane by less than a float holds, on either side, is told where it crosses, by each engine:
- * on a device that flushes denormal numbers too. beta = 1e-6 is as good a limit; of two tiny labels the ratio
- * counts. */
+/* A ray whose distance from the plane underflows a float, on either side, has the correct crossing for each engine,
+ * also on a device that flushes denormal numbers. beta = 1e-6 is close enough to the limit; for two tiny labels
+ * their ratio counts. */
 static void test_tiny_labels(void **state)
 {
     (void)state;
@@ -460,7 +459,7 @@ static void test_tiny_labels(void **state)
         }
 }
 
-/* Light from the pole of a hole without spin that looks back at its centre falls in and crosses nothing. */
+/* Light from the pole of a hole without spin, aimed back at its centre, falls in without a crossing. */
 static void test_nothing_to_be_wrong(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* One ray step by step: the kernel that tells ends where the one that does not ends, its steps are those of the ray,
- * and the first integrals hold along them. */
+/* One ray step by step: the recording kernel ends where the ordinary one does, its steps lie on the ray, and the
+ * first integrals hold along them. */
 #include "render/rays/steps.h"
 
 #include "render_support.h"
@@ -38,7 +38,7 @@ static void below(double residual, double size, double bound)
         fail_msg("residual %g of terms of size %g, bound %g", residual, size, bound);
 }
 
-/* Terms of each first integral are as large as b^2; b is below 10 here. */
+/* Terms of each first integral are of the order of b^2; b is below 10 here. */
 static void check_step(const struct kd_rays_step *s, double bound)
 {
     double b2 = 100;
@@ -50,7 +50,7 @@ static void check_step(const struct kd_rays_step *s, double bound)
     assert_true(!isnan(s->res_w) && !isnan(s->res_u) != !isnan(s->res_n) && !isnan(s->res_n) == !isnan(s->res_l));
 }
 
-/* Every crossing is told, after as many steps as a half period has, with the numbers of the end points. */
+/* Every crossing is recorded, at the expected number of steps of a half period, with the numbers of the end points. */
 static void check_crossings(const struct kd_rays_steps *steps)
 {
     unsigned found = 0, taken = 0;
@@ -71,7 +71,7 @@ static void check_crossings(const struct kd_rays_steps *steps)
     assert_int_equal(found, steps->end.n_crossings);
 }
 
-/* The ray leaves from the observer and ends at infinity or at the horizon; Mino time goes on but where steps are
+/* The ray starts at the observer and ends at infinity or the horizon; Mino time increases except where steps are
  * taken back. */
 static void check_ends(const struct ray *ray, const struct kd_rays_steps *steps)
 {
@@ -108,7 +108,7 @@ static bool wide(void)
     return capacity.float64;
 }
 
-/* Bounds: some hundred steps of a unit roundoff each; what the usual numbers of steps lose. */
+/* Bounds: some hundred steps of a unit roundoff each, and the error of the usual numbers of steps. */
 static void test_mino(void **state)
 {
     (void)state;
@@ -120,8 +120,8 @@ static void test_mino(void **state)
     }
 }
 
-/* The steps lie on the ray: where a coarser trace has a step, a finer one of twice the steps has one too, at the
- * same place but for what the coarser loses. */
+/* The steps lie on the ray: a trace with twice the steps has one at each step of the coarser one, at the same place
+ * up to the coarser one's error. */
 static void test_refined(void **state)
 {
     (void)state;
@@ -151,8 +151,8 @@ static void test_refined(void **state)
     }
 }
 
-/* Time is what w' is the rate to: by the trapezoidal rule, from the step before or, where steps are taken back, the
- * crossing. */
+/* w' is the rate of w in the recorded time: by the trapezoidal rule, from the step before or, where steps are taken
+ * back, from the crossing. */
 static void test_time(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Adaptive sampling: a picture whose pixels have as many rays as they need, against those in which all have 1, 16 or
- * 64. */
+/* Adaptive sampling: a picture whose pixels get as many rays as they need, against pictures with 1, 16 or 64 for
+ * all. */
 #include "render/frame/choose.h"
 #include "render/frame/residual.h"
 #include "render/render.h"
@@ -12,7 +12,7 @@
 #define HEIGHT 360
 #define PIXELS (WIDTH * HEIGHT)
 
-/* samples: 0: auto. */
+/* samples 0: auto. */
 static struct kd_scene scene_of(const char *json, int samples)
 {
     struct kd_scene scene;
@@ -48,7 +48,7 @@ static struct kd_frame render(const char *json, int samples, struct kd_plan *pla
 
 static const uint16_t *pixel(const struct kd_frame *f, int k) { return (const uint16_t *)kd_frame_pixels(f) + 3 * k; }
 
-/* Mean square of the difference, of white. */
+/* Mean squared difference, relative to white. */
 static double off(const struct kd_frame *a, const struct kd_frame *b)
 {
     double sum = 0;
@@ -64,13 +64,12 @@ static const char *const scenes[] = {
     "{\"disk\": {\"gas\": {\"amplitude\": 0.5}}}",
     "{\"camera\": {\"inclination_deg\": 85}, \"disk\": {\"gas\": {\"amplitude\": 0.8}, \"emission_opacity\": 10}}",
     "{\"sky\": {\"model\": \"grid\"}, \"disk\": {\"model\": \"none\"}}",
-    "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}", /* next to no edges: what is left are
-                                                                                    bends, and the map's third
-                                                                                    differences */
+    /* Almost no edges: the remaining differences are curvature, and the map's third differences. */
+    "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
-/* The share of the pixels of a that are neither those of b nor those of c, to 0.003 of white. */
+/* Fraction of the pixels of a that equal neither those of b nor those of c, to 0.003 of white. */
 static double neither(const struct kd_frame *a, const struct kd_frame *b, const struct kd_frame *c)
 {
     int n = 0;
@@ -85,8 +84,8 @@ static double neither(const struct kd_frame *a, const struct kd_frame *b, const 
     return (double)n / PIXELS;
 }
 
-/* What a frame says that is left, from some 200 pixels, is near what is left of all: of a sum of squares most is in
- * few of them. */
+/* A frame's stated residual, from some 200 pixels, is close to that of all; most of a sum of squares comes from few
+ * of them. */
 static void residual(const struct kd_frame *adaptive, const struct kd_frame *truth)
 {
     double left = sqrt(off(adaptive, truth)), said = adaptive->accuracy.pixel_error;
@@ -95,9 +94,9 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
     assert_true(said < 4 * left && said > left / 4);
 }
 
-/* A picture within 0.5 dB of that by 16 rays, judged by that of 64, for a quarter of the rays at most: the figures
- * that were asked for. Its pixels are those of the picture by one ray or of that by 16, but for few where a ray
- * between others falls on the other side of an edge. */
+/* A picture within 0.5 dB of that by 16 rays, judged by that of 64, for at most a quarter of the rays: the
+ * requirement. Its pixels are those of the picture by one ray or by 16, except few where an interpolated ray falls
+ * on the other side of an edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -124,7 +123,7 @@ static void test_as_good(void **state)
     }
 }
 
-/* A stated error that is smaller leaves less, for more pixels. */
+/* A smaller target error leaves less, for more pixels. */
 static void test_target(void **state)
 {
     (void)state;
@@ -148,9 +147,8 @@ static void test_target(void **state)
     kd_frame_finish(&truth);
 }
 
-/* With the lens map of before the picture is the same. In bands it is but for the rays at their edges, which are
- * followed there; and so it is by listed rays, but for those next to an edge. A look at it, and its flux, are those
- * of all rays. */
+/* With the cached lens map the picture is the same. In bands it is too, except for rays at their edges, which are
+ * traced; and so it is by listed rays, except next to an edge. A preview and the flux contain all rays. */
 static void test_same(void **state)
 {
     (void)state;
@@ -177,7 +175,7 @@ static void test_same(void **state)
     kd_frame_finish(&bands);
 }
 
-/* Light of every strength on the host is what post.comp makes of it, to half a step of 16 bits. */
+/* Light of any strength is converted on the host as by post.comp, to half a step of 16 bits. */
 static void test_shown(void **state)
 {
     (void)state;
@@ -209,7 +207,7 @@ static void test_shown(void **state)
 }
 
 enum { W = 16, H = 8 };
-static uint8_t kinds[W * H]; /* 1: out of the question */
+static uint8_t kinds[W * H]; /* 1: excluded */
 
 static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 {
@@ -222,8 +220,8 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* A faint bend is chosen where nothing stronger is there, and so much of it as leaves next to nothing of the
- * squares; not beside an edge. */
+/* A faint curvature is chosen if nothing stronger is present, until almost no sum of squares is left; not beside an
+ * edge. */
 static void test_faint(void **state)
 {
     (void)state;
@@ -231,12 +229,12 @@ static void test_faint(void **state)
     memset(kinds, 0, sizeof kinds);
     for (int k = 0; k < W * H; k++)
         pixels[3 * k] = 1000;
-    for (int x = 0; x < W; x++) /* the edge of the picture, which is dark, is out of the question */
+    for (int x = 0; x < W; x++) /* the dark border of the picture is excluded */
         kinds[x] = kinds[(H - 1) * W + x] = 1;
     for (int y = 0; y < H; y++)
         kinds[y * W] = kinds[y * W + W - 1] = 1;
-    pixels[3 * (3 * W + 4)] += 400;  /* bends of 800 and 400: less than 1311 */
-    pixels[3 * (5 * W + 11)] += 100; /* of 200 and 100: the former is above the floor, 132 */
+    pixels[3 * (3 * W + 4)] += 400;  /* curvatures of 800 and 400: less than 1311 */
+    pixels[3 * (5 * W + 11)] += 100; /* of 200 and 100: the former exceeds the floor, 132 */
     struct kd_choice choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 9 + 1);
     kd_choice_finish(&choice);
@@ -246,18 +244,18 @@ static void test_faint(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Which pixels of a made-up picture are chosen. */
+/* Chosen pixels of a synthetic picture. */
 static void test_choice(void **state)
 {
     (void)state;
     static uint16_t pixels[3 * W * H], before[3 * W * H];
     memset(kinds, 0, sizeof kinds);
-    for (int k = 0; k < W * H; k++) /* a steep ramp, straight */
+    for (int k = 0; k < W * H; k++) /* a steep, straight ramp */
         for (int c = 0; c < 3; c++)
             pixels[3 * k + c] = (uint16_t)(4000 * (k % W) + 300 * (k / W));
     struct kd_choice choice = bent(pixels, W * H);
     assert_true(choice.list.n > 0);
-    for (size_t i = 0; i < choice.list.n; i++) /* nothing inside */
+    for (size_t i = 0; i < choice.list.n; i++) /* none inside */
         assert_true(place(&choice, i).x == 0 || place(&choice, i).x == W - 1 || place(&choice, i).y == 0 ||
                     place(&choice, i).y == H - 1);
     kd_choice_finish(&choice);
@@ -265,18 +263,18 @@ static void test_choice(void **state)
     for (int k = 0; k < 9; k++) /* a square in one channel, by 0.03, one corner by 0.3 */
         pixels[3 * ((3 + k / 3) * W + 6 + k % 3) + 1] = k ? 1966 : 19660;
     choice = bent(pixels, W * H);
-    assert_int_equal(choice.list.n, 25); /* the square and those beside it */
+    assert_int_equal(choice.list.n, 25); /* the square and its neighbours */
     assert_true(place(&choice, 0).x == 5 && place(&choice, 0).y == 2 && place(&choice, 24).x == 9 &&
                 place(&choice, 24).y == 6);
     kd_choice_finish(&choice);
-    choice = bent(pixels, 9); /* the largest first: the corner and those beside it */
+    choice = bent(pixels, 9); /* the largest first: the corner and its neighbours */
     assert_true(choice.list.n == 9 && place(&choice, 8).x == 7 && place(&choice, 8).y == 4);
     kd_choice_finish(&choice);
     kinds[2 * W + 5] = kinds[2 * W + 6] = kinds[3 * W + 12] = kinds[6 * W + 9] = 1;
     choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 25 - 3);
     kd_choice_finish(&choice);
-    memcpy(before, pixels, sizeof before); /* one pixel of two comes out otherwise, by enough */
+    memcpy(before, pixels, sizeof before); /* one pixel of two changes by enough */
     before[3 * (4 * W + 7) + 1] += 700;
     before[3 * (6 * W + 2) + 2] += 600;
     struct kd_pixel last[] = { { 7, 4 }, { 2, 6 } };
@@ -289,8 +287,8 @@ static void test_choice(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Plans count as many rays as are followed and taken from between others, to a factor of two, whether pixels need them
- * at the curve alone or everywhere: by one share for all, a smooth disk counted four times its rays. */
+/* Plans count traced and interpolated rays, to a factor of two, whether pixels need them only at the curve or
+ * everywhere: with one fraction for all, a smooth disk counted four times its rays. */
 static void test_planned(void **state)
 {
     (void)state;

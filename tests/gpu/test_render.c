@@ -48,12 +48,12 @@ static void assert_same(struct kd_frame *a, struct kd_frame *b)
     kd_frame_finish(b);
 }
 
-/* A scene that differs only in what the lens map does not depend on finds it again. */
+/* A scene that differs only in what the lens map does not depend on reuses the map. */
 static void test_reuse(void **state)
 {
     (void)state;
     struct kd_scene scene = small_scene();
-    scene.camera.inclination_deg = 61.5; /* nobody has asked for this one before */
+    scene.camera.inclination_deg = 61.5; /* not in the cache yet */
     struct kd_frame first = rendered(&scene), again = rendered(&scene);
     assert_false(first.lens_reused);
     assert_true(again.lens_reused && ran(&first, "trace") && !ran(&again, "trace"));
@@ -78,12 +78,13 @@ static void test_reuse(void **state)
     }
 }
 
-/* The critical curve is followed once for a picture, its plan included, and not again while the camera stays. */
+/* The critical curve is computed once for a picture, including its plan, and not again while the camera is
+ * unchanged. */
 static void test_the_curve_is_followed_once(void **state)
 {
     (void)state;
     struct kd_scene scene = small_scene();
-    scene.camera.inclination_deg = 62.75; /* nobody has asked for this one before */
+    scene.camera.inclination_deg = 62.75; /* not in the cache yet */
     uint64_t before = kd_critical_pixels_made();
     struct kd_frame frame = rendered(&scene);
     assert_false(frame.lens_reused);
@@ -127,7 +128,7 @@ static void test_bands(void **state)
     }
 }
 
-/* A larger picture that needs several slices and is the same when rendered twice. */
+/* A larger picture with several slices is the same when rendered twice. */
 static void test_slices(void **state)
 {
     (void)state;
@@ -229,11 +230,11 @@ static void test_progress(void **state)
     struct kd_frame frame;
     int calls = 0;
     double last = 0;
-    scene.spacetime.spin = 0.123; /* a lens map that no test has left behind */
+    scene.spacetime.spin = 0.123; /* not in the cache of any test */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     FAILS(KD_ECANCELLED, "cancelled", kd_render(renderer, &scene, &plan, stop_at_once, &calls, &frame, &error));
     assert_int_equal(calls, 1);
-    /* What was cancelled has left no half-made lens map. */
+    /* A cancelled frame leaves no half-made lens map. */
     OK(kd_render(renderer, &scene, &plan, count_up, &last, &frame, &error));
     assert_false(frame.lens_reused);
     assert_true(last == 1);
@@ -241,7 +242,7 @@ static void test_progress(void **state)
 }
 
 struct glances {
-    const struct kd_frame *want; /* NULL: the exposure is its own */
+    const struct kd_frame *want; /* NULL: it has its own exposure */
     uint32_t rows[64], n;
 };
 
@@ -260,7 +261,7 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
         assert_int_equal(pixels[i], 0);
 }
 
-/* A picture that is looked at while it is drawn comes out the same, and what is seen of it is its upper part. */
+/* Previews do not change the picture, and show its finished upper part. */
 static void test_glances(void **state)
 {
     (void)state;
@@ -270,10 +271,10 @@ static void test_glances(void **state)
         struct kd_scene scene = small_scene();
         struct kd_plan plan;
         scene.camera.inclination_deg = 60 + k;                              /* a lens map of its own */
-        scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays followed, and a sampled map */
+        scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, and a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
-        scene.style.bloom = k < 3 ? 0 : 0.5; /* of what is lit so far, or of all */
+        scene.style.bloom = k < 3 ? 0 : 0.5; /* of the finished part, or of all */
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
         if (k == 2 && !has_float64("glances of f64 rays, of the closed form instead"))
@@ -287,7 +288,7 @@ static void test_glances(void **state)
             assert_true(plan.bands > 2);
         }
         plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
-        plan.lens_key[0] = 'x';         /* the one that is there shall not be found */
+        plan.lens_key[0] = 'x';         /* a key that is not cached */
         struct glances glances = { .want = isinf(scene.style.exposure) ? NULL : &whole };
         OK(kd_render_in_background(renderer, &scene, &plan, NULL, &preview, &glances, &looked, &error));
         assert_in_range(glances.n, k ? 12 : 1, 20); /* a sampled map's slices are blocks of 64 rows */
@@ -300,12 +301,11 @@ struct others {
     struct kd_scene scenes[2];
     struct kd_plan plans[2];
     struct kd_frame frames[2];
-    int crowd; /* so many kernels are asked for besides */
+    int crowd; /* number of additional kernels requested */
     int calls;
 };
 
-/* In the middle of a picture: another long one, a short one, and more with a kernel of their own each, one after the
- * other. */
+/* In the middle of a picture: another long one, a short one, and more with one kernel each, in succession. */
 static bool let_others(void *user, double fraction)
 {
     struct others *o = user;
@@ -329,7 +329,7 @@ static bool let_others(void *user, double fraction)
     return true;
 }
 
-/* Pictures that others come between are the same as alone, and so are those others; their times are their own. */
+/* Interleaved pictures are the same as alone, and so are the interrupted ones; each has its own times. */
 static void test_asides(void **state)
 {
     (void)state;
@@ -343,7 +343,7 @@ static void test_asides(void **state)
     scene.accuracy.profile = KD_PROFILE_HIGH;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r,
                           &error));
-    o.r->kernels.kept = KEPT; /* all of the picture's make room for those that come between */
+    o.r->kernels.kept = KEPT; /* the interleaved pictures evict all kernels of the picture */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
@@ -370,15 +370,14 @@ static void test_asides(void **state)
         assert_same(&alone, &o.frames[i]);
     }
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* and the other way round */
+    assert_true(alone.lens_reused); /* and vice versa */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
     assert_int_equal(kd_renderer_validation_messages(o.r), 0);
     kd_renderer_destroy(o.r);
 }
 
-/* A lens map that another store has made is enough for all that a frame does: rays that refine it need more buffers
- * than the map. */
+/* A lens map made by another store is sufficient for a whole frame: refinement needs more buffers than the map. */
 static void test_a_map_that_is_handed_over(void **state)
 {
     (void)state;
@@ -394,7 +393,7 @@ static void test_a_map_that_is_handed_over(void **state)
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
     assert_true(timing_of(&here, "kernels") > 0 &&
-                isnan(timing_of(&aside, "kernels"))); /* the first one had to make them */
+                isnan(timing_of(&aside, "kernels"))); /* the first one had to compile them */
     assert_true(aside.lens_reused && aside.accuracy.followed > 0);
     kd_store_hand_over(&fresh->background_renders[0].store, &fresh->store, &plan);
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));
@@ -414,8 +413,8 @@ static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene 
     return frame;
 }
 
-/* Memory is given back when there is nothing to do. What is rendered afterwards is the same, and the latest view
- * finds its lens map, unless too much is left that has no name: then the device is opened again. */
+/* Idle memory is released. Later pictures are the same, and the latest view finds its lens map, unless too much
+ * unnamed memory is left: then the device is reopened. */
 static void test_rest(void **state)
 {
     (void)state;
@@ -437,7 +436,7 @@ static void test_rest(void **state)
     scene.camera.inclination_deg = 41;
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
-        /* As if nothing, or all of this process and a lot more, had come since it was opened. */
+        /* As if no memory, or all of this process's and much more, had been added since it was opened. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_kept(fresh, kept);
@@ -447,7 +446,7 @@ static void test_rest(void **state)
         print_message("%.0f MiB were held on the device, %.0f are, %.0f are kept in all, %.0f of them without a name\n",
                       (double)held / 0x1p20, (double)kd_renderer_held(fresh) / 0x1p20, (double)sum / 0x1p20,
                       (double)kept[KD_KEPT_OTHER] / 0x1p20);
-        if (often) /* what is resident beside it has a name still when it has been opened again */
+        if (often) /* other resident memory keeps its category after reopening */
             assert_true(kept[KD_KEPT_OTHER] + kept[KD_KEPT_HEAP] > 1 << 20);
         assert_true(kd_renderer_held(fresh) < held &&
                     kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one */
@@ -460,7 +459,7 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* Pictures that were made aside leave behind what the next one may use, up to a bound, and the last one all of that. */
+/* Pictures rendered in the background leave resources for the next one, up to a bound, and the last one all of them. */
 static void test_what_idle_asides_keep_is_bounded(void **state)
 {
     (void)state;
@@ -493,7 +492,7 @@ static void test_what_idle_asides_keep_is_bounded(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* What is resident is looked at when it is asked for, and not in each frame. */
+/* Resident memory is measured on request, and not in each frame. */
 static void test_what_is_resident_is_counted_when_asked(void **state)
 {
     (void)state;
@@ -502,13 +501,13 @@ static void test_what_is_resident_is_counted_when_asked(void **state)
     renderer->started_bytes = UINT64_MAX / 4; /* as if more had been, */
     kd_renderer_kept(renderer, kept);
     assert_int_equal(kept[KD_KEPT_OTHER], 0);
-    renderer->started_bytes = 0; /* and as if nothing had */
+    renderer->started_bytes = 0; /* and as if none had */
     kd_renderer_kept(renderer, kept);
     assert_true(kept[KD_KEPT_OTHER] > 1 << 20);
     renderer->started_bytes = started;
 }
 
-/* A defect of the program, here a buffer that is too small, is told as one, and the store begins anew. */
+/* A defect of the program, here a buffer that is too small, is reported as one, and the store starts afresh. */
 static void test_a_defect_does_not_stay(void **state)
 {
     (void)state;
@@ -525,7 +524,7 @@ static void test_a_defect_does_not_stay(void **state)
     assert_same(&before, &after);
 }
 
-/* Particles that are deposited for another picture between the slices are not those of this one. */
+/* Particles deposited for another picture between the slices do not affect this one. */
 static void test_asides_with_particles(void **state)
 {
     (void)state;
@@ -566,8 +565,8 @@ static void test_too_big(void **state)
     FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));
 }
 
-/* The error that an answer reports, measured in double precision: small for what is exact, larger for a draft; kept
- * with the lens map; the same for the camera at a finite radius; absent where it cannot be measured. */
+/* The reported error of an answer, measured in double precision: small for accurate profiles, larger for a draft;
+ * cached with the lens map; the same for a camera at a finite radius; absent where it cannot be measured. */
 static void test_audit(void **state)
 {
     (void)state;
@@ -583,8 +582,8 @@ static void test_audit(void **state)
     kd_frame_finish(&again);
 
     scene.camera.r = 15;
-    scene.accuracy.orders = 1;                /* near the critical curve rounding hides what the steps lose */
-    scene.accuracy.profile = KD_PROFILE_HIGH; /* of a sampled map the tolerance shows */
+    scene.accuracy.orders = 1;                /* near the critical curve rounding hides the error of the steps */
+    scene.accuracy.profile = KD_PROFILE_HIGH; /* a sampled map shows the tolerance */
     first = rendered(&scene);
     scene.accuracy.steps = 4;
     again = rendered(&scene);
@@ -605,7 +604,7 @@ static void test_audit(void **state)
     kd_frame_finish(&first);
 }
 
-/* Rays that start sideways: constants of 32 bits would start them elsewhere, and the audit has them in double. */
+/* Rays that start sideways: single-precision constants would start them elsewhere, so the audit uses double. */
 static void test_audit_of_rays_that_start_sideways(void **state)
 {
     (void)state;
@@ -624,7 +623,7 @@ static void test_audit_of_rays_that_start_sideways(void **state)
     kd_frame_finish(&frame);
 }
 
-/* What a scene does not use is not in its plan. */
+/* A plan has nothing that its scene does not use. */
 static void test_plan(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The ring projection: the edges of the orders in a lens map against the solved ones, pixel by pixel; e^-gamma read
- * off it; its light against that of a plane picture. */
+/* The ring projection: edges of the orders in a lens map against the solved ones, pixel by pixel; the measured
+ * e^-gamma; its light against that of a plane picture. */
 #include "render_support.h"
 
 #include "physics/null/lensing.h"
@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* Whether a pixel sees the plane nearer than `source`, and whether the edge says so. Pixels that the edge all but
- * touches, as far as alpha and beta can tell, do not count. */
+/* 1 if a pixel sees the plane nearer than `source` exactly when the edge says so. Pixels too close to the edge for
+ * alpha and beta to decide do not count. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -129,7 +129,7 @@ static void each_order_is_a_gamma_further_in(void **state)
                 double apart =
                     row * (row_of(w + (n + 1) * plan.rays + x, HEIGHT) - row_of(w + n * plan.rays + x, HEIGHT));
                 if (!(fabs(apart - gamma) <
-                      1.05 * row + 0.02)) /* two roundings to a row; order 3 is not the limit yet */
+                      1.05 * row + 0.02)) /* two roundings to a row; order 3 is not at the limit yet */
                     fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
                              n + 1, apart, gamma);
                 sum += apart / gamma;
@@ -143,7 +143,7 @@ static void each_order_is_a_gamma_further_in(void **state)
     }
 }
 
-/* An integrator in double resolves the same orders, as far as it goes. */
+/* An integrator in double precision resolves the same orders, as far as it goes. */
 static void integrators_see_the_rings_too(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void shoot(const struct kd_scene *scene, struct kd_frame *frame)
     OK(kd_render(renderer, scene, &plan, NULL, NULL, frame, &error));
 }
 
-/* What differs from case to case; and every how many pixels one is looked at. */
+/* Parameters of a case, and the spacing of the pixels compared. */
 struct shown {
     const char *what;
     uint32_t width, height, every;
@@ -188,7 +188,7 @@ struct shown {
     int octaves, orders, lit;
 };
 
-/* A pixel of a ring is that of a plane picture which is aimed there: the same light, with its redshift. */
+/* A pixel of a ring has the light and redshift of a plane picture aimed there. */
 static void same_light(const struct shown *shown)
 {
     struct kd_scene ring_scene = scene_of(0.9, 70), plane;
@@ -216,7 +216,7 @@ static void same_light(const struct shown *shown)
         const struct kd_camera_label label = kd_ring_label(&ring, &column, i / shown->width);
         struct kd_frame one;
         plane = ring_scene;
-        plane.image.width = plane.image.height = 3; /* a ray by itself has no footprint */
+        plane.image.width = plane.image.height = 3; /* a single ray has no footprint */
         plane.camera.projection = KD_PROJECTION_PLANE;
         plane.camera.field_m = 1e-5;
         plane.camera.centre_alpha = label.alpha;
@@ -238,8 +238,8 @@ static void same_light(const struct shown *shown)
     kd_frame_finish(&frame);
 }
 
-/* Turbulence is compared at order 0 of a fine ring: elsewhere a pixel of the ring stands for many cells, and shows
- * their mean. */
+/* Turbulence is compared at order 0 of a fine ring: elsewhere a pixel of the ring covers many cells and shows their
+ * mean. */
 static void light_is_that_of_a_plane_picture(void **state)
 {
     (void)state;
@@ -260,7 +260,7 @@ static void needs_double_precision(void **state)
     struct kd_plan plan;
     struct kd_error refused = { 0 };
     kd_renderer_capacity(renderer, &capacity);
-    scene.accuracy.tolerance = 1e-4; /* the table's rays are not those of a ring, nor what its rows hold: */
+    scene.accuracy.tolerance = 1e-4; /* the table's rays are not those of a ring, so its rows do not apply */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.holds < 1e-7);
     scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
@@ -282,7 +282,7 @@ static void needs_double_precision(void **state)
     assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
     assert_string_equal(refused.pointer, "/accuracy/tolerance");
     scene.accuracy.engine = 0;
-    scene.accuracy.tolerance = INFINITY; /* the closed form needs nothing of the device */
+    scene.accuracy.tolerance = INFINITY; /* the closed form needs no table of the device */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.precision == KD_PRECISION_F64);
 }

@@ -1,5 +1,5 @@
-/* Rings of a struck hole: light of image orders 1 and up follows the mode of the hole, by numbers of another method
- * (tests/oracle/qnm_reference.py); order 0 stays as it is; nothing is traced again. */
+/* Ringing of a struck hole: light of image orders 1 and up follows the hole's mode, by numbers of another method
+ * (tests/oracle/qnm_reference.py); order 0 is unchanged; nothing is traced again. */
 #include "render_support.h"
 
 #include "qnm_reference.h"
@@ -15,7 +15,7 @@ static struct kd_scene scene_of(double spin)
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = 75;
     scene.camera.field_m = 30;
-    scene.image.critical_factor = 1; /* pixels are their rays */
+    scene.image.critical_factor = 1; /* a pixel is one ray */
     scene.disk.outer = 15;
     scene.disk.opacity = 0.5;
     scene.image.width = 96;
@@ -80,7 +80,7 @@ static void follow(const char *name, struct kd_scene scene)
             sum += got * rest;
             squares += rest * rest;
         }
-        assert_true(squares > 1e-2); /* there is something to ring */
+        assert_true(squares > 1e-2); /* otherwise nothing would ring */
         worst = fmax(worst, fabs(sum / squares - gain));
         if (t < 0)
             assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&still), 2 * samples(&still));
@@ -125,8 +125,7 @@ static void test_paths(void **state)
     follow("the ring projection", scene);
 }
 
-/* Particles and spots, whose brightness changes from time to time by itself: the reference at the same time is
- * without ringdown. */
+/* Particles and spots, whose brightness changes by itself: the reference is at the same time without ringdown. */
 static void test_lumps(void **state)
 {
     (void)state;
@@ -162,8 +161,7 @@ static void test_lumps(void **state)
     }
 }
 
-/* How much light a ringing hole adds to that of a disk, over all samples, and how far it is off from what another
- * disk's has. */
+/* Light that a ringing hole adds to a disk's, over all samples, and its difference from another disk's. */
 struct change { double sum, off; };
 
 static struct kd_frame at_time(struct kd_scene scene, double t, double amplitude)
@@ -188,7 +186,7 @@ static struct change changed(const struct kd_scene *scene, double t, double *las
     return c;
 }
 
-/* A thick disk of next to no height rings where the thin one does, as much, and all its light by one factor; one of
+/* A thick disk of almost no height rings where the thin one does and as much, all its light by one factor; one of
  * some height by the same factor. */
 static void test_thick(void **state)
 {
@@ -199,7 +197,7 @@ static void test_thick(void **state)
     scene.image.height = 32;
     double *last = calloc((size_t)scene.image.width * (size_t)scene.image.height * 3, sizeof *last);
     assert_non_null(last);
-    scene.accuracy.orders = 8; /* the march goes along all of them */
+    scene.accuracy.orders = 8; /* the march includes all of them */
     const struct change flat = changed(&scene, 0, last, false);
     for (int high = 0; high < 2; high++) {
         scene.disk.height = high ? 0.1 : 5e-5;
@@ -214,7 +212,7 @@ static void test_thick(void **state)
     free(last);
 }
 
-/* What is off is not said. */
+/* Without ringdown nothing is reported. */
 static void test_said(void **state)
 {
     (void)state;

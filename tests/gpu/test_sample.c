@@ -1,6 +1,6 @@
-/* Lens maps that are interpolated between nodes (src/render/frame/sample.h), against the same maps with every ray
- * followed: fates, orders and hemispheres of all rays, crossings and directions of most to the tolerance, footprints;
- * and of tiles to the byte against the whole picture's.
+/* Lens maps interpolated between nodes (src/render/frame/sample.h), against the same maps with every ray traced:
+ * fates, orders and hemispheres of all rays, crossings and directions of most to the tolerance, footprints; and
+ * tiles against the whole picture's, byte for byte.
  *
  *   test_sample [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_sample 200 7
  *
@@ -33,7 +33,7 @@ static struct map map_with(const struct kd_scene *scene, const struct kd_needs *
     struct map map;
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(scene, &error));
-    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* of a tile without its margin */
+    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* for a tile without its margin */
     map.planes = test_calloc(map.plan.planes * map.plan.rays, sizeof *map.planes);
     OK(kd_render_lens(renderer, scene, &map.plan, map.planes, NULL, &error));
     return map;
@@ -62,12 +62,13 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    double *between, *followed, *sky; /* relative errors of w over the condition, of both maps; directions apart */
+    /* relative errors of w over the condition, for both maps; differences of directions */
+    double *between, *followed, *sky;
     size_t n, n_sky;
 };
 
-/* How much w, or a direction, changes where all directions are CONDITION of them off: what the tolerance is relative
- * to (comp/lens_cells.comp), by the neighbours. */
+/* Change of w, or of a direction, when all directions change by CONDITION of themselves, from the neighbours: the
+ * tolerance is relative to it (comp/lens_cells.comp). */
 static double condition(const struct map *m, uint32_t n, uint32_t x, uint32_t y)
 {
     const float *w = plane(m, KD_LENS_W, n);
@@ -79,7 +80,7 @@ static double condition(const struct map *m, uint32_t n, uint32_t x, uint32_t y)
 
 static double apart(double a, double b) { return fabs(remainder(a - b, 2 * M_PI)); }
 
-/* Fates, orders and hemispheres of the two, and how far their directions are apart. */
+/* Compares fates, orders and hemispheres of two maps, and the differences of directions. */
 static void compare(const struct map *a, const struct map *b, struct tally *t)
 {
     for (size_t i = 0; i < RAYS; i++) {
@@ -102,7 +103,7 @@ enum { EVERY = 13, JUDGED = (RAYS + EVERY - 1) / EVERY, ORDERS = 3 };
 static struct kd_ray_crossing truth[JUDGED * ORDERS];
 static struct kd_ray_end ends[JUDGED];
 
-/* Follows one ray in EVERY by the closed form in double: `truth` and `ends`. */
+/* Traces one ray in EVERY by the closed form in double: `truth` and `ends`. */
 static void follow(const struct kd_scene *scene)
 {
     static double alpha_beta[2 * JUDGED];
@@ -145,7 +146,7 @@ static void judge(const struct kd_scene *scene, const struct map *a, const struc
     }
 }
 
-/* The difference that so many of n are within. */
+/* Quantile of the values. */
 static double within(double *values, size_t n, double share)
 {
     qsort(values, n, sizeof *values, by_value);
@@ -187,8 +188,8 @@ static void rays_between_nodes_are_those_that_are_followed(void **state)
     assert_int_equal(t.other_fate, 0);
     assert_int_equal(t.other_order, 0);
     assert_int_equal(t.other_side, 0);
-    /* Half: twice what 32 bits leave of a radius where each ray is followed. 99.9 %: what they leave next to the
-     * critical curve, whose condition the neighbours tell but roughly. */
+    /* Half: twice the single-precision error of a radius where each ray is traced. 99.9 %: that error next to the
+     * critical curve, whose condition the neighbours determine only roughly. */
     assert_true(between_half < 2.5e-7 && between < fmax(2 * followed, 5e-6));
     test_free(t.between);
     test_free(t.followed);
@@ -204,11 +205,11 @@ static struct kd_scene scene_of(double spin, double r)
     scene.image.width = 300;
     scene.image.height = 200;
     scene.sky.model = KD_SKY_GRID;
-    scene.style.exposure = 0; /* a tile has none of its own */
+    scene.style.exposure = 0; /* a tile has no automatic exposure */
     return scene;
 }
 
-/* A tile's map is a part of the picture's, whatever its edges; and so is a picture whose map is made a few rows at a
+/* A tile's map is a part of the picture's, whatever its edges; and so is the map of a picture made a few rows at a
  * time. */
 static void tiles_are_the_bytes_of_the_whole(void **state)
 {
@@ -238,8 +239,7 @@ static void tiles_are_the_bytes_of_the_whole(void **state)
     test_free(whole.planes);
 }
 
-/* Footprints of smooth cells are those of the derivative; the differences of rays next to each other are of second
- * order. */
+/* Footprints of smooth cells are those of the derivative; differences of neighbouring rays are of second order. */
 static void footprints_are_derivatives(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void footprints_are_derivatives(void **state)
     static double off[300 * 200], sky[300 * 200];
     size_t n = 0, m = 0;
     for (size_t i = 0; i < a.plan.rays; i++) {
-        if (crossings(&b, i)) /* of the direct image, whose differences are of second order small */
+        if (crossings(&b, i)) /* of the direct image, whose second-order differences are small */
             off[n++] = fabs(plane(&a, KD_LENS_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_FOOTPRINT, 0)[i] - 1);
         if (plane(&b, KD_LENS_FATE, 0)[i] == KD_FATE_ESCAPED)
             sky[m++] = fabs(plane(&a, KD_LENS_SKY_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_SKY_FOOTPRINT, 0)[i] - 1);
@@ -262,7 +262,7 @@ static void footprints_are_derivatives(void **state)
     test_free(b.planes);
 }
 
-/* Profiles that promise more follow every ray, and so does who names an engine. */
+/* Profiles that promise more trace every ray, as does a scene that names an engine. */
 static void some_scenes_follow_every_ray(void **state)
 {
     (void)state;
@@ -294,8 +294,8 @@ static void some_scenes_follow_every_ray(void **state)
     assert_true(plan.interpolates == 0);
 }
 
-/* What docs/accuracy.md says of a picture's tolerance: 99 of 100 crossings of the bulk are within it, all orders
- * together, and nearly all of order 0; of order 1 most are, and the others are within four times of it. */
+/* The statement of docs/accuracy.md about a picture's tolerance: 99 of 100 crossings of the bulk are within it, all
+ * orders together, and nearly all of order 0; of order 1 most are, and the others are within four times. */
 static void a_tolerance_of_a_picture(void **state)
 {
     (void)state;
@@ -316,7 +316,7 @@ static void a_tolerance_of_a_picture(void **state)
             struct map map = map_with(&scene, &needs);
             follow(&scene);
             for (uint32_t i = 0; i < JUDGED; i++) {
-                if (ends[i].n_crossings > 2) /* next to the critical curve, where 32 bits do not hold it */
+                if (ends[i].n_crossings > 2) /* next to the critical curve, where 32 bits do not suffice */
                     continue;
                 for (uint32_t order = 0; order < ends[i].n_crossings; order++) {
                     const double r = truth[i * ORDERS + order].r,

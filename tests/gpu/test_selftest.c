@@ -1,5 +1,4 @@
-/* The self-test passes here, and a wrong number in it is seen: a comparison that cannot fail would let every device
- * pass. */
+/* The self-test passes here, and detects a wrong number: a comparison that cannot fail would let every device pass. */
 #include "render/selftest/selftest.h"
 
 #include "render_support.h"
@@ -44,7 +43,7 @@ static void test_passes(void **state)
     assert_true(table.n > 60);
 }
 
-/* Every number off by more than single precision is allowed: every line that looks at the table fails. */
+/* Every number is off by more than single precision allows: every line that uses the table fails. */
 static void test_everything_wrong(void **state)
 {
     (void)state;
@@ -88,7 +87,7 @@ static void test_everything_wrong(void **state)
     }
 }
 
-/* One radius wrong in its tenth digit: seen by double precision, in the lines of that set alone. */
+/* One radius wrong in its tenth digit: detected by double precision, in the lines of that set alone. */
 static void test_one_wrong(void **state)
 {
     (void)state;
@@ -111,7 +110,7 @@ static void test_one_wrong(void **state)
     assert_int_equal(seen, capacity.float64 ? 2 : 1);
 }
 
-/* A fate or a number of crossings that is not the table's. */
+/* A fate or a number of crossings that differs from the table's. */
 static void test_fates(void **state)
 {
     (void)state;

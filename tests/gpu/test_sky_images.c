@@ -1,5 +1,5 @@
-/* sky.image: where places of a panorama are seen, how bright, over and under what, and what happens where it is not
- * there. The panorama is made here, with a mark at the place of each of some bright stars. */
+/* sky.image: places of a panorama in the picture, their brightness, what covers what, and missing panoramas. The
+ * panorama is synthetic, with a mark at each of some bright stars. */
 #include "image/png.h"
 #include "render/output/png.h"
 #include "render/render.h"
@@ -13,7 +13,7 @@
 #define DEGREE (M_PI / 180)
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 2048, ROWS = 1024, MARKS = 12 };
 
-/* Pictures that are kept here, by hashes that are none: nobody computes them anew. */
+/* Pictures provided by this test under made-up hashes, which nobody recomputes. */
 static struct keeper {
     struct {
         char hash[KD_ASSET_NAME];
@@ -62,7 +62,7 @@ static void galactic(double ra, double dec, double *l, double *b)
     *l = node - atan2(cos(dec) * sin(x), sin(dec) * cos(pole_dec) - cos(dec) * sin(pole_dec) * cos(x));
 }
 
-/* Stars that have no neighbour so bright as they, far from the galactic poles. */
+/* Stars without an equally bright neighbour, far from the galactic poles. */
 static size_t chosen(struct kd_catalogue_star out[MARKS])
 {
     size_t n = 0;
@@ -155,15 +155,15 @@ static struct place centre(const struct kd_frame *frame, double x, double y, int
     return p;
 }
 
-/* Where the observer, to whom the hole stands at galactic longitude 180 and who sees longitudes grow to the left,
- * has a place. From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
+/* Expected place for an observer who sees the hole at galactic longitude 180 and longitudes growing to the left.
+ * From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
 static struct place expected(double l, double b)
 {
     const double left = l - M_PI - 2 * M_PI * floor((l - M_PI) / (2 * M_PI) + 0.5);
     return (struct place) { (0.5 - left / (2 * M_PI)) * WIDTH, (0.5 - b / M_PI) * HEIGHT, 0 };
 }
 
-/* Marks lie where the stars of the catalogue do, and both where trigonometry has them. */
+/* Marks and catalogue stars coincide, both where trigonometry has them. */
 static void marks_and_stars(void **state)
 {
     const char *image = *state;
@@ -192,8 +192,8 @@ static void marks_and_stars(void **state)
     kd_frame_finish(&points);
 }
 
-/* A white sky has the brightness that is asked for, through a hole as without one; near it, that of g: light of a
- * black body at g = 1/sqrt(1 - 2/r), bolometrically g^4 of it, and bluer. */
+/* A white sky has the requested brightness, with and without lensing. Near the hole it has g = 1/sqrt(1 - 2/r):
+ * bolometric light of a black body times g^4, and bluer. */
 static void white(void **state)
 {
     (void)state;
@@ -216,8 +216,8 @@ static void white(void **state)
         const double luminance = 0.2126 * corner[0] + 0.7152 * corner[1] + 0.0722 * corner[2];
         printf("white from %g M: %.5f of %.5f, blue over red %.3f\n", radii[i], luminance / 1.5, pow(g, 4),
                corner[2] / corner[0]);
-        /* White tinted as 5600 K is to g 5600 K: its luminance is off that of the black body by the difference of
-         * the two colours. */
+        /* White tinted as 5600 K to g 5600 K: its luminance differs from the black body's by the difference of the
+         * two colours. */
         assert_true(fabs(luminance / 1.5 / pow(g, 4) - 1) < (i < 2 ? 2e-3 : 0.05));
         assert_true(i < 2 ? fabs(corner[2] / corner[0] - 1) < 0.01 : corner[2] / corner[0] > 1.05);
         assert_string_equal(frame.credit, "");
@@ -225,8 +225,7 @@ static void white(void **state)
     }
 }
 
-/* An automatic exposure does not lift a sky that stands alone: looked at away from the Milky Way, most of it is
- * black, with stars in it. */
+/* Automatic exposure does not lift a sky on its own: away from the Milky Way most of it is black, with stars. */
 static void space_is_black(void **state)
 {
     (void)state;
@@ -238,7 +237,7 @@ static void space_is_black(void **state)
         scene.camera.projection = KD_PROJECTION_AUTO;
         scene.camera.pitch_deg = 80;
         scene.sky.limit_mag = 14;
-        scene.sky.brightness = i ? 1 : INFINITY; /* whatever it is: */
+        scene.sky.brightness = i ? 1 : INFINITY; /* for any brightness */
         scene.style.exposure = INFINITY;
         struct kd_frame frame = shot(&scene);
         const uint8_t *shown = frame.layers[0].data;
@@ -257,12 +256,12 @@ static void space_is_black(void **state)
     }
 }
 
-/* What is wanted brighter is: false colour, the grid, and a sky whose brightness is given beside a disk. */
+/* What should be brighter is: false colour, the grid, and a sky whose brightness is given beside a disk. */
 static void lifted_all_the_same(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(KD_SKY_CATALOGUE, "");
-    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* of brightness 1 to a quarter */
+    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* from brightness 1 to a quarter */
     scene.style.palette = KD_PALETTE_HEAT;
     assert_true(isinf(kd_scene_exposure_most(&scene)));
     scene = scene_of(KD_SKY_GRID, "");
@@ -288,7 +287,7 @@ static double largest(const struct kd_frame *a, const struct kd_frame *b, const 
     return worst;
 }
 
-/* Stars over a picture are the sum of both; so they are over the Milky Way that stands in where there is none. */
+/* Stars over a panorama add up, as over the Milky Way that is used where there is none. */
 static void stars_over_pictures(void **state)
 {
     for (int model = KD_SKY_STARS; model <= KD_SKY_CATALOGUE; model++)
@@ -310,8 +309,8 @@ static void stars_over_pictures(void **state)
         }
 }
 
-/* One that is not there, or is no picture, is an error at the field, after which all is as before; more of them than
- * are kept come back the same. */
+/* A missing panorama, or one that is no picture, is an error at the field, without further effect; more panoramas
+ * than the cache holds give the same pictures again. */
 static void here_and_gone(void **state)
 {
     const char *image = *state;
@@ -335,7 +334,7 @@ static void here_and_gone(void **state)
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);
     size_t taken = keeper.taken + 1;
-    for (int k = 0; k < 2; k++) { /* it is looked at once */
+    for (int k = 0; k < 2; k++) { /* both times the file is checked */
         memset(&why, 0, sizeof why);
         assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
         assert_string_equal(why.pointer, "/sky/image");
@@ -356,7 +355,7 @@ static void here_and_gone(void **state)
     kd_frame_finish(&again);
 }
 
-/* A plan counts what it takes to read a picture, whose size no scene says. */
+/* A plan counts the memory for reading a panorama, whose size is not in the scene. */
 static void memory(void **state)
 {
     struct kd_capacity c;
@@ -376,7 +375,7 @@ static void memory(void **state)
     assert_true(plan.making_bytes == 12ull * 4096 * 2048 + 6ull * 8192 * 4096);
 }
 
-/* The file of a picture names those whose work is in it, and no other file does. */
+/* A picture's file credits those whose work it contains, and no other file does. */
 static void credit_in_files(void **state)
 {
     for (int with = 0; with < 2; with++) {

@@ -1,5 +1,5 @@
-/* Hot spots and the light of a picture: against sums over the rays of the Kerr-Schild oracle, which shares no
- * equation with the kernels, against what holds far from the hole, and against themselves. */
+/* Hot spots and the light of a picture: against sums over rays of the Kerr-Schild oracle, which shares no equation
+ * with the kernels; against limits far from the hole; and self-consistency. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -11,7 +11,7 @@ static struct kd_scene spot_scene(double spin, double inclination)
     struct kd_scene scene;
     kd_scene_smooth(&scene);
     scene.image.width = 160;
-    scene.image.critical_factor = 1; /* tests count on one ray a pixel */
+    scene.image.critical_factor = 1; /* these tests assume one ray a pixel */
     scene.image.height = 120;
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = inclination;
@@ -94,7 +94,7 @@ static double orbit_omega(double a, double r)
 
 struct oracle {
     int n;           /* rays */
-    double area;     /* of one, where all have the same */
+    double area;     /* of one ray, if all have the same */
     double (*at)[3]; /* solid angle weight, and place in the picture's own measure */
     struct ks_photon *photons;
     struct ks_path *paths;
@@ -102,7 +102,7 @@ struct oracle {
 
 enum { ORDERS = 2 };
 
-/* The rays of the picture's pixels, made here from the conventions of DESIGN.md. */
+/* The rays of the picture's pixels, from the documented conventions. */
 static struct oracle trace(const struct kd_scene *scene)
 {
     int width = scene->image.width, height = scene->image.height, n = width * height;
@@ -134,7 +134,7 @@ static void oracle_finish(struct oracle *o)
     free(o->paths);
 }
 
-/* What a crossing adds: the gas of its own radius, a Gaussian in the plane of x = r cos(phi), y = r sin(phi). */
+/* Light of a crossing: the gas of its own radius, a Gaussian in the plane of x = r cos(phi), y = r sin(phi). */
 static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k,
                              double isco)
 {
@@ -172,9 +172,9 @@ static struct kd_light oracle_light(const struct kd_scene *scene, const struct o
     return (struct kd_light) { flux, atan2(x, z) * 180 / M_PI, atan2(y, hypot(x, z)) * 180 / M_PI };
 }
 
-/* At several phases, with fast and slow light, for a hole with and against its spot, from infinity and from near,
- * behind half transparent gas too. In 32 bits a ray beside the critical curve may miss a crossing: that is in the
- * bound. The width is no multiple of anything, and the spot goes over the edges of the picture. */
+/* At several phases, with fast and slow light, for prograde and retrograde spots, from infinity and nearby, also
+ * behind half transparent gas. In 32 bits a ray beside the critical curve may miss a crossing, which the bound
+ * allows. The width is not a round number, and the spot crosses the edges of the picture. */
 static void test_oracle(void **state)
 {
     (void)state;
@@ -252,7 +252,7 @@ static void test_far_out(void **state)
     }
 }
 
-/* The time at which the centroid of a small spot goes through alpha = 0, upwards in alpha, after `from`. */
+/* Time at which the centroid of a small spot passes alpha = 0 upwards, after `from`. */
 static double upward(struct kd_scene *scene, double from, double step)
 {
     double before = NAN;
@@ -267,7 +267,7 @@ static double upward(struct kd_scene *scene, double from, double step)
     return NAN;
 }
 
-/* The centroid comes back after 2 pi (r^(3/2) + a), however the hole turns; after 1e8 M too. */
+/* The centroid returns after 2 pi (r^(3/2) + a), whichever way the hole turns; also after 1e8 M. */
 static void test_period(void **state)
 {
     (void)state;
@@ -283,8 +283,7 @@ static void test_period(void **state)
         double late = upward(&scene, 1e8, step);
         off(second - first, expected, expected, 1e-4, "period");
         off(remainder(late - first, expected), 0, expected, 1e-4, "a million orbits later");
-        scene.top.time =
-            first + 0.25 * expected; /* from below through alpha > 0 upwards: anticlockwise seen from above */
+        scene.top.time = first + 0.25 * expected; /* anticlockwise seen from above */
         assert_true(light(&scene).spots.x > 5);
     }
 }
@@ -324,7 +323,7 @@ static void test_slow_light(void **state)
     assert_true(most - least > 15);
 }
 
-/* The light of several is the sum of theirs; with gas in front too, of which each order lets a share pass. */
+/* The light of several spots is the sum of theirs; also behind gas, which passes a fraction of each order. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -344,7 +343,7 @@ static void test_parts(void **state)
             scene.spots.at[1].brightness = scene.spots.at[2].brightness = 0;
             parts[k] = light(&scene);
         }
-        scene.spots.at[0].brightness = 1e-30; /* measured, and not seen */
+        scene.spots.at[0].brightness = 1e-30; /* measured, but invisible */
         double disk = light(&scene).all.flux, sum = parts[0].spots.flux + parts[1].spots.flux + parts[2].spots.flux;
         off(all.spots.flux, sum, sum, 1e-6, "three spots");
         off(all.all.flux, disk + sum, disk + sum, 2e-6, "spots and disk");
@@ -356,8 +355,8 @@ static void test_parts(void **state)
     }
 }
 
-/* As many as a scene may have, whatever their places in the list: their light is the sum of theirs, and dark ones
- * between them are not there at all. */
+/* The maximum number of spots, at any places of the list: their light is the sum of theirs, and dark ones between
+ * them have no effect. */
 static void test_many(void **state)
 {
     (void)state;
@@ -417,7 +416,7 @@ static void test_seams(void **state)
     same_light(&aimed.spots, &first.spots, 2e-3, "aimed elsewhere, near");
 }
 
-/* The same in any resolution, in bands, with several rays a pixel; and to the bit when rendered again. */
+/* The same at any resolution, in bands, with several rays a pixel; and bit for bit when rendered again. */
 static void test_resolution(void **state)
 {
     (void)state;
@@ -449,7 +448,7 @@ static void test_resolution(void **state)
     same_light(&four.spots, &fine.spots, 1e-4, "four rays a pixel are as many pixels");
 }
 
-/* Whatever moves a spot keeps the lens map; without any the map is as it was, and nothing is measured. */
+/* Moving a spot keeps the lens map; without spots the map is the same, and nothing is measured. */
 static void test_plans(void **state)
 {
     (void)state;
@@ -477,7 +476,7 @@ static void test_plans(void **state)
     plan = plan_of(&scene, 0);
     assert_true(!kd_plan_holds(&plan, KD_LENS_PHI) && !plan.light && !plan.apart &&
                 !kd_plan_holds(&plan, KD_LENS_DELAY) && plan.planes == plan.orders);
-    scene.disk.slow_light = true; /* of what? */
+    scene.disk.slow_light = true; /* has nothing to act on */
     plan = plan_of(&scene, 0);
     assert_false(kd_plan_holds(&plan, KD_LENS_DELAY));
     scene.spots.at[0].brightness = 1;
@@ -485,8 +484,8 @@ static void test_plans(void **state)
     assert_true(kd_plan_holds(&plan, KD_LENS_DELAY));
 }
 
-/* Light that is measured alone is the same to the bit, in one band and in many, and takes no pass that only a
- * picture needs. */
+/* Light measured without a picture is the same bit for bit, in one band and in many, and needs none of the picture's
+ * passes. */
 static void test_unseen(void **state)
 {
     (void)state;
@@ -500,7 +499,7 @@ static void test_unseen(void **state)
         kd_renderer_capacity(renderer, &c);
         c.max_binding_bytes = bands ? 1 << 16 : c.max_binding_bytes;
         OK(kd_scene_set(&scene, "image.layers", bands ? "rgb" : "rgb,r,intensity_1",
-                        &error)); /* nobody sees these either */
+                        &error)); /* without a picture too */
         for (int unseen = 0; unseen < 2; unseen++) {
             struct kd_plan plan;
             struct kd_needs needs = kd_needs_of(&scene);

@@ -1,5 +1,5 @@
-/* Images of one star, Sirius: their places and their light, by the Kerr-Schild oracle and, about a hole that does
- * not spin, by a quadrature of the lens equation. The star is put where it is wanted by turning the sky. */
+/* Images of one star, Sirius: their places and light, by the Kerr-Schild oracle and, for a hole without spin, by
+ * quadrature of the lens equation. The sky is rotated to put the star at a place. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/sky/frame.h"
@@ -40,7 +40,7 @@ static struct kd_scene scene_of(double spin, double inclination)
     return scene;
 }
 
-/* Turn the sky so that the star lies in a direction of the hole's frame: n = Rz(-turn) Ry(-tilt) s. */
+/* Rotates the sky so that the star is in a direction of the hole's frame: n = Rz(-turn) Ry(-tilt) s. */
 static bool aim(struct kd_scene *scene, struct vec3 n)
 {
     const struct kd_catalogue_star star = kd_catalogue_star(0);
@@ -84,7 +84,7 @@ static double luminance(const struct kd_frame *frame, int x, int y)
     return 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
 }
 
-/* The light about a place of the picture, and its centre. */
+/* Light about a place of the picture, and its centroid. */
 struct blob { double light, x, y; };
 static struct blob blob_at(const struct kd_frame *frame, double x, double y, int reach)
 {
@@ -103,7 +103,7 @@ static struct blob blob_at(const struct kd_frame *frame, double x, double y, int
 
 static const double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
 
-/* Where the ray at a place of the picture comes from, by the oracle; g of what it brings. */
+/* Origin of the ray at a place of the picture, by the oracle; and its g. */
 static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
 {
     double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step,
@@ -113,12 +113,11 @@ static struct vec3 from(const struct kd_scene *scene, double x, double y, double
         ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k);
     const struct ks_path path = ks_trace(photon, 8);
     double s = sqrt(1 - path.u * path.u);
-    *g = path.fate == KS_ESCAPED ? 1 / photon.energy : 0; /* 0: it looks into the shadow */
+    *g = path.fate == KS_ESCAPED ? 1 / photon.energy : 0; /* 0: in the shadow */
     return (struct vec3) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
 }
 
-/* The solid angle of the sky that a pixel is mapped to there: central differences of the oracle's rays,
- * extrapolated. */
+/* The solid angle of the sky that a pixel maps to: central differences of the oracle's rays, extrapolated. */
 static double patch(const struct kd_scene *scene, double x, double y, double step_)
 {
     double g, area[2];
@@ -132,7 +131,7 @@ static double patch(const struct kd_scene *scene, double x, double y, double ste
     return (4 * area[1] - area[0]) / 3;
 }
 
-/* Place after place of the picture, the last ones next to the critical curve of the primary image, where light
+/* At several places of the picture, the last ones next to the critical curve of the primary image, where light
  * diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
@@ -168,12 +167,12 @@ static void images_by_the_oracle(void **state)
         by_rays(holes[i].spin, holes[i].inclination, &light, &place);
         printf("spin %g, inclination %g: light within %.4f, places within %.3f pixels\n", holes[i].spin,
                holes[i].inclination, light, place);
-        assert_true(light > 0 && light < 0.01 && place < 0.01); /* a B-spline's centre is where it is put */
+        assert_true(light > 0 && light < 0.01 && place < 0.01); /* a B-spline's centroid is where it is put */
     }
 }
 
-/* The azimuth that a ray sweeps from the observer at R to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2
- * w^3), in to the turning point and out. With w = w_t sin^2 the root's zero there is taken out. Midpoints: the
+/* Azimuth swept by a ray from the observer at R to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3),
+ * in to the turning point and out. With w = w_t sin^2 the zero of the root there cancels. Midpoint rule: the
  * integrands are smooth, and even at both ends. */
 static double swept(double b)
 {
@@ -195,7 +194,7 @@ static double swept(double b)
     return sum;
 }
 
-/* The angle from the hole of a ray that sweeps so much. */
+/* The angle from the hole of a ray that sweeps this azimuth. */
 static double looking(double azimuth)
 {
     double low = asin(sqrt(27) * (1 + 1e-7) * sqrt(1 - 2 / RADIUS) / RADIUS), high = 1.2;
@@ -206,7 +205,7 @@ static double looking(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* The star is beta behind the hole, on the side of it that is `turned` from the picture's horizontal plane; its
+/* The star is beta behind the hole, on its side at the angle `turned` from the picture's horizontal plane; its
  * images lie there in the picture, and opposite. */
 static bool behind_by(struct kd_scene *scene, double beta, double turned)
 {
@@ -219,8 +218,8 @@ static bool in_the_picture(const struct blob *b, int margin)
     return b->x > margin && b->y > margin && b->x < WIDTH - 1 - margin && b->y < HEIGHT - 1 - margin;
 }
 
-/* By the lens equation: where the image is, the one on the star's side or the other, that has gone round the hole
- * `rounds` times more, and its light. */
+/* From the lens equation: place and light of the image on the star's side or the opposite one, that has gone round
+ * the hole `rounds` more times. */
 static struct blob by_the_lens_equation(double beta, double turned, int side, int rounds)
 {
     const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS),
@@ -232,8 +231,8 @@ static struct blob by_the_lens_equation(double beta, double turned, int side, in
                            0.5 * (WIDTH - 1) + off * cos(turned), 0.5 * (HEIGHT - 1) - off * sin(turned) };
 }
 
-/* Each image of a star behind the hole, and both together, however near to the caustic: all around it, that no place
- * on the grid of rays is left out. */
+/* Each image of a star behind the hole, and both together, however close to the caustic: all around it, so that no
+ * place on the grid of rays is left out. */
 static void behind(const double *betas, size_t n, int rounds)
 {
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
@@ -248,7 +247,7 @@ static void behind(const double *betas, size_t n, int rounds)
             double all = 0, is = 0;
             for (int side = 0; side < 2; side++) {
                 const struct blob want = by_the_lens_equation(betas[i], turns[t], side, rounds);
-                if (want.light < 0.05 || !in_the_picture(&want, 5)) /* next to the least that is shown */
+                if (want.light < 0.05 || !in_the_picture(&want, 5)) /* close to the threshold of display */
                     continue;
                 const struct blob b = blob_at(&frame, want.x, want.y, rounds ? 2 : 3);
                 single = fmax(single, fabs(b.light / want.light - 1));
@@ -276,7 +275,7 @@ static void behind_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 0);
 }
 
-/* The images that go round the hole once more, next to the curve, of stars anywhere. */
+/* Images that go round the hole once more, next to the curve, for stars anywhere. */
 static void round_the_hole(void **state)
 {
     (void)state;
@@ -284,13 +283,13 @@ static void round_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 1);
 }
 
-/* A small picture of a place next to the curve, at a distance from the middle of a plane that is square to the way
- * inwards; `angle` from the right. */
+/* A small picture of a place next to the curve, at a distance from the middle of a plane perpendicular to the inward
+ * direction; `angle` from the right. */
 enum { CLOSE_WIDTH = 160, CLOSE_HEIGHT = 91 };
 #define CLOSE_FIELD 1.6
 struct close { double rho, angle; };
 
-/* A direction of the observer's by right, up and inwards, to the oracle. */
+/* A direction of the observer by right, up and inwards, for the oracle. */
 static struct vec3 seen_by(const struct kd_scene *scene, struct vec3 d, double *g)
 {
     const double n = 1 / sqrt(dot(d, d)), k[] = { -n * d.z, -n * d.y, n * d.x };
@@ -308,7 +307,7 @@ static struct vec3 towards(const struct close *c, double further)
     return (struct vec3) { (c->rho + further) * cos(c->angle), (c->rho + further) * sin(c->angle), 1 };
 }
 
-/* The distance at which rays begin to escape, by the oracle. */
+/* Distance at which rays begin to escape, by the oracle. */
 static double edge(const struct kd_scene *scene, double angle)
 {
     double low = 0, high = 0.5, g;
@@ -320,16 +319,16 @@ static double edge(const struct kd_scene *scene, double angle)
     return high;
 }
 
-/* The solid angle of the sky that a pixel of the small picture's middle is mapped to: to the fourth order, by steps
- * outwards and along the curve, which are longer, for there the oracle's rays, so near to it, are not exact enough
- * for short ones, and it bends by the step's square. */
+/* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards
+ * and along the curve. The latter are longer, because the oracle's rays this close are not accurate enough for short
+ * ones, and the curve bends by the step's square. */
 static double patch_close(const struct kd_scene *scene, const struct close *c, double off, double curve)
 {
     const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead),
                  near = edge(scene, behind);
     const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind),
                  length = hypot(tx, ty);
-    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* the sky goes by faster */
+    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* the sky changes faster */
     const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve,
                  along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
     static const double weights[] = { 8.0 / 12, -1.0 / 12 };
@@ -349,12 +348,12 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
             j = (struct vec3) { j.x + v * along.x, j.y + v * along.y, j.z + v * along.z };
         }
     const struct vec3 n = seen_by(scene, middle, &g);
-    /* From areas of the plane to solid angles of what is seen: cos^3; the pixel is in the middle of its own picture. */
+    /* From areas of the plane to solid angles of view: cos^3; the pixel is in the middle of its own picture. */
     const double square = fabs(cos(c->angle) * ty - sin(c->angle) * tx) / length; /* of outwards and along */
     return fabs(dot(n, cross(i, j))) / square * pow(dot(middle, middle), 1.5) * pixel * pixel;
 }
 
-/* The camera looks there: right of inwards by yaw, up by pitch (docs/scene.md). */
+/* Aims the camera: right of inwards by yaw, up by pitch (docs/scene.md). */
 static void look_at(struct kd_scene *scene, const struct close *c, double field_deg)
 {
     const struct vec3 d = towards(c, 0);
@@ -366,8 +365,8 @@ static void look_at(struct kd_scene *scene, const struct close *c, double field_
     scene->image.critical_factor = 1;
 }
 
-/* Ever nearer to the curve of a hole that spins, where images of ever higher orders are: each image that is above
- * the threshold. */
+/* Ever closer to the curve of a spinning hole, where images of ever higher orders are: each image above the
+ * threshold. */
 static void next_to_the_curve(void **state)
 {
     (void)state;
@@ -385,11 +384,11 @@ static void next_to_the_curve(void **state)
         tried++;
         look_at(&scene, &at, CLOSE_FIELD);
         const double want = flux * g * g * g * g / patch_close(&scene, &at, off, curve);
-        if (want < 0.031) /* it is left out */
+        if (want < 0.031) /* below the threshold */
             continue;
         struct kd_frame frame = seen(&scene);
         const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
-        const struct blob b = blob_at(&frame, x, y, 1); /* all of it, and next to nothing of the star's other images */
+        const struct blob b = blob_at(&frame, x, y, 1); /* all of it, and almost nothing of the star's other images */
         if (fabs(b.light / want - 1) > 0.003 || hypot(b.x - x, b.y - y) > 0.003)
             printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle,
                    want, b.light / want - 1, hypot(b.x - x, b.y - y));
@@ -404,9 +403,8 @@ static void next_to_the_curve(void **state)
     assert_true(n == 39 && tried == 41 && worst < 0.005 && off_most < 0.02);
 }
 
-/* The same of fast holes, seen from beside them or not, on the side that comes towards the observer: there each
- * image is but some hundredths nearer to the curve than the last, and the picture is so small that the one in the
- * middle is `AWAY` pixels from the curve. */
+/* The same for fast holes, seen edge-on or not, on the approaching side: each image is only some hundredths nearer
+ * to the curve than the last, and the picture is so small that the middle one is `AWAY` pixels from the curve. */
 #define AWAY 100
 static void next_to_the_curve_of_fast_holes(void **state)
 {
@@ -446,12 +444,12 @@ static void next_to_the_curve_of_fast_holes(void **state)
         }
         printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin,
                holes[h].inclination, n, worst, off_most);
-        assert_true(n >= 4 && worst < 0.005 && off_most < 0.03); /* most are within 0.002 pixels; one next to a caustic
-                                                                    of 0.9999, in pixels of 1e-5 rad, is 0.02 off */
+        /* Most are within 0.002 pixels; one next to a caustic at spin 0.9999, in pixels of 1e-5 rad, is 0.02 off. */
+        assert_true(n >= 4 && worst < 0.005 && off_most < 0.03);
     }
 }
 
-/* All stars: the picture is the same to the byte each time, and the same but for their edges in bands. */
+/* All stars: the picture has the same bytes each time, and in bands the same except at their edges. */
 static void whole_skies(void **state)
 {
     (void)state;
@@ -471,13 +469,13 @@ static void whole_skies(void **state)
             most = fmax(most, luminance(&one, x, y));
         }
     printf("in bands: off by %.2g of the light\n", off / sum);
-    assert_true(sum > 0 && off / sum < 5e-4 && most > 100); /* without the rows of the bands beside each it is more */
+    assert_true(sum > 0 && off / sum < 5e-4 && most > 100); /* without the rows beside each band it is more */
     kd_frame_finish(&one);
     kd_frame_finish(&again);
     kd_frame_finish(&bands);
 }
 
-/* Another picture, by the renderer itself, whenever the one aside lets others have the device. */
+/* Another picture by the renderer itself, whenever the background one yields the device. */
 struct other {
     struct kd_scene scene;
     struct kd_plan plan;
@@ -504,8 +502,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* The light of a picture in bands that is made aside, while others under another sky are made, is not taken for
- * light of theirs: that sky, by the same lens map, is then the same as by a map of its own. */
+/* A picture in bands, rendered in the background under one sky while others are rendered under another, leaves no
+ * light that is taken for theirs: that sky, by the same lens map, is the same as by a map of its own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;
@@ -517,12 +515,12 @@ static void another_sky_meanwhile(void **state)
     c.max_binding_bytes = 3 << 20;
     scene.sky.limit_mag = 8;
     scene.camera.fov_deg = 20;
-    scene.camera.yaw_deg = 40; /* the curve is out of sight, and how many rays it has changes no pixel */
+    scene.camera.yaw_deg = 40; /* the curve is out of view, and the number of its rays changes no pixel */
     scene.image.critical_factor = 3;
     turned = scene;
     turned.camera.azimuth_deg = 40;
     o.scene = turned;
-    o.scene.image.critical_factor = 2; /* has a map of its own */
+    o.scene.image.critical_factor = 2; /* has its own map */
     o.plan = plan_of(&o.scene, &c);
     const struct kd_plan plan = plan_of(&scene, &c), plan_turned = plan_of(&turned, &c);
     assert_true(plan.bands > 1 && plan.cacheable);
@@ -545,8 +543,8 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
     return false;
 }
 
-/* The light of stars is kept with the lens map. A frame with one thing changed, and the map reused, is the same as
- * with a map of its own, which the number of rays at the curve makes it, where only one ray a pixel is seen. */
+/* The light of stars is cached with the lens map. A frame with one change and the reused map equals one with its own
+ * map, which is forced by the number of rays at the curve, where only one ray a pixel is visible. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;
@@ -558,7 +556,7 @@ static void kept_and_made_anew(void **state)
     struct kd_scene base = scene_of(0.9, 75);
     base.sky.limit_mag = 8;
     base.camera.fov_deg = 20;
-    base.camera.yaw_deg = 40; /* the curve is out of sight */
+    base.camera.yaw_deg = 40; /* the curve is out of view */
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         struct kd_scene scene = base, own;
         OK(kd_scene_set(&scene, changes[i][0], changes[i][1], &error));
@@ -576,8 +574,8 @@ static void kept_and_made_anew(void **state)
     }
 }
 
-/* Bright images alone: those that are bright enough by half are there, with their light, at their places to a fifth
- * of a ray; many are not; the plan says so; and the map is one without footprints. */
+/* Bright images only: those above half the threshold are present, with their light, at their places to a fifth of a
+ * ray; many others are not; the plan says so; and the map has no footprints. */
 static void bright_images(void **state)
 {
     (void)state;
@@ -599,11 +597,11 @@ static void bright_images(void **state)
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
     assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") &&
-                again.lens_reused); /* each has a map of its own */
+                again.lens_reused); /* each has its own map */
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
-    const double radius =
-        0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE); /* of the curve, about */
-    int images = 0, faint = 0, lost = 0, off = 0; /* light of faint ones within a pixel is missing too */
+    /* radius of the curve, approximately */
+    const double radius = 0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE);
+    int images = 0, faint = 0, lost = 0, off = 0; /* light of faint images within a pixel is missing too */
     for (int y = 4; y < HEIGHT - 4; y++)
         for (int x = 4; x < WIDTH - 4; x++) {
             const double l = luminance(&all, x, y);
@@ -629,8 +627,8 @@ static void bright_images(void **state)
     kd_frame_finish(&again);
 }
 
-/* Where light is spread over the sky as well, bright images alone are sought in the same lens map, which then has
- * footprints: light of one kind is not taken for that of the other. */
+/* With diffuse light on the sky, bright images are searched for in the same lens map, which then has footprints:
+ * light of one kind is not taken for that of the other. */
 static void bright_images_before_spread_light(void **state)
 {
     (void)state;
@@ -654,8 +652,8 @@ static void bright_images_before_spread_light(void **state)
     kd_frame_finish(&again);
 }
 
-/* Where light is spread over the sky, however faint, each pixel is lit by itself; where only points are, columns of
- * pixels go from crossing to crossing. */
+/* With diffuse light on the sky, however faint, each pixel is lit by itself; with points only, columns of pixels go
+ * from crossing to crossing. */
 static void points_behind_a_disk(void **state)
 {
     (void)state;

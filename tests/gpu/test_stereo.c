@@ -1,5 +1,5 @@
-/* Pairs of pictures: each half is the picture of that eye, to the byte; and where the hole stands in it is what
- * Euclid says of two eyes. */
+/* Stereo pairs: each half is the picture of that eye, byte for byte; and the hole's displacement is the Euclidean
+ * parallax of two eyes. */
 #include "render_support.h"
 
 static struct kd_scene pair_from(double spin, double r, double distance)
@@ -24,7 +24,7 @@ static void each_half_is_an_eyes(const struct kd_scene *scene)
     for (int side = 0; side < 2; side++) {
         struct kd_scene one = kd_scene_eye(scene, 2 * side - 1);
         if (side)
-            one.style.exposure = pair.exposure; /* the left one's, which is "auto" */
+            one.style.exposure = pair.exposure; /* the left eye's, which is "auto" */
         struct kd_frame eye = rendered(&one);
         assert_true(eye.exposure == pair.exposure);
         const uint8_t *whole = kd_frame_pixels(&pair), *half = kd_frame_pixels(&eye);
@@ -36,7 +36,7 @@ static void each_half_is_an_eyes(const struct kd_scene *scene)
     size_t differ = 0;
     for (size_t y = 0; y < pair.height; y++)
         differ += memcmp(whole + 2 * y * row, whole + (2 * y + 1) * row, row) != 0;
-    assert_true(differ > pair.height / 4); /* two eyes see two things */
+    assert_true(differ > pair.height / 4); /* the eyes' views differ */
     kd_frame_finish(&pair);
 }
 
@@ -56,7 +56,7 @@ static void test_halves(void **state)
     each_half_is_an_eyes(&scene);
 }
 
-/* A camera put where the left eye is by hand: without spin, in the equatorial plane. */
+/* A camera placed at the left eye by hand: without spin, in the equatorial plane. */
 static void test_by_hand(void **state)
 {
     (void)state;
@@ -74,12 +74,12 @@ static void test_by_hand(void **state)
         const double off = (double)whole[i / (3 * one.width) * 6 * one.width + i % (3 * one.width)] - half[i];
         sum += off * off;
     }
-    assert_true(sqrt(sum / (one.width * one.height * 3.)) < 0.5); /* of 255: the same camera but for its rounding */
+    assert_true(sqrt(sum / (one.width * one.height * 3.)) < 0.5); /* of 255: the same camera up to rounding */
     kd_frame_finish(&pair);
     kd_frame_finish(&one);
 }
 
-/* From far away the dark disk stands to the side by half of the distance over the radius; pixels of the tangent
+/* From far away the dark disk is displaced sideways by half of the distance over the radius; pixels of the tangent
  * plane. */
 static void test_parallax(void **state)
 {
@@ -105,7 +105,7 @@ static void test_parallax(void **state)
     const struct kd_layer *fate = &frame.layers[0];
     const uint8_t *pixels = fate->data;
     const double expected = 10. / 2000 / (2 * tan(0.75 * M_PI / 180)) * 200;
-    const uint8_t *corner = pixels; /* what escapes */
+    const uint8_t *corner = pixels; /* a pixel of the sky */
     for (int side = 0; side < 2; side++) {
         double n = 0, x = 0, y = 0;
         for (uint32_t j = 0; j < 120; j++)

@@ -1,7 +1,7 @@
 /* Polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays against an integration that shares
- * no step with the march: the ray and the vectors across it carried in Kerr-Schild coordinates by Runge and Kutta
- * (tests/oracle/kerr_schild_transport.c), coefficients in CGS with Bessel's functions by quadrature, and the
- * transfer equation by Runge and Kutta's method with the 4 x 4 matrix in each place, from the far end on. */
+ * no step with the march: the ray and the vectors across it transported in Kerr-Schild coordinates by Runge-Kutta
+ * (tests/oracle/kerr_schild_transport.c), coefficients in CGS with Bessel functions by quadrature, and the transfer
+ * equation by Runge-Kutta with the 4 x 4 matrix at each place, from the far end. */
 #include "render_support.h"
 
 #include "kerr_schild_transport.h"
@@ -65,8 +65,8 @@ static void boyer_lindquist(double a, double r, double u, double g[4][4])
     g[3][3] = (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2;
 }
 
-/* Goes round with the circular orbit's angular velocity, or is at rest for observers of zero angular momentum: the
- * scenes below have their inner edge outside the ISCO, or matter at rest. */
+/* Velocity with the circular orbit's Omega, or at rest for observers of zero angular momentum: the scenes below have
+ * their inner edge outside the ISCO, or matter at rest. */
 static void flow_of(const struct kd_scene *scene, double a, double r, double g[4][4], double v[4])
 {
     const double turns[4] = { 1, 0, 0,
@@ -76,7 +76,7 @@ static void flow_of(const struct kd_scene *scene, double a, double r, double g[4
         v[i] = size * turns[i];
 }
 
-/* A torus: how it goes round there, and h - 1; most: the most of that there is. */
+/* A torus: its velocity there, and h - 1; most: the maximum of h - 1. */
 static double torus_at(const struct kd_volume *v, double a, double g[4][4], double flow[4], double *most)
 {
     double inner[4][4], mid[4][4], orbit[4], low[4];
@@ -110,8 +110,8 @@ static void take(void *user, const struct ks_carried *at)
         field[i] += along * flow[i];
     const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow),
                  c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
-    /* The field across the ray: what it has along the direction of the light in the frame of the matter is taken
-     * away. */
+    /* The field perpendicular to the ray: its component along the light's direction in the matter's frame is
+     * subtracted. */
     double across[4];
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);
@@ -161,7 +161,7 @@ static void grows(struct place *p, const double s[4], double out[4])
         out[i] = p->j[i] - out[i];
 }
 
-/* From the far end: light comes towards the observer. */
+/* From the far end: light moves towards the observer. */
 static void integrate(double s[4])
 {
     memset(s, 0, 4 * sizeof *s);
@@ -179,9 +179,9 @@ static void integrate(double s[4])
     }
 }
 
-#define INSIDE 2.5 /* a ray that comes so near does not come back: those that do see what is behind, too */
+#define INSIDE 2.5 /* a ray this close does not return; those that do also see what is behind */
 
-/* In the picture's brightness: 1e10 K. */
+/* In the picture's unit of brightness, 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
 {
     const double step = scene->camera.field_m / WIDTH /* pixels are square */,
@@ -207,7 +207,9 @@ static const struct view {
       1e-3 },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"inclination_deg\":40,\"field_m\":20},\"polarization\":{\"rotation\":"
       "\"dexter\"},\"volume\":{\"inner\":2.5,\"outer\":15,\"field\":\"vertical\",\"frequency_ghz\":100}}",
-      2e-3 }, /* light turns by much: the march leaves 1.4e-3, and 1.3e-3 by the other fit, which is 5e-3 apart */
+      /* strong Faraday rotation: the march has an error of 1.4e-3, and 1.3e-3 by the other fit, which differs by
+       * 5e-3 */
+      2e-3 },
     { "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35,\"field_m\":22},\"volume\":{\"inner\":2.5,"
       "\"outer\":20,\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","
       "\"electrons\":\"power-law\",\"density_cm3\":1e5,\"magnetisation\":0.3,\"gamma_max\":1e4}}",
@@ -254,7 +256,7 @@ static void test_rays(void **state)
         if (!(turned * 180 / M_PI <= 0.5))
             fail_msg("view %zu: EVPA is off by %g degrees", v, turned * 180 / M_PI);
         assert_true(hypot(sums[1], sums[2]) > 0.01 * sums[0] &&
-                    fabs(sums[3]) > 1e-4 * sums[0]); /* there is something to be off */
+                    fabs(sums[3]) > 1e-4 * sums[0]); /* otherwise nothing would be tested */
         kd_frame_finish(&frame);
     }
 }
@@ -301,9 +303,8 @@ static void test_adversarial(void **state)
                                   layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* The part and the angle are those of the numbers beside them, however dim or bright these are: of
-             * another kernel, whose rounding Faraday rotation carries along. Below 1e-30 light has fewer than 24
-             * bits on its way. */
+            /* Degree and angle follow from the numbers beside them, however dim or bright: of another kernel, whose
+             * rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its way. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))
@@ -317,8 +318,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* Plasma so dense and cold that light turns by up to 1e6 radians in it: what is polarised there is mixed, and I is
- * what light without polarisation has, whatever the profile. */
+/* Plasma so dense and cold that light rotates by up to 1e6 radians: polarisation averages out, and I is that of
+ * unpolarised light, for any profile. */
 static void test_mixed(void **state)
 {
     (void)state;
@@ -350,7 +351,7 @@ static void test_mixed(void **state)
         }
 }
 
-/* How much the choice of Faraday rotation's fit changes a picture's sums: what docs/physics/polarization.md says. */
+/* Effect of the choice of Faraday rotation's fit on a picture's sums, as in docs/physics/polarization.md. */
 static void test_spread_of_rotations(void **state)
 {
     (void)state;
@@ -378,8 +379,8 @@ static void test_spread_of_rotations(void **state)
     }
 }
 
-/* The energies of a kappa distribution, n(gamma), but for a factor; and what one electron's light of I and Q (K. C.
- * Westfold 1959) and of V (M. P. C. Legg & K. C. Westfold 1968) is by its energy. */
+/* A kappa distribution n(gamma) up to a factor; and one electron's emission of I and Q (K. C. Westfold 1959) and of
+ * V (M. P. C. Legg & K. C. Westfold 1968) by its energy. */
 static double kappa_number(double kappa, double w, double g)
 {
     return g * sqrt(g * g - 1) * pow(1 + (g - 1) / (kappa * w), -(kappa + 1));
@@ -398,8 +399,8 @@ static void one_electron(double x, double out[3])
     }
 }
 
-/* Integrals over all energies of those, and of what is taken, by -d(n/gamma^2)/dgamma; and rotativities of a mixture
- * of thermal electrons with 1/Theta = lambda/(kappa w), whose weights are lambda^kappa exp(-lambda): a kappa
+/* Integrals of those over all energies, and of absorption, by -d(n/gamma^2)/dgamma; and rotativities of a mixture of
+ * thermal electrons with 1/Theta = lambda/(kappa w), whose weights are lambda^kappa exp(-lambda): a kappa
  * distribution is the Laplace transform of that. */
 static struct coefficients kappa_integrals(double kappa, double w, double turn, double s, double c, double nu)
 {
@@ -437,8 +438,8 @@ static struct coefficients kappa_integrals(double kappa, double w, double turn, 
     return o;
 }
 
-/* The fits of a kappa distribution against integrals that know none: within a quarter for light (a third for V), and
- * for what turns it as far as thermal fits know. */
+/* The fits of a kappa distribution against the integrals, which use no fit: within a quarter for emission (a third
+ * for V), and for rotation within the accuracy of thermal fits. */
 static void test_kappa_fits(void **state)
 {
     (void)state;
@@ -456,7 +457,7 @@ static void test_kappa_fits(void **state)
                                             { got.a[1], want.a[1] },     { got.a[2], want.a[2] },
                                             { got.rho[0], want.rho[0] }, { got.rho[1], want.rho[1] } };
                 for (int i = 0; i < 8 && !(i == 6 && x > 200);
-                     i++) { /* far out conversion is next to nothing, and the fit is not made for it */
+                     i++) { /* far out conversion is negligible, and the fit is not meant for it */
                     const double off = fabs(both[i][0] / both[i][1] - 1);
                     worst[i] = fmax(worst[i], off);
                     if (!(off <= allowed[i]))
@@ -470,7 +471,7 @@ static void test_kappa_fits(void **state)
         assert_true(worst[i] <= allowed[i]);
 }
 
-/* ipole's model/riaf/riaf.txt: flux with polarised transfer, which is less than without. */
+/* ipole's model/riaf/riaf.txt: flux with polarised transfer, which is lower than without. */
 static void test_published(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* A length of matter that gives, takes and turns polarised light, against exponentials of matrices in 40 digits
+/* A length of matter that emits, absorbs and rotates polarised light, against matrix exponentials in 40 digits
  * (tests/oracle/stokes_reference.py): from nothing to depths of 1e6 and Faraday depths of 1e6, and where both
  * characteristic lengths vanish. */
 #include "support.h"
@@ -68,7 +68,7 @@ static void test_cases(void **state)
     for (size_t i = 0; i < CASES; i++) {
         const struct stokes_reference *r = &stokes_references[i];
         const float *passes = out + OUT * i, *gives = passes + 4;
-        /* An angle of m radians has the last digit of m for its error, however it is reduced. */
+        /* An angle of m radians has an error of the last digit of m, however it is reduced. */
         const double turn = hypot(hypot(r->turns[0], r->turns[1]), r->turns[2]), allowed = 4e-6 + 1.2e-7 * turn;
         sound(passes, "light from behind", i);
         sound(gives, "its own light", i);
@@ -86,7 +86,7 @@ static void test_cases(void **state)
     printf("%d lengths, off by at most %.2g\n", CASES, worst);
 }
 
-/* Of any size that a float has, light is a number, and polarised by no more than all of it. */
+/* For any size that a float can have, light is a number, and polarised by at most 100 %. */
 static void test_extremes(void **state)
 {
     enum { N = 4096 };

@@ -1,5 +1,5 @@
-/* Tiles are the same to the byte as there in the whole picture, for each thing that shines and each way to look, and
- * so are the strips that a picture is made of which does not fit in one. */
+/* Tiles have the same bytes as that part of the whole picture, for each emitter and projection; and so have the
+ * strips of a picture that does not fit in one. */
 #include "render/output/format.h"
 
 #include "render_support.h"
@@ -50,8 +50,8 @@ static struct kd_frame by_format(struct kd_scene scene, const struct kd_format *
     return frame;
 }
 
-/* Counts the bytes of a tile that are not those of the whole picture there; of numbers, the picture as it is shown
- * is none of the file's. */
+/* Counts the bytes of a tile that differ from the whole picture's; for numbers, the displayed picture is not in the
+ * file. */
 static size_t off(const struct kd_frame *whole, const struct kd_frame *tile, uint32_t left, uint32_t top)
 {
     size_t n = 0;
@@ -95,7 +95,7 @@ static void test_tiles_of_pictures(void **state)
     }
 }
 
-/* Exposure "auto" and a lens's glare are of the picture alone. */
+/* Exposure "auto" and a lens's glare apply to the picture only. */
 static void test_tiles_of_numbers(void **state)
 {
     (void)state;

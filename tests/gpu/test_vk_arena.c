@@ -1,4 +1,4 @@
-/* The suballocator against a map of bytes: nothing overlaps, everything comes back. */
+/* The suballocator against a map of bytes: blocks do not overlap, and all memory is recovered. */
 #include "support.h"
 
 #include "vk/arena.h"
@@ -52,7 +52,7 @@ static void random_use(void **state)
             }
             check(&arena, taken, n);
         }
-        assert_true(refused > 0); /* else the sizes are too timid to fill it */
+        assert_true(refused > 0); /* otherwise the sizes are too small to fill it */
         while (n)
             n--, kd_vk_arena_give(&arena, taken[n].offset, taken[n].size);
         check(&arena, taken, 0);

@@ -1,4 +1,4 @@
-/* Memory: shared blocks, reuse, release, refusal. */
+/* Device memory: shared blocks, reuse, release, refusal. */
 #include "support.h"
 
 static void small_ones_share_a_block(void **state)
@@ -21,7 +21,7 @@ static void small_ones_share_a_block(void **state)
         kd_vk_buffer_destroy(vk, buffers[i]);
     for (int i = 0; i < n; i += 2)
         OK(kd_vk_buffer_create(vk, 1 + (unsigned)i * 37, KD_VK_UPLOAD, "again", &buffers[i], &error));
-    assert_int_equal(kd_vk_allocated(vk), held); /* in the gaps */
+    assert_int_equal(kd_vk_allocated(vk), held); /* fits into the gaps */
     for (int i = 0; i < n; i++)
         kd_vk_buffer_destroy(vk, buffers[i]);
     kd_vk_buffer_destroy(vk, NULL);
@@ -53,8 +53,8 @@ static void oversized(void **state)
     FAILS(KD_ENOMEM, "MiB", kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
     assert_null(none);
     assert_int_equal(kd_vk_allocated(vk), 0);
-    /* A heap can be filled, says so, and is whole again afterwards. Pretend that it is small: the real one
-     * may be larger than this test should take. */
+    /* A heap can be filled, reports that, and recovers. Simulate a small one: the real one may be larger than this
+     * test should take. */
     VkPhysicalDeviceMemoryProperties *memory = &vk->heap.properties;
     VkMemoryHeap *heap = &memory->memoryHeaps[memory->memoryTypes[vk->heap.types[KD_VK_DEVICE]].heapIndex];
     uint64_t truth = heap->size, bytes = UINT64_C(8) << 20;
@@ -69,7 +69,7 @@ static void oversized(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* Destroyed while the device may use them: freed later, and with the memory counted until then. */
+/* Buffers destroyed while the device may use them are freed later, and counted until then. */
 static void destroyed_in_flight(void **state)
 {
     struct kd_vk *vk = *state;

@@ -1,4 +1,4 @@
-/* The pipeline cache on disk: written, read, damaged, in places that cannot be written. */
+/* The pipeline cache on disk: written, read, damaged, and in places that cannot be written. */
 #include "support.h"
 
 #include <dirent.h>
@@ -24,7 +24,7 @@ static void watch(struct kd_vk_functions *fn)
     }
 }
 
-/* One life of a device, with a pipeline or without. */
+/* Opens and closes a device, with or without making a pipeline. */
 static void live(const char *dir, bool pipeline)
 {
     struct kd_vk *vk;
@@ -37,7 +37,7 @@ static void live(const char *dir, bool pipeline)
     kd_vk_destroy(vk);
 }
 
-/* The one file in dir. */
+/* Finds the only file in dir; returns its size. */
 static size_t only_file(const char *dir, char path[600])
 {
     DIR *d = opendir(dir);
@@ -80,7 +80,7 @@ static void damaged(void **state)
     FILE *file = fopen(path, "rb");
     size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
-    for (size_t at = 0; at < 64 && at < size; at += 3) { /* envelope and Vulkan's header */
+    for (size_t at = 0; at < 64 && at < size; at += 3) { /* our header and Vulkan's */
         file = fopen(path, "wb");
         data[at] ^= 0x40;
         fwrite(data, 1, size, file);
@@ -95,12 +95,12 @@ static void damaged(void **state)
         live(directory, false);
         assert_int_equal(given, 0);
     }
-    live(directory, true); /* replaced by a good one */
+    live(directory, true); /* replaced by a valid one */
     live(directory, true);
     assert_true(given > 0);
 }
 
-/* A file, not a directory: for the superuser too it cannot be written. */
+/* A file instead of a directory: not even the superuser can write there. */
 static void unwritable(void **state)
 {
     char path[600], file[300], below[310];
@@ -112,7 +112,7 @@ static void unwritable(void **state)
     assert_int_equal(given, 0);
     assert_int_equal(only_file(below, path), 0);
     unlink(file);
-    live("", true); /* none wanted */
+    live("", true); /* no cache requested */
     assert_int_equal(given, 0);
 }
 
@@ -122,7 +122,7 @@ static void default_place(void **state)
     (void)state;
     snprintf(base, sizeof base, "%s/new/xdg", directory);
     setenv("XDG_CACHE_HOME", base, 1);
-    live(NULL, true); /* makes the directories on its way */
+    live(NULL, true); /* creates missing directories */
     snprintf(base, sizeof base, "%s/new/xdg/kerrd", directory);
     assert_int_equal(only_file(base, path), 1);
     unsetenv("XDG_CACHE_HOME");
@@ -136,7 +136,7 @@ static void default_place(void **state)
     assert_int_equal(given, 0);
 }
 
-/* A directory of its own for each test, removed with whatever is in it. */
+/* Each test has a directory of its own, which is removed with its contents. */
 static int enter(void **state)
 {
     const char *tmp = getenv("TMPDIR");
@@ -163,7 +163,7 @@ int main(void)
     };
     if (skip_without_device())
         return SKIPPED;
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* it goes to the same places */
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* Mesa's cache uses the same folders */
     kd_vk_functions_hook = watch;
     return cmocka_run_group_tests(tests, NULL, NULL) != 0;
 }

@@ -26,7 +26,7 @@ static void listed(void **state)
             continue;
         assert_true(info->driver[0] && info->subgroup_size && info->heap_bytes);
         assert_true(info->api_version >= VK_API_VERSION_1_2);
-        assert_true(info->max_push_bytes >= 128 && info->max_workgroup >= 128); /* what Vulkan guarantees */
+        assert_true(info->max_push_bytes >= 128 && info->max_workgroup >= 128); /* guaranteed by Vulkan */
         assert_true(info->max_groups_x >= 65535 && info->max_binding_bytes >= 1u << 27);
         assert_true(info->max_allocation_bytes >= 1u << 30);
     }
@@ -76,7 +76,7 @@ static void refused(void **state)
     assert_null(vk);
 }
 
-/* It makes pipelines, and says so where more is asked of it. */
+/* A device for pipelines only creates them, and refuses everything else. */
 static void for_pipelines_alone(void **state)
 {
     struct kd_vk *vk;
@@ -89,7 +89,7 @@ static void for_pipelines_alone(void **state)
     assert_non_null(pipeline);
     FAILS(KD_EINTERNAL, "pipelines alone", kd_vk_buffer_create(vk, 64, KD_VK_UPLOAD, "x", &buffer, &error));
     assert_null(buffer);
-    OK(kd_vk_submit(vk, NULL, &error)); /* nothing */
+    OK(kd_vk_submit(vk, NULL, &error)); /* nothing recorded */
     OK(kd_vk_wait(vk, 0, &error));
     kd_vk_pipeline_destroy(vk, pipeline);
     assert_int_equal(kd_vk_validation_messages(vk), 0);

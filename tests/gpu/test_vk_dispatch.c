@@ -1,5 +1,4 @@
-/* A kernel with specialisation and push constants against the same arithmetic here; what a dispatch refuses.
- */
+/* A kernel with specialisation and push constants against the same arithmetic here; and refused dispatches. */
 #include "support.h"
 
 static void sizes(void **state)
@@ -27,7 +26,7 @@ static void sizes(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* A size that is written on the device just before; with none nothing runs. */
+/* A dispatch size written by the device just before; with size 0 nothing runs. */
 static void sizes_of_a_buffer(void **state)
 {
     struct kd_vk *vk = *state;
@@ -62,7 +61,7 @@ static void sizes_of_a_buffer(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Parts of buffers: offsets in bindings, copies and fills touch what they name and nothing else. */
+/* Parts of buffers: offsets in bindings, copies and fills touch only the named range. */
 static void ranges(void **state)
 {
     struct kd_vk *vk = *state;
@@ -135,7 +134,7 @@ static void refused(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Larger than one binding may be, where memory allows such a buffer at all. */
+/* A buffer larger than one binding, where memory permits such a buffer at all. */
 static void wide_binding(void **state)
 {
     struct kd_vk *vk = *state;

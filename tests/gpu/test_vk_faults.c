@@ -1,4 +1,4 @@
-/* A driver that fails: every call that can, one after the other, and a device that hangs. */
+/* A failing driver: every call that can fail does so once, and a device hangs. */
 #include "support.h"
 
 #include "base/log.h"
@@ -7,7 +7,7 @@
 
 static struct kd_vk_functions real;
 static int countdown;     /* calls until one fails */
-static VkResult injected; /* what it returns then */
+static VkResult injected; /* the result it returns then */
 static const char *tripped;
 static int teardown_calls, layer_messages;
 
@@ -70,8 +70,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityF
     return VK_FALSE;
 }
 
-/* Ours instead of the device's own: it goes on counting while the device is destroyed, when objects that were
- * left behind are reported. */
+/* Replaces the device's own messenger, to keep counting while the device is destroyed, when leaked objects are
+ * reported. */
 static VKAPI_ATTR VkResult VKAPI_CALL listen(VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *info,
                                              const VkAllocationCallbacks *allocator,
                                              VkDebugUtilsMessengerEXT *messenger)
@@ -87,7 +87,7 @@ static void plant(struct kd_vk_functions *fn)
 #define REPLACE(name, parameters, arguments) \
     if (fn->name) \
         fn->name = faulty_##name;
-    if (fn->CmdFillBuffer) { /* the last step: everything is loaded */
+    if (fn->CmdFillBuffer) { /* the last step, when everything is loaded */
         FAULTS(REPLACE)
     } else if (fn->CreateDevice) {
         fn->CreateDevice = faulty_CreateDevice;
@@ -108,7 +108,7 @@ static void plant_once(struct kd_vk_functions *fn)
     }
 }
 
-/* All that a device does, up to the first failure. */
+/* Uses a device for everything it can do, up to the first failure. */
 static enum kd_status life(struct kd_error *error)
 {
     enum { n = 64 };
@@ -137,7 +137,7 @@ static enum kd_status life(struct kd_error *error)
     if (!status)
         status = kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params)KINDS_PARAMS, &kinds, error);
     if (!status)
-        memset(kd_vk_buffer_map(x), 0, n * 4); /* a block of no elements */
+        memset(kd_vk_buffer_map(x), 0, n * 4); /* a block of zero elements */
     if (!status)
         status = kd_vk_dispatch(vk,
                                 &(struct kd_vk_dispatch) { .pass = "kinds",
@@ -172,7 +172,7 @@ static enum kd_status life(struct kd_error *error)
     return status;
 }
 
-/* Let call 0, 1, 2, ... fail until a life passes without tripping. */
+/* Lets call 0, 1, 2, ... fail until a run passes without a fault. */
 static void sweep(VkResult result, enum kd_status expected)
 {
     int n = 0;
@@ -185,7 +185,7 @@ static void sweep(VkResult result, enum kd_status expected)
         enum kd_status status = life(&error);
         if (!tripped)
             break;
-        /* Timing is a nicety whose failure goes unnoticed, as is the retry of a smaller block. */
+        /* Failures of timing, and of a smaller block's retry, are tolerated. */
         bool harmless =
             !strcmp(tripped, "CreateQueryPool") || !strcmp(tripped, "AllocateMemory") || !strcmp(tripped, "MapMemory");
         if (status ? status != expected || !error.message[0] : !harmless)
@@ -202,7 +202,7 @@ static void out_of_memory(void **state)
     sweep(VK_ERROR_OUT_OF_DEVICE_MEMORY, KD_ENOMEM);
 }
 
-/* A lost device is abandoned with all that the driver keeps for it; that is no leak to report. */
+/* A lost device is abandoned with all memory of the driver for it; that is not a leak. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
@@ -217,8 +217,8 @@ static void device_lost(void **state)
 }
 
 static int waits;     /* calls of hang */
-static bool busy;     /* it has the processor meanwhile */
-static bool finishes; /* its third call ends well */
+static bool busy;     /* uses processor time meanwhile */
+static bool finishes; /* its third call succeeds */
 static VKAPI_ATTR VkResult VKAPI_CALL hang(VkDevice device, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     (void)device, (void)info;
@@ -255,14 +255,14 @@ static void deadline(void **state)
     buffer = make_buffer(vk, 64, KD_VK_READBACK, "b");
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 1, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
-    OK(kd_vk_wait(vk, ticket, &error)); /* in truth idle, so that nothing runs on behind the back of the test */
+    OK(kd_vk_wait(vk, ticket, &error)); /* actually idle, so that nothing runs after the test */
     vk->fn.WaitSemaphores = hang;
     vk->fn.GetSemaphoreCounterValue = unfinished;
     vk->fn.DeviceWaitIdle = idle_called;
     vk->fn.DestroyDevice = destroy_called;
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 2, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
-    /* A software device that did not have the processor is waited for again. */
+    /* A software device that did not get processor time is waited for again. */
     const bool software = kd_vk_info(vk)->type == KD_VK_CPU;
     finishes = true;
     if (software) {
@@ -272,7 +272,7 @@ static void deadline(void **state)
         OK(kd_vk_submit(vk, &ticket, &error));
     }
     finishes = false, busy = true,
-    waits = 0; /* one that had it is lost, after the second that whoever looks has to come to himself */
+    waits = 0; /* one that got it counts as lost, after a second's grace for the watchdog */
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 

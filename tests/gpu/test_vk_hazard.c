@@ -1,5 +1,4 @@
-/* The decision where barriers go, without a device: every case by hand, then random programs against the
- * definition. */
+/* Placement of barriers without a device: each case by hand, then random programs against the definition. */
 #include "support.h"
 
 #include "vk/hazard.h"
@@ -37,7 +36,7 @@ static void pairs(void **state)
                 if (!first && !second)
                     continue;
                 assert_int_equal(barrier.src_stages, stages[a]);
-                /* Only writes are flushed; write-after-read is a matter of order alone. */
+                /* Only writes are flushed; write-after-read needs an execution dependency only. */
                 assert_int_equal(barrier.src_access, !first                 ? 0
                                                      : stages[a] == COMPUTE ? VK_ACCESS_SHADER_WRITE_BIT
                                                                             : VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -46,7 +45,7 @@ static void pairs(void **state)
                             (stages[b] == COMPUTE ? second ? VK_ACCESS_SHADER_WRITE_BIT : VK_ACCESS_SHADER_READ_BIT
                              : second             ? VK_ACCESS_TRANSFER_WRITE_BIT
                                                   : VK_ACCESS_TRANSFER_READ_BIT));
-                if (stages[b] == COMPUTE && !second) /* texels are read as storage is, uniform blocks are not */
+                if (stages[b] == COMPUTE && !second) /* texels are read like storage, uniform blocks are not */
                     assert_true(barrier.dst_access & VK_ACCESS_UNIFORM_READ_BIT);
             }
 }
@@ -55,11 +54,11 @@ static void apart(void **state)
 {
     (void)state;
     assert_false(add(1, 0, 100, COMPUTE, true));
-    assert_false(add(1, 100, 200, COMPUTE, true)); /* side by side */
+    assert_false(add(1, 100, 200, COMPUTE, true)); /* adjacent */
     assert_false(add(2, 0, 200, COMPUTE, true));   /* another buffer */
     assert_false(add(3, 0, 200, COMPUTE, false));
     assert_false(add(3, 0, 200, TRANSFER, false));
-    assert_true(add(1, 199, 300, COMPUTE, true)); /* one byte */
+    assert_true(add(1, 199, 300, COMPUTE, true)); /* overlap of one byte */
 }
 
 static void emptied_by_a_barrier(void **state)
@@ -77,7 +76,7 @@ static void emptied_by_a_barrier(void **state)
     assert_int_equal(barrier.src_access, 0);
 }
 
-/* One command may bind a buffer twice; that is its own affair, but both entries count for the next. */
+/* One command may bind a buffer twice without a hazard of its own, but both entries count for the next command. */
 static void one_command(void **state)
 {
     (void)state;
@@ -106,7 +105,7 @@ static void overflow(void **state)
     (void)state;
     for (uint64_t i = 0; i < KD_VK_MAX_ACCESSES; i++)
         assert_false(add(1, i * 512, i * 512 + 256, COMPUTE, true));
-    assert_true(add(2, 0, 1, COMPUTE, false)); /* no room: a fresh start */
+    assert_true(add(2, 0, 1, COMPUTE, false)); /* table full: it starts afresh */
     assert_int_equal(table.count, 1);
     assert_false(add(1, 0, 1, COMPUTE, false));
 }
@@ -117,7 +116,7 @@ static void to_host(void **state)
     struct kd_vk_access a = { .buffer = 1, .end = 4, .stage = TRANSFER, .write = true, .host = true };
     assert_false(kd_vk_hazards_to_host(&table, &barrier));
     assert_false(kd_vk_hazards_add(&table, &a, 1, &barrier));
-    assert_true(add(1, 0, 4, COMPUTE, false)); /* a barrier between kernels does not reach the host */
+    assert_true(add(1, 0, 4, COMPUTE, false)); /* a barrier between kernels does not make writes visible to the host */
     assert_true(kd_vk_hazards_to_host(&table, &barrier));
     assert_int_equal(barrier.src_stages, TRANSFER);
     assert_int_equal(barrier.src_access, VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -129,15 +128,15 @@ static void to_host(void **state)
     assert_false(kd_vk_hazards_to_host(&table, &barrier));
 }
 
-/* The definition: two conflicting commands have a barrier between them, and each barrier parts at least one
- * pair that no earlier barrier did. */
+/* The definition: two conflicting commands have a barrier between them, and each barrier separates at least one
+ * conflicting pair that no earlier barrier did. */
 static void random_programs(void **state)
 {
     enum { length = 60 };
     srand(2);
     for (int round = 0; round < 2000; round++) {
         struct kd_vk_access program[length];
-        int epoch[length], epochs = 0; /* barriers before the command */
+        int epoch[length], epochs = 0; /* number of barriers before the command */
         reset(state);
         for (int i = 0; i < length; i++) {
             uint64_t begin = (uint64_t)rand() % 64;

@@ -1,5 +1,5 @@
-/* Bindings that are not storage: a uniform block, texels of one float and of four, of one word and of two; what of
- * them is refused, and how long the views that they need live. */
+/* Bindings other than storage: a uniform block, texels of one float and of four, of one word and of two; refused
+ * bindings, and the lifetime of their views. */
 #include "support.h"
 
 #include "fake_device.h"
@@ -7,15 +7,15 @@
 
 enum { MOST = 3000 };
 
-/* The buffers of one dispatch of kinds.comp, contents by a rule, whole numbers so that sums are exact. */
+/* The buffers of one dispatch of kinds.comp, with contents by a rule, integers so that sums are exact. */
 struct set { struct kd_vk_buffer *block, *singles, *fours, *y, *single_words, *pairs; };
 
 static float single_of(uint32_t i) { return (float)(i * 7 % 1013); }
-static float four_of(uint32_t i) { return (float)(i * 5 % 811); } /* i: float by float */
+static float four_of(uint32_t i) { return (float)(i * 5 % 811); } /* i: index of the float */
 static float table_of(uint32_t k) { return (float)(100000 * (k + 1)); }
-/* Small numbers, which as floats would be denormal. */
+/* Small integers, which are denormal as floats. */
 static uint32_t word_of(uint32_t i) { return i * 3 % 97; }
-static uint32_t pair_of(uint32_t i) { return i * 11 % 89; } /* i: word by word */
+static uint32_t pair_of(uint32_t i) { return i * 11 % 89; } /* i: index of the word */
 static float expected(uint32_t i, float y, float scale)
 {
     float sum = y * scale + table_of(i % 6) + 10 * single_of(i);
@@ -90,8 +90,8 @@ static void values(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* Parts of buffers: texels and members of a block are counted from where the binding begins. A buffer that ends
- * within a texel is bound up to there. */
+/* Parts of buffers: texels and members of a block are counted from the beginning of the binding. A buffer that ends
+ * within a texel is bound up to that point. */
 static void ranges(void **state)
 {
     struct kd_vk *vk = *state;
@@ -124,7 +124,7 @@ static void ranges(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Written and read by turns in one submission, each kind in its turn: the barriers between are the layer's. */
+/* Written and read alternately in one submission, each kind in turn: the layer sets the barriers. */
 static void order(void **state)
 {
     struct kd_vk *vk = *state;
@@ -183,7 +183,7 @@ static void refused(void **state)
     FAILS(KD_EINTERNAL, "multiple of 256", kd_vk_dispatch(vk, &bad, &error));
     struct kd_vk_buffer *crumb = make_buffer(vk, 3, KD_VK_DEVICE, "crumb");
     bad = good, bad.bindings[2].buffer = crumb;
-    FAILS(KD_EINTERNAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* there is not one */
+    FAILS(KD_EINTERNAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* less than one texel */
     struct kd_vk_pipeline_params params = KINDS_PARAMS;
     params.kinds[1] = (enum kd_vk_kind)6;
     FAILS(KD_EINTERNAL, "binding 1 is of kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
@@ -192,11 +192,11 @@ static void refused(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* What a device binds of each kind, and one more. */
+/* The maximum that a device binds of each kind, and one more. */
 static void limits(void **state)
 {
     (void)state;
-    enum { texels = 65536, uniform = 16384 }; /* the least that Vulkan allows */
+    enum { texels = 65536, uniform = 16384 }; /* the minimum that Vulkan guarantees */
     fake_device_on(&(struct fake_device) { .texels = texels, .uniform = uniform });
     struct kd_vk *vk = open_device(true);
     assert_int_equal(kd_vk_info(vk)->max_texels, texels);
@@ -232,8 +232,8 @@ static unsigned views_of(const struct kd_vk_buffer *buffer)
     return n;
 }
 
-/* One view for what is bound again and again; of many, those in use and a few more; none outlives its buffer, which
- * may be destroyed while the device reads through them. */
+/* A repeated binding has one view. Of many views those in use and a few more are kept. None outlives its buffer,
+ * which may be destroyed while the device reads through them. */
 static void views(void **state)
 {
     struct kd_vk *vk = *state;
@@ -249,7 +249,8 @@ static void views(void **state)
     assert_int_equal(views_of(set.block) + views_of(set.y), 0);
     finish(vk);
     ((struct kinds_block *)kd_vk_buffer_map(set.block))->n = n;
-    for (uint32_t i = 0; i < parts; i++) { /* all in one submission: none of these views is idle, only that of before */
+    /* all in one submission: none of these views is idle, only the earlier one */
+    for (uint32_t i = 0; i < parts; i++) {
         d.bindings[1] = (struct kd_vk_binding) { .buffer = set.singles, .offset = 256 * i, .size = 256 };
         d.bindings[3] = (struct kd_vk_binding) { .buffer = set.y, .offset = 256 * i, .size = 256, .write = true };
         OK(kd_vk_dispatch(vk, &d, &error));

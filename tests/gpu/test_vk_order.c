@@ -1,5 +1,5 @@
-/* Chains of commands that read and write the same buffers: right results, and barriers where they are due and
- * nowhere else. The count matters, because a device that runs everything in turn is right without any. */
+/* Chains of commands that read and write the same buffers: correct results, and barriers where they are necessary
+ * and nowhere else. Barriers are counted, because a device that runs everything in order is correct without any. */
 #include "support.h"
 
 enum { n = 2048 };
@@ -18,7 +18,7 @@ static VKAPI_ATTR void VKAPI_CALL counting(VkCommandBuffer commands, VkPipelineS
 static void count_from_here(struct kd_vk *vk)
 {
     finish(vk);
-    vk->hazards.count = 0; /* forget what earlier tests left */
+    vk->hazards.count = 0; /* forget earlier tests */
     barriers = 0;
 }
 
@@ -40,13 +40,13 @@ static void counted(void **state)
     assert_int_equal(barriers, 0);
     mix(vk, pipeline, b[1], b[3], n, 1); /* read after write */
     assert_int_equal(barriers, 1);
-    mix(vk, pipeline, b[2], b[3], n, 1); /* write after write; b[2] needs no more */
+    mix(vk, pipeline, b[2], b[3], n, 1); /* write after write; b[2] needs no further barrier */
     assert_int_equal(barriers, 2);
     mix(vk, pipeline, b[3], b[1], n, 1); /* b[3] read after write */
     assert_int_equal(barriers, 3);
     mix(vk, pipeline, b[2], b[0], n, 1);
     assert_int_equal(barriers, 3);
-    OK(kd_vk_fill(vk, "fill", b[2], 0, n * 4, 0, &error)); /* write after read, the other stage */
+    OK(kd_vk_fill(vk, "fill", b[2], 0, n * 4, 0, &error)); /* write after read, in another stage */
     assert_int_equal(barriers, 4);
 
     count_from_here(vk);
@@ -54,10 +54,10 @@ static void counted(void **state)
     OK(kd_vk_copy(vk, "c", b[1], n * 2, b[0], n * 2, n * 2, &error)); /* the other half */
     assert_int_equal(barriers, 0);
     OK(kd_vk_submit(vk, NULL, &error));
-    OK(kd_vk_copy(vk, "c", b[3], 0, b[1], 0, n * 4, &error)); /* against the submission before */
+    OK(kd_vk_copy(vk, "c", b[3], 0, b[1], 0, n * 4, &error)); /* hazard with the previous submission */
     assert_int_equal(barriers, 1);
     kd_vk_discard(vk);
-    OK(kd_vk_copy(vk, "c", b[2], 0, b[1], 0, n * 4, &error)); /* the barrier went with what was discarded */
+    OK(kd_vk_copy(vk, "c", b[2], 0, b[1], 0, n * 4, &error)); /* its barrier was discarded with the commands */
     assert_int_equal(barriers, 2);
 
     finish(vk);
@@ -106,7 +106,7 @@ static void random_programs(void **state)
     struct kd_vk_pipeline *pipeline = make_mix(vk, 3);
     struct kd_vk_buffer *b[4];
     srand(3);
-    for (int i = 0; i < 4; i++) { /* of every kind: b[2] and b[3] are checked through a copy */
+    for (int i = 0; i < 4; i++) { /* of every memory kind: b[2] and b[3] are checked through a copy */
         b[i] = make_buffer(vk, n, i == 0 ? KD_VK_UPLOAD : i == 1 ? KD_VK_READBACK : KD_VK_DEVICE, "b");
         OK(kd_vk_fill(vk, "fill", b[i], 0, n * 4, 0, &error));
     }

@@ -1,4 +1,4 @@
-/* Device time by pass: plausible against the clock, added up by name, absent where there is none. */
+/* Device time by pass: plausible against the clock, summed by name, absent without timestamps. */
 #include "support.h"
 
 #include <time.h>
@@ -59,7 +59,7 @@ static void plausible(void **state)
     }
     struct kd_vk_pipeline *pipeline = make_spin(vk);
     struct kd_vk_buffer *buffer = make_buffer(vk, n, KD_VK_DEVICE, "state");
-    char name[] = "long"; /* by content, not by address */
+    char name[] = "long"; /* compared by content, not by address */
     spin(vk, "warm", pipeline, buffer, 10);
     finish(vk);
     kd_vk_times_reset(vk);
@@ -75,8 +75,8 @@ static void plausible(void **state)
     print_message("short %.3f ms, long 2 x %.3f ms, wall %.3f ms\n", brief.ms, lengthy.ms / 2, wall);
     assert_int_equal(brief.dispatches, 1);
     assert_int_equal(lengthy.dispatches, 2);
-    /* Generous: other work shares the machine. 20 times the work takes at least twice as long; the device
-     * cannot have been busy for longer than the clock ran, give or take the two clocks' rates. */
+    /* Generous, since other work shares the machine: 20 times the work takes at least twice as long. The device
+     * cannot have been busy for longer than the clock ran, up to the two clocks' rates. */
     assert_true(brief.ms > 0 && lengthy.ms > 2 * brief.ms);
     assert_true(brief.ms + lengthy.ms < 1.05 * wall + 0.1);
     assert_true(brief.ms + lengthy.ms > 0.2 * wall);
@@ -104,12 +104,12 @@ static void many(void **state)
         OK(kd_vk_copy(vk, names[i], a, 0, b, 0, 256, &error));
     }
     finish(vk);
-    memset(names, 0, sizeof names); /* ours to forget once the submission is done */
+    memset(names, 0, sizeof names); /* names may be overwritten once the submission is done */
     uint32_t sum = 0;
     size_t count = kd_vk_times(vk, times);
     for (size_t i = 0; i < count; i++)
         sum += times[i].dispatches;
-    assert_int_equal(count, KD_VK_MAX_PASSES - 3); /* "warm", "short" and "long" have none, "other" has many */
+    assert_int_equal(count, KD_VK_MAX_PASSES - 3); /* "warm", "short" and "long" have no row left, "other" has many */
     assert_int_equal(sum, 300 + 2 * KD_VK_MAX_PASSES);
     assert_true(time_of(vk, "other").dispatches > 1);
     kd_vk_buffer_destroy(vk, a);

@@ -1,5 +1,5 @@
-/* Does the validation layer listen? A fault is planted for each thing it is trusted to find; messages on
- * stderr are expected here. */
+/* Checks that the validation layer is active: each kind of error that it must find is planted. Messages on stderr
+ * are expected here. */
 #include "support.h"
 
 #include "vk/submit.h"
@@ -14,7 +14,7 @@ static VKAPI_ATTR void VKAPI_CALL no_barrier(VkCommandBuffer commands, VkPipelin
     (void)buffer, (void)n_image, (void)image;
 }
 
-/* Messages from a fill that a kernel then adds to. */
+/* Number of messages for a fill that a kernel then adds to. */
 static uint32_t fill_then_add(bool barriers)
 {
     struct kd_vk *vk = open_device(true);
@@ -34,8 +34,8 @@ static uint32_t fill_then_add(bool barriers)
     return messages;
 }
 
-/* Messages from a fill of what a kernel then reads through binding k: a uniform block, texels of one float, of four;
- * of one word, of two. */
+/* Number of messages for a fill that a kernel then reads through binding k: a uniform block, texels of one float, of
+ * four; of one word, of two. */
 static uint32_t fill_then_read(int k, bool barriers)
 {
     struct kd_vk *vk = open_device(true);
@@ -71,14 +71,14 @@ static void synchronisation(void **state)
     assert_int_equal(fill_then_add(true), 0);
     assert_true(fill_then_add(false) > 0);
     for (int k = 0; k < 6; k++) {
-        if (k == 3) /* is written */
+        if (k == 3) /* that binding is written */
             continue;
         assert_int_equal(fill_then_read(k, true), 0);
         assert_true(fill_then_read(k, false) > 0);
     }
 }
 
-/* The core checks: a fill that is not aligned. It is discarded, not run. */
+/* The core checks: an unaligned fill. It is discarded, not run. */
 static void core(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-"""Who may use a server that has a token file: by header, by cookie, by role, and beside the tokens of sessions and
-jobs."""
+"""Tests of access to a server with a token file: by header, by cookie, by role, and together with the tokens of
+sessions and jobs."""
 
 import http.client
 import json
@@ -101,7 +101,7 @@ class Access(daemon.Case):
 
 class Roles(Access):
     def assertRefused(self, answer):
-        """Word for word the same, whatever was wrong."""
+        """The answer is the same word for word, whatever was wrong."""
         problem = self.assertProblem(answer, 401, "unauthorized")
         self.assertEqual(answer.header("WWW-Authenticate"), "Bearer")
         self.assertIsNone(answer.header("Set-Cookie"))
@@ -177,7 +177,7 @@ class Roles(Access):
                 )
 
     def test_the_table_has_no_other_change(self):
-        """Each operation of /openapi.json is read, asked, or among those that take the role."""
+        """Each operation of /openapi.json is read, asked, or among those that need the role."""
         seen = set()
         for path, operations in self.ask("GET", "/openapi.json", headers=own(VIEW)).json()["paths"].items():
             for method in operations.keys() - {"get"}:
@@ -185,7 +185,7 @@ class Roles(Access):
         self.assertEqual(seen, set(CHANGES) | {("POST", path.split("?")[0]) for path in QUESTIONS})
 
     def test_openapi_tells_it(self):
-        """From the same table: what answers 401 and 403, and which role it takes."""
+        """By the same table: which operations answer 401 and 403, and which role they need."""
         document = self.ask("GET", "/openapi.json", headers=own(VIEW)).json()
         schemes = document["components"]["securitySchemes"]
         self.assertEqual(
@@ -224,7 +224,7 @@ class Roles(Access):
 
 
 class Beside(Access):
-    """A session and a job have tokens of their own."""
+    """A session and a job have additional tokens of their own."""
 
     def test_a_session(self):
         for ours, theirs in (
@@ -256,7 +256,7 @@ class Beside(Access):
 
 
 class Shares(Access):
-    """Whose token it is counts, not where a request comes from."""
+    """Shares are by token, not by the address of a request."""
 
     more = ("--sessions", 4, "--client-share", 50, "--client-device-seconds", 1)
     OTHER = "other-0123456789abcdef"

@@ -1,5 +1,5 @@
-"""What the service answers as JSON is what openapi.json says of it: every route, but for playgrounds, whose test is
-playground_schema.py."""
+"""Tests that JSON answers of the service match openapi.json: every route except playgrounds, which
+playground_schema.py tests."""
 
 import json
 import pathlib
@@ -247,7 +247,7 @@ class Answers(daemon.Case):
             )
 
     def test_schemas_can_refuse(self):
-        """A member more, a member less, another type."""
+        """The schemas do refuse a member more, a member less, another type."""
         for path in "/v1/device", "/v1/presets", "/v1/physics":
             schema, good = self.schemas.of("get", path), self.daemon.get(path).json()
             self.assertTrue(self.schemas.wrong(schema, {**good, "more": 1}), path)

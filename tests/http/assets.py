@@ -1,5 +1,5 @@
-"""Assets: what is taken, by whom it is deleted, limits and shares, and what a restart finds. Pictures are made here, by
-zlib alone."""
+"""Tests of assets: what is accepted, who may delete it, limits and shares, and what a restart finds. Pictures are
+made here, with zlib only."""
 
 import hashlib
 import io
@@ -24,7 +24,7 @@ def chunk(kind, data):
 
 
 def png(width=8, height=4, seed=0, depth=8, colour=2, pixels=None, before=b""):
-    """A picture of noise, which nothing compresses, has about 3 bytes a pixel."""
+    """A picture of noise, which cannot be compressed, takes about 3 bytes a pixel."""
     row = {0: 1, 2: 3, 3: 1, 6: 4}[colour] * width * depth // 8
     noise = (
         b"".join(hashlib.sha256(b"%d %d" % (seed, i)).digest() for i in range((row + 1) * height // 32 + 1))
@@ -191,7 +191,7 @@ class Assets(Case):
             with self.subTest(words, data=data[:40]):
                 problem = self.assertProblem(self.put(data), 422, "invalid-asset")
                 self.assertIn(words, problem["detail"])
-        # as large a picture as deflate can hold in few bytes, of more pixels than are taken
+        # the largest picture that deflate can hold in a few bytes, with more pixels than are accepted
         flat = png(30000, 9000, colour=0, pixels=bytes(9000 * 30000))
         self.assertIn("30000 x 9000", self.assertProblem(self.put(flat), 422, "invalid-asset")["detail"])
         for kind in (
@@ -297,8 +297,8 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{"Sec-Fetch-Site": "cross-site"}), 403, "cross-site")
 
     def test_many_at_once(self):
-        """One who puts the same bytes as others is told that it was the first; the others wait or are told that they
-        are there."""
+        """A client that puts the same bytes as others at the same time either is told that it was the first, or
+        waits, or is told that they exist."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:
@@ -341,7 +341,7 @@ class Limits(Case):
 
 
 class Shares(Case):
-    """A client has its share, and what is left is another's."""
+    """A client has its share, and the rest is for others."""
 
     options = ("--assets", 4, "--client-share", 50)
 
@@ -475,7 +475,8 @@ class State(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_nothing_gives_way_to_what_is_no_grid(self):
-        """Its arrays would take 84 MB, more than may be kept here; one of them is missing."""
+        """An invalid grid evicts nothing: its arrays would take 84 MB, more than may be kept here; one of them is
+        missing."""
         options = ("--assets-kib", 40, "--asset-keep-s", 1)
         server = self.start(*options)
         kept = self.made(png(), server)
@@ -512,13 +513,13 @@ class State(Case):
 
 
 class Scenes(Case):
-    """Scenes that name an asset, wherever a scene may come from."""
+    """Scenes that refer to an asset, in every way a scene can be given."""
 
     def scene(self, image):
         return {"image": {"width": 32, "height": 18}, "sky": {"model": "image", "image": image}}
 
     def answers(self, image):
-        """What each way of asking says, and where in the request the field is."""
+        """The answer to each way of asking, and where in the request the field is."""
         scene, at = self.scene(image), "/sky/image"
         yield self.daemon.get(f"/v1/render?image.width=32&image.height=18&sky.model=image&sky.image={image}"), at
         yield self.daemon.post("/v1/render", scene), at
@@ -545,7 +546,7 @@ class Scenes(Case):
         )
 
     def end(self, answer):
-        """Sessions and jobs are few."""
+        """Ends them, because few sessions and jobs are allowed."""
         if answer.status in (201, 202):
             self.daemon.request(
                 "DELETE", answer.location(), headers={"Authorization": f"Bearer {answer.json()['token']}"}
@@ -559,7 +560,8 @@ class Scenes(Case):
         self.delete(asset)
 
     def test_others_go_on_while_one_is_read(self):
-        """Here, until a picture without it has been rendered: nothing would ever come if that waited for the device."""
+        """Until a picture without the asset has been rendered: that would never happen if reading it held the
+        device."""
         scene, answers = self.scene(self.made(png(64, 32, 9))["sha256"]), []
         scene["sky"]["seed"] = 4711
         server = daemon.Daemon("--drain-ms", 10)

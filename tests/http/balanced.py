@@ -1,5 +1,5 @@
-"""Two servers behind HAProxy, by the configuration of docs/examples: one is killed and nobody notices; sessions stay
-where they are. balanced.py KERRD serve"""
+"""Two servers behind HAProxy, with the configuration of docs/examples: one is killed without clients noticing;
+sessions stay on their server. balanced.py KERRD serve"""
 
 import concurrent.futures
 import http.client

@@ -1,5 +1,4 @@
-"""A server below a base path: what it answers there, what outside, and that nothing it says of itself points out of
-it."""
+"""Tests of a server below a base path: its answers there and outside, and that none of its links points outside."""
 
 import re
 import subprocess
@@ -93,7 +92,7 @@ class Below(daemon.Case):
         self.assertEqual(self.daemon.get(BASE + "/openapi.json").json()["servers"], [{"url": BASE}])
 
     def test_who_asks_cannot_choose_it(self):
-        """What a proxy forwards may come from anybody."""
+        """Headers of a forwarding proxy may come from anybody."""
         forwarded = {
             "X-Forwarded-Prefix": "/other",
             "X-Forwarded-Path": "/other",
@@ -110,7 +109,7 @@ class Below(daemon.Case):
 
 
 class Health(unittest.TestCase):
-    """Health is answered where nothing else is, by its first bytes: with the base path and without it."""
+    """Health is answered where nothing else is, by the first bytes of a request: with the base path and without it."""
 
     def test_while_connections_are_at_their_limit(self):
         base = "/" + "long/" * 39 + "tail"  # 200 characters
@@ -141,7 +140,7 @@ class Health(unittest.TestCase):
 
 class Without(daemon.Case):
     def test_openapi_is_beside_what_it_describes(self):
-        """A proxy that takes a prefix away leaves no other way to say it."""
+        """If a proxy removes a prefix, relative addresses are the only ones that work."""
         self.assertEqual(self.daemon.get("/openapi.json").json()["servers"], [{"url": "."}])
 
     def test_where_there_is_no_path(self):

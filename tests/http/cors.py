@@ -1,4 +1,5 @@
-"""Pages of other origins: which may use the server and read its answers, and what browsers are told that ask first."""
+"""Tests of pages of other origins: which may use the server and read its answers, and the answers to preflight
+requests."""
 
 import pathlib
 import re
@@ -84,7 +85,7 @@ class Listed(Case):
                     self.assertLetIn(answer, origin)
 
     def test_what_scripts_may_read(self):
-        """Each header that some answer has, but for those that are the browser's."""
+        """Every header that some answer has, except those that belong to the browser."""
         exposed = set(words(self.ask("GET", RENDER, GOOD).header("Access-Control-Expose-Headers")))
         text = "".join(path.read_text() for path in SOURCES.glob("*/*.c"))
         sent = {"X-Request-Id"} | {
@@ -143,7 +144,7 @@ class Listed(Case):
         self.assertProblem(self.ask("GET", RENDER, **FOREIGN), 403, "cross-site")
 
     def test_preflights(self):
-        """Each route says its own methods, and the headers that it reads."""
+        """Each route lists its own methods, and the headers that it reads."""
         always = ["Authorization", "X-Request-Id", "traceparent", "Kerrd-Access"]
         for target, methods, more in (
             ("/v1/render", "GET, HEAD, POST", ["Content-Type", "If-None-Match"]),

@@ -19,7 +19,7 @@ import urllib.parse
 COMMAND = []  # the server's command line, from ours; set by main()
 HEADER_BYTES = 3000  # of any answer: proxies take 4096 by default, their own lines included
 SMALL = "image.width=64&image.height=36"
-# The shell has no window of its own, and takes 40 % less of the processor for the same page.
+# The headless shell has no window, and takes 40 % less processor time for the same page.
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), None)
 
 
@@ -40,7 +40,7 @@ class Answer:
         return json.loads(self.body)
 
     def location(self):
-        """The path of what has been made, or of where it has gone: Location is relative to the request's."""
+        """The path of what was created, or to which it was redirected: Location is relative to the request's."""
         return urllib.parse.urljoin(self.target, self.header("Location"))
 
 
@@ -49,7 +49,8 @@ class Daemon:
         self.process = subprocess.Popen(
             [*COMMAND, "--port", "0", *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env
         )
-        # What a failed test has left would keep whoever waits for our output waiting; no effect on one that has ended.
+        # Processes left by a failed test would keep whoever waits for our output waiting; no effect on those that have
+        # ended.
         atexit.register(self.process.kill)
         line = self.process.stdout.readline().decode()
         match = re.fullmatch(r"kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n", line)
@@ -92,7 +93,7 @@ class Daemon:
         return self.request("POST", target, body, {k.replace("_", "-"): v for k, v in headers.items()})
 
     def raw(self, data, timeout=60):
-        """Send bytes, read until the server closes or the answer is complete; None when there is no answer."""
+        """Sends bytes, reads until the server closes or the answer is complete; None if there is no answer."""
         with self.connect(timeout) as s:
             try:
                 s.sendall(data)
@@ -105,7 +106,7 @@ class Daemon:
         return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if line[0] != "#")}
 
     def reaches(self, gauge, least):
-        """Waits until /metrics says so: how a test knows that the server has what it was sent."""
+        """Waits until /metrics has that value: so a test knows that the server has received what was sent."""
         if not eventually(lambda: self.metrics()["kerrd_" + gauge] >= least):
             raise AssertionError(f"kerrd_{gauge} does not reach {least}")
 
@@ -137,13 +138,13 @@ def read_answer(s):
 
 
 def vanish(s):
-    """A client that is gone from one moment to the next, without a last word."""
+    """A client that disappears at once, without closing the connection properly."""
     s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     s.close()
 
 
 def needed(name):
-    """A module; where it is not installed the test is skipped."""
+    """Imports a module; if it is not installed the test is skipped."""
     try:
         return importlib.import_module(name)
     except ImportError as missing:
@@ -167,7 +168,7 @@ def eventually(condition, timeout=240):
 
 
 class Case(unittest.TestCase):
-    """Tests that share one daemon, which must be alive after each and exit with 0 after all."""
+    """Tests that share one daemon, which must be running after each and exit with 0 after all."""
 
     options = ()
 
@@ -199,7 +200,8 @@ class Case(unittest.TestCase):
 
 
 class Owned(Case):
-    """Tests of what lives on the server under an address, belongs to who has its token, and goes with the test."""
+    """Tests of resources that have an address on the server, belong to the holder of a token, and are deleted after
+    the test."""
 
     kind = made = None  # '/v1/sessions'; the status of having made one
 

@@ -1,4 +1,4 @@
-"""The commands that the documentation shows, run as they stand; skipped where there is no device or no curl."""
+"""Runs the commands in the documentation as they stand; skipped where there is no device or no curl."""
 
 import importlib.util
 import os
@@ -18,8 +18,8 @@ exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
 """
 FENCED = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 COMMAND = r"(?:kerrd|curl|python|pip|meson|podman|docker|kubectl|sudo|systemctl|systemd-analyze|export|scripts/\S+|bench/\S+|tests/\S+|venv/\S+)(?= |$)"
-# What is shown and not run here, by how the line begins, and why. A line of no document is an error: it has been
-# forgotten here.
+# Commands that are shown and not run here, by the beginning of the line, with the reason. An entry that is in no
+# document is an error: it should be deleted here.
 LEFT_OUT = {
     "scripts/": "installs packages, or builds and tests for minutes",
     "bench/": "measures for minutes",
@@ -45,7 +45,7 @@ LEFT_OUT = {
 }
 if not (ROOT / "venv-ehtim/bin/python").exists():
     LEFT_OUT["venv-ehtim/bin/python "] = "ehtim is not installed; scripts/matrix ehtim runs it"
-# What takes minutes is begun, so that what it is called with is right, and ended after some seconds.
+# Commands that take minutes are started, which tests their arguments, and ended after some seconds.
 BEGUN = {
     "kerrd playground --preset disruption --time 3200": "161 pictures of a torn star",
     "kerrd playground torn.json --set h_max=10000": "two million M",
@@ -71,7 +71,7 @@ def blocks(text):
 
 
 def commands(block):
-    """What is run of a block: its lines but for those that are left out, with what continues them."""
+    """The commands of a block that are run: its lines except those left out, with their continuation lines."""
     kept, going_on = [], False
     for line in block.splitlines():
         left = going_on if going_on else any(line.startswith(begin) for begin in LEFT_OUT)
@@ -130,7 +130,7 @@ class Documents(unittest.TestCase):
             self.assertEqual(done.returncode, 0, f"{name}:\n{block}\n{done.stderr.decode()}\n{done.stdout[-2000:]}")
 
     def made(self, name, count, *files):
-        """And the commands make these files."""
+        """The commands make these files."""
         for file in files:
             pathlib.Path(self.folder.name, file).unlink(missing_ok=True)
         self.run_all(name, count)
@@ -138,7 +138,7 @@ class Documents(unittest.TestCase):
             self.assertTrue(pathlib.Path(self.folder.name, file).stat().st_size, file)
 
     def test_every_document_with_commands_is_here(self):
-        """And what is left out is still shown somewhere."""
+        """Commands that are left out are still shown in some document."""
         documents = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
         shown = {document.relative_to(ROOT).as_posix(): list(blocks(document.read_text())) for document in documents}
         run = {name for name, found in shown.items() if any(commands(block) for block in found)}

@@ -1,4 +1,4 @@
-"""Bad scenes, bodies, queries and negotiations: a problem document each, and a server that goes on."""
+"""Tests of bad scenes, bodies, queries and negotiations: each gives a problem document, and the server continues."""
 
 import json
 import tempfile
@@ -48,7 +48,7 @@ class Scenes(daemon.Case):
                 self.assertLess(self.daemon.post(target, b"\xef\xbb\xbf" + document.encode()).status, 300)
 
     def test_mistakes_of_who_writes_json_by_hand(self):
-        """Each is named with its line and column; of lists of rays, which have a reader of their own, too."""
+        """Each error is reported with its line and column; also in lists of rays, which have a parser of their own."""
         for value, words in (
             (".5", "JSON has 0.5 for .5"),
             ("NaN", "NaN, which JSON has not"),

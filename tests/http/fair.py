@@ -28,8 +28,7 @@ BESIDE = 10
 
 class Fair(unittest.TestCase):
     def test_beside_all_that_one_may_queue(self):
-        """A picture of 640 x 360 comes within 2 s, or, where the machine is slow or shared, within some times what it
-        takes alone."""
+        """A picture of 640 x 360 takes at most 2 s or, on a slow or shared machine, some times what it takes alone."""
         size = (640, 360)
         server = fairness.Server(daemon.COMMAND[0])
         self.addCleanup(server.stop)
@@ -99,7 +98,7 @@ class Pixel(unittest.TestCase):
 
 
 class NewKernels(unittest.TestCase):
-    """On an empty cache of the driver."""
+    """With an empty shader cache."""
 
     NEW = "/v1/render?image.width=320&image.height=180&preset=jet"
     WARM = "/v1/render?image.width=64&image.height=36&camera.inclination_deg=%d"

@@ -1,16 +1,17 @@
-/* render/render.h without a device, for tests of what stands in front of it. Plans and pictures are the real
- * ones.
+/* Implements render/render.h without a device, for tests of the code in front of it. Plans and picture formats are
+ * the real ones.
  *
- * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with
- * several rays a pixel; -1 loses the device, which on one called "mends" can be opened again, -1.5 only the first
- * time, -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device
+ * The scene's time selects the behaviour. t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with
+ * several rays a pixel. -1 loses the device, which can be reopened if it is called "mends"; -1.5 only the first
+ * time; -2 runs out of memory; -3 fails. The exposure "auto" alternates between 1 stop and -1. Rays on the device
  * cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each
- * takes a millisecond. The picture of a sky of seed 4711 is under way until another picture is rendered, and
- * kernels of one of seed 4712, and of rays with steps 20, are compiled until then, if that is within a minute; one of
- * seed 4713 is found to lack them once it has begun. Each compilation is told as a kilobyte more of kernels; on a
- * device called "miscompiles" each fails. A device
- * called "compiles" is busy with a small picture of a preset, as with a kernel, until five other pictures have been
- * rendered meanwhile; it fails after a minute without them. */
+ * takes a millisecond.
+ *
+ * The picture of a sky of seed 4711 is being decoded until another picture is rendered. Kernels of a sky of seed
+ * 4712, and of rays with steps 20, are being compiled until then, for at most a minute; a sky of seed 4713 turns out
+ * to lack them once its picture has begun. Each compilation is reported as a kilobyte more of kernels; on a device
+ * called "miscompiles" each fails. A device called "compiles" is busy with a small picture of a preset, as with a
+ * kernel, until five other pictures have been rendered meanwhile; it fails after a minute without them. */
 #include "base/clock.h"
 #include "render/device/accuracy_store.h"
 #include "render/device/rest.h"
@@ -32,11 +33,11 @@ struct kd_renderer {
     char lens_key[65];
     bool measured, slow, held, gated, compiles, miscompiles, bright;
     struct kd_renderer_params params;
-    _Atomic bool read; /* the picture of that sky */
-    bool compiled;     /* the kernels of the other ones */
+    _Atomic bool read; /* the picture of that sky has been decoded */
+    bool compiled;     /* the kernels of the other skies have been compiled */
 };
 enum { UNREAD = 4711, UNCOMPILED = 4712, LACKING = 4713, STEPS_UNCOMPILED = 20, MEANWHILE = 5, PATIENCE_MS = 60000 };
-static _Atomic unsigned drawn; /* pictures, by whatever renderer */
+static _Atomic unsigned drawn; /* pictures rendered, by all renderers */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
@@ -84,7 +85,7 @@ void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { (vo
 
 void kd_renderer_sky_stop(struct kd_renderer *renderer) { (void)renderer; }
 
-/* Says in one FIFO that a thread plans, which a byte in the other lets go on. */
+/* Reports through one FIFO that a thread plans, and waits for a byte in the other. */
 static void wait_at_gate(void)
 {
     char byte = 0;
@@ -95,8 +96,8 @@ static void wait_at_gate(void)
     close(may);
 }
 
-/* Whoever plans asks for it: a device called "held" holds that thread, one called "gated" until its test lets it go on,
- * once it has drawn a picture. */
+/* Called by every planning thread: a device called "held" blocks it; one called "gated" does so until the test lets
+ * it go on, once it has rendered a picture. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {
     if (renderer->held)
@@ -121,7 +122,7 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     return kd_buffer_printf(out, "{\"name\":\"fake\"}\n");
 }
 
-/* A device called "measured" has a table, one called "slow" is in no hurry to say that it has none. */
+/* A device called "measured" has a table; one called "slow" takes its time to report that it has none. */
 enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
                                          struct kd_error *error)
 {
@@ -149,7 +150,7 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer)
     return "a \"driver\" \\ of no device";
 }
 
-/* Each rest is told as one byte more of kernels. */
+/* Each rest is reported as one byte more of kernels. */
 static _Atomic unsigned rests, compilations;
 
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error)
@@ -179,7 +180,7 @@ uint64_t kd_renderer_held(const struct kd_renderer *renderer)
     return 12345678;
 }
 
-/* Where the environment names a folder for it, as with devices. */
+/* In the folder that the environment names, as for real devices. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix)
 {
     const char *folder = getenv("XDG_CACHE_HOME");
@@ -236,7 +237,7 @@ struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernel
     return ask(renderer, user) ? NULL : lacked(renderer);
 }
 
-/* KD_OK: there is one to be compiled. */
+/* KD_OK: a kernel must be compiled. */
 enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told)
 {
     (void)renderer, (void)told;
@@ -288,7 +289,7 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 && time != -1.5 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-/* This tells of a pixel that its light and that of all its rays is a quarter, and nothing of what gave it. */
+/* Explains a pixel with a light of a quarter, for itself and all rays, and no emitters. */
 static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->side;
@@ -307,7 +308,7 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
             .light = { 0.25f, 0.25f, 0.25f },
         };
     told->rays = told->each ? told->rays : 0;
-    if (plan->told.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing behind it */
+    if (plan->told.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing after it */
         *told->steps =
             (struct kd_rays_steps) { .params = { .engine = plan->setting.engine, .steps = plan->setting.steps },
                                      .n = 1,
@@ -319,7 +320,7 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
     return told;
 }
 
-/* Linear light that is black, and maps of one brightness: 1, and half of that of image order 1; with three samples a
+/* Black linear light, and maps of constant brightness: 1, and half of it for image order 1; with three samples a
  * side they are black too. */
 static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out,
                                   struct kd_error *error)
@@ -337,7 +338,7 @@ static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_
     return status;
 }
 
-/* A picture lacks kernels that nobody could foresee. */
+/* A picture lacks kernels that were not predicted. */
 static enum kd_status lack(struct kd_renderer *renderer, const struct kd_scene *scene, bool aside,
                            struct kd_error *error)
 {
@@ -391,7 +392,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
         kd_frame_finish(out);
         return KD_ENOMEM;
     }
-    const double t = scene->top.time; /* at 0 it is dark */
+    const double t = scene->top.time; /* black at 0 */
     if (plan->light)
         out->light = (struct kd_light_report) {
             .measured = true,
@@ -404,7 +405,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
     out->timings[out->n_timings++] =
-        (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* what it took: a busy machine wakes it late */
+        (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* true duration: a busy machine wakes it late */
     atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }
@@ -449,7 +450,7 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
     return draw(renderer, scene, plan, true, go_on, &aside, out, error);
 }
 
-/* Nothing is made of the light of the others: it is black, as the picture's own. */
+/* Ignores the others' light: the result is black, as the picture's own. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,

@@ -1,6 +1,5 @@
-/* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers
- * of struct kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file and
- * --device. */
+/* The HTTP service in front of the linked renderer: fake_server [--NAME VALUE]... with the numbers of struct
+ * kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file and --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -76,7 +75,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
 
 int main(int argc, char **argv)
 {
-    struct kd_server_params params = { .client_share = 100 }; /* most tests fill a limit from one address */
+    struct kd_server_params params = { .client_share = 100 }; /* most tests reach a limit from one address */
     struct kd_error error;
     const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL }, *embeds[2] = { NULL, NULL };
 
@@ -94,7 +93,7 @@ int main(int argc, char **argv)
     if (status) {
         fprintf(stderr, "fake_server: %s\n", error.message);
         kd_server_destroy(server);
-        _exit(1); /* as a process that has lost its device should */
+        _exit(1); /* as a process should that has lost its device */
     }
     kd_server_destroy(server);
     return 0;

@@ -1,5 +1,5 @@
-"""Films of jobs, which the program ffmpeg encodes. In front of the fake renderer, and of an ffmpeg that keeps what it
-is given; with FFMPEG=real (suite `film`) of the one of this system, whose film ffprobe and ffmpeg read."""
+"""Tests of films of jobs, encoded by the program ffmpeg: with the fake renderer and a fake ffmpeg that keeps its
+input; with FFMPEG=real (suite `film`) with that of this system, whose film ffprobe and ffmpeg read."""
 
 import base64
 import concurrent.futures
@@ -17,11 +17,11 @@ import daemon
 from job_case import SCENE, Case, scene_of
 
 REAL = os.environ.get("FFMPEG") == "real"
-# Its arguments, a line each, and an empty line; then what it reads. The last argument is where it writes.
+# Writes down its arguments, a line each, an empty line, and then its input. The last argument is the output file.
 KEEPS = 'import sys, pathlib\nout = open(sys.argv[-1], "wb")\nout.write("\\n".join(sys.argv[1:]).encode() + b"\\n\\n" + sys.stdin.buffer.read())\n'
 COUNTS = 'import os\nopen(os.environ["KERRD_TEST_RUNS"], "a").write("x")\n' + KEEPS
 FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("\\x1b[31m/secret/place: Unknown encoder libx264\\x07\\nsecond line")\n'
-# Its child has its standard error, and stays when it has failed.
+# Its child keeps its standard error, and goes on running after it has failed.
 LEAVES = (
     'import os, pathlib, subprocess, sys\nsys.stdin.buffer.read(9)\nchild = subprocess.Popen(["sleep", "600"], stdin=subprocess.DEVNULL)\n'
     'pathlib.Path(os.environ["KERRD_TEST_PID"]).write_text(str(child.pid))\nsys.exit("no luck")\n'
@@ -64,7 +64,7 @@ class Films(Case):
         return open_files
 
     def hanging(self):
-        """A server, a client that waits for a film, and the number of the process that makes none."""
+        """A server, a client that waits for a film, and the number of the process that never makes one."""
         server, job, _ = self.film_of(HANGS, {"scenes": [SCENE] * 2}, None)
         client = server.connect()
         self.asked = self.at(job, "/result?format=mp4")
@@ -74,7 +74,7 @@ class Films(Case):
         return server, client, int(pid.read_text())
 
     def gone(self, number):
-        """Or dead, until its new parent has looked."""
+        """The process is gone, or a zombie until its new parent reaps it."""
         self.assertTrue(
             daemon.eventually(
                 lambda: not (stat := pathlib.Path(f"/proc/{number}/stat")).exists() or ") Z " in stat.read_text()
@@ -175,7 +175,7 @@ class Given(Films):
 
 
 class Kept(Films):
-    """A film is encoded once, and kept with its job."""
+    """A film is encoded once, and stored with its job."""
 
     FRAMES = {"scene": SCENE, "keyframes": [{"frame": 9, "scene": {"camera": {"azimuth_deg": 39}}}]}
 
@@ -220,7 +220,7 @@ class Kept(Films):
         self.ended(server)
 
     def test_who_leaves_hands_it_on(self):
-        """Another who waits for the same film has it encoded then."""
+        """If the client that asked first leaves, another that waits for the same film gets it."""
         server, client, number = self.hanging()
         job = re.search(r"/v1/jobs/(\w+)/", self.asked)[1]
         (self.folder / "ffmpeg").write_text("#!/usr/bin/env python3\n" + KEEPS)
@@ -271,7 +271,7 @@ class Kept(Films):
         self.ended(server)
 
     def test_a_kill_leaves_no_half_of_it(self):
-        """While ffmpeg works, and while what it has made is copied."""
+        """While ffmpeg works, and while its output is copied."""
         state = self.folder / "state"
         server, job, _ = self.film_of(HANGS, self.FRAMES, None, ("--state", state))
         client = server.connect()

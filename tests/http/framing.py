@@ -1,4 +1,4 @@
-"""The header guard, limits on bodies, and deadlines, with bytes that no proper client sends."""
+"""Tests of the header guard, limits on bodies, and deadlines, with bytes that no proper client sends."""
 
 import re
 import shutil
@@ -20,7 +20,7 @@ class Guard(daemon.Case):
     options = ("--host", "holes.example", "--header-ms", 1000, "--body-ms", 1000)
 
     def assertRefused(self, answer, status, word):
-        """Or, where libmicrohttpd 1.0 sees to it before it asks us, as what is no HTTP."""
+        """Refused by us or, if libmicrohttpd 1.0 notices it before it calls us, as invalid HTTP."""
         self.assertIsNotNone(answer, "no answer")
         if answer.status == 400:
             status, word = 400, "bad-request"
@@ -237,7 +237,7 @@ class Sizes(daemon.Case):
                 pass
 
     def test_a_body_of_just_the_limit(self):
-        """Of a scene; that of a job, which POST /v1/plan takes too, may be four times as large."""
+        """That of a scene; that of a job, which POST /v1/plan accepts too, may be four times as large."""
         small = '{"image": {"width": 2, "height": 2}}'
         self.assertEqual(self.daemon.post("/v1/render", small + " " * ((1 << 20) - len(small))).status, 200)
         self.assertProblem(self.daemon.post("/v1/render", "{}" + " " * ((1 << 20) - 1)), 413, "body-too-large")
@@ -252,7 +252,7 @@ class Deadlines(daemon.Case):
     options = ("--header-ms", 400, "--body-ms", 700)
 
     def trickle(self, start, byte):
-        """Seconds until the connection ends while a byte is sent now and then, and what came back."""
+        """Sends a byte now and then; returns the seconds until the connection ends, and what came back."""
         begun, got = time.monotonic(), b""
         with self.daemon.connect() as s:
             s.sendall(start)

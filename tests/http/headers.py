@@ -17,7 +17,7 @@ ALL = {
     "style": {"bloom": 0.3, "tone_map": "neutral"},
     "camera": {"r": 40, "projection": "equirectangular"},
 }
-# Each has all that can be at once beside what it is named by; together they have every emitter.
+# Each has everything that can be combined with the feature it is named after; together they have every emitter.
 RICHEST = {
     "gas": {
         **ALL,
@@ -55,7 +55,7 @@ RICHEST = {
 
 
 def torn():
-    """A playground of a star that is torn apart, which stands still, in the richest scene that takes bodies."""
+    """A playground of a star being torn apart, at rest, in the richest scene that accepts bodies."""
     arguments = ("playground", "-p", "disruption", "--set", "debris_per_body=200", "--time", "3000", "-o", "-")
     made = subprocess.run([daemon.COMMAND[0], *arguments], capture_output=True, check=True)
     scene = {name: value for name, value in RICHEST["gas"].items() if name != "bodies"}
@@ -99,7 +99,7 @@ class Richest(unittest.TestCase):
         self.assertIn("debris", {self.known[name]["of"] for name in names})
 
     def test_a_picture_and_a_live_frame(self):
-        """Their headers are counted by daemon.py."""
+        """daemon.py counts the bytes of their headers."""
         picture = self.daemon.post("/v1/render", RICHEST["gas"], Origin=ORIGIN)
         session = self.daemon.post("/v1/sessions", RICHEST["gas"]).json()
         frame = self.daemon.get(f"/v1/sessions/{session['id']}/frame?lossy=50", Origin=ORIGIN)
@@ -112,7 +112,7 @@ class Richest(unittest.TestCase):
             self.assertLessEqual(set(names), set(self.known))
 
     def test_the_longest_that_a_request_can_make_it(self):
-        """What comes back of a request's own words is bounded, or it is refused."""
+        """The part of an answer that repeats the request's own words is bounded, or the request is refused."""
         long = "x" * 6000
         for target in (
             "/?access=" + long,

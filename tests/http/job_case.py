@@ -1,4 +1,4 @@
-"""What tests of jobs have in common. In the fake renderer's scenes `time` is how many milliseconds a frame takes."""
+"""Helpers shared by tests of jobs. In the fake renderer's scenes `time` is how many milliseconds a frame takes."""
 
 import json
 import struct
@@ -16,14 +16,14 @@ def size(png):
 
 
 def text_of(png, name):
-    """One of the texts of a picture, which is not compressed."""
+    """One of the uncompressed texts of a picture."""
     start = png.index(b"tEXt" + name.encode() + b"\0") + 5 + len(name)
     length = struct.unpack(">I", png[start - 9 - len(name) : start - 5 - len(name)])[0]
     return png[start : start + length - len(name) - 1].decode()
 
 
 def scene_of(png):
-    """The scene that a picture says it shows."""
+    """The scene in a picture's metadata."""
     at = 8
     while at < len(png):
         n, kind = struct.unpack(">I4s", png[at : at + 8])

@@ -1,4 +1,4 @@
-"""Jobs of a server that ends, by itself or by a signal, and of the next one with its folder."""
+"""Tests of jobs of a server that ends, by itself or by a signal, and of the next server with the same folder."""
 
 import io
 import json
@@ -63,7 +63,7 @@ class State(Case):
                 self.assertEqual(server.stop(), 0)
 
     def test_a_film_goes_on(self):
-        """What its frames show depends on those before: after an end it is what it would have been."""
+        """Its frames depend on those before: after a restart it is the same as without."""
         film = {
             "playground": {"preset": "white-dwarf", "debris_per_body": 500},
             "every": 20,
@@ -88,7 +88,7 @@ class State(Case):
         self.assertEqual(len({frame["snapshot"] for frame in told[0]}), 8)
 
     def test_a_film_whose_bodies_end_the_server_makes_way(self):
-        """Also where no frame is under way: for half an hour its bodies move."""
+        """Also while no frame is being made: its bodies move for half an hour."""
         server = self.start()
         film = {
             "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},
@@ -114,7 +114,8 @@ class State(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_its_exposure_outlives_the_server(self):
-        """It is measured once: the next server would find another, as the fake renderer begins with a stop more."""
+        """It is measured once: the next server would measure another one, as the fake renderer starts a stop
+        brighter."""
         asked = {"scene": {**SCENE, "time": 200}, "keyframes": [{"frame": 2, "scene": {"camera": {"azimuth_deg": 9}}}]}
         server = self.start()
         self.until(self.make({"scene": SCENE}, server=server), "done", server)

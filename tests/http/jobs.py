@@ -1,5 +1,5 @@
-"""Jobs: what is asked, progress by asking and as events, results of every form, ends, limits. In the fake renderer's
-scenes `time` is how many milliseconds a frame takes."""
+"""Tests of jobs: requests, progress by polling and as events, results in every form, ends, limits. In the fake
+renderer's scenes `time` is how many milliseconds a frame takes."""
 
 import http.client
 import io
@@ -104,8 +104,8 @@ class Jobs(Case):
         )  # a word steps, too; and 0 is the middle of 1 and -1 by turns
 
     def test_exposure(self):
-        """Frames of keyframes have one, the median of nine, which their scenes name and the job tells; each its own
-        where it says so, and those of lists and axes unless they say otherwise."""
+        """Frames of keyframes share one exposure, the median of nine, which their scenes and the job state; each has
+        its own if the job says so, and those of lists and axes unless it says otherwise."""
         keys = {"scene": {"image": IMAGE}, "keyframes": [{"frame": 29, "scene": {"camera": {"azimuth_deg": 29}}}]}
         pair = [{"image": IMAGE}] * 2
         for asked, told, shown in (
@@ -131,7 +131,7 @@ class Jobs(Case):
                 self.assertEqual(done["finished"], len(frames))
 
     def test_motion_blur(self):
-        """Pictures say of how many others their light is the mean, and take so many times as long."""
+        """Pictures state of how many others their light is the mean, and take that many times as long."""
         asked = {"scene": {**SCENE, "style": {"exposure": 1}}, "keyframes": [{"frame": 3, "scene": {"time": 8}}]}
         plain, blurred = self.make(asked), self.make({**asked, "motion_blur": {"samples": 8, "shutter": 0.25}})
         self.assertGreater(blurred["remaining_s"] or 8, 2 * (plain["remaining_s"] or 0))
@@ -141,8 +141,8 @@ class Jobs(Case):
         self.assertFalse(any(b"kerrd:motion_blur" in png for png in self.frames(plain).values()))
 
     def test_keyframes_of_a_list(self):
-        """An element that one of two keyframes lacks is at its defaults there; all of this by its index, whole, or by
-        an old name."""
+        """An element that one of two keyframes lacks has its defaults there; elements are given by index, as a whole
+        list, or by an old name."""
         for second, third in (
             ({"spots": {"0": {"r": 16}, "1": {"brightness": 2, "r": 12}}}, {"spots": []}),
             ({"spots": [{"brightness": 4, "r": 16}, {"brightness": 2, "r": 12}]}, {"spots": None}),
@@ -263,7 +263,8 @@ class Jobs(Case):
         self.assertEqual([(round(c["r"], 9), c["azimuth_deg"]) for c in cameras], [(1000, 0), (100, 45), (10, 90)])
 
     def test_light_curve(self):
-        """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""
+        """The fake renderer's light at time t: flux t at (t/2, -t), of which t/4 is the spots' at (3, 1/4); at t = 0
+        there is none."""
         asked = {
             "scene": {"image": IMAGE, "time": 0},
             "keyframes": [{"frame": 4, "scene": {"time": 6}}],
@@ -333,7 +334,7 @@ class Jobs(Case):
         self.assertTrue(last and all(0 <= s < 3 for s in last), last)
 
     def test_what_is_left_is_measured(self):
-        """Of a frame that takes a thousand times what its plan says, too: the fake renderer's does."""
+        """Also for a frame that takes a thousand times as long as its plan states, as the fake renderer's does."""
         begun, seen = time.monotonic(), []
         job = self.make({"scene": {**SCENE, "time": 2000}})
         while not seen or seen[-1][0]["state"] in ("waiting", "running"):
@@ -615,7 +616,7 @@ class Jobs(Case):
             ),
             ({"scenes": [{}] * 10001}, 422, "/scenes"),
             ({"scenes": [{}, {"accuracy": {"tolerance": 1e-15}}]}, 422, "/scenes/1/accuracy/tolerance"),
-            # valid at both ends, with the disk's edge inside the ISCO between them
+            # valid at both ends, but between them the disk's edge is inside the ISCO
             (
                 {
                     "scene": {"spacetime": {"spin": -0.9}, "disk": {"outer": 9.5}},
@@ -722,7 +723,7 @@ class Quota(Case):
 
 
 class Gate:
-    """Holds every thread of a server that plans."""
+    """Stops every thread of a server that begins to plan."""
 
     def __init__(self, test):
         folder = tempfile.mkdtemp()
@@ -735,7 +736,7 @@ class Gate:
             test.addCleanup(os.close, self.ends[name])
 
     def asked(self):
-        """Returns when a thread plans."""
+        """Returns when a thread begins to plan."""
         if not select.select([self.ends["ASKS"]], [], [], 60)[0]:
             raise AssertionError("nobody plans")
         os.read(self.ends["ASKS"], 1)
@@ -745,7 +746,7 @@ class Gate:
 
 
 class Planned(Case):
-    """A frame is planned by a worker: nobody else waits for that."""
+    """A frame is planned by a worker, so that nobody else waits for it."""
 
     def setUp(self):
         super().setUp()

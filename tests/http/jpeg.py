@@ -1,5 +1,5 @@
-"""A decoder of baseline JPEG, from ITU T.81 and JFIF alone: slow, for small pictures, and independent of the library
-that writes them."""
+"""A decoder of baseline JPEG, written from ITU T.81 and JFIF only: slow, for small pictures, and independent of the
+library that writes them."""
 
 import math
 import struct
@@ -141,7 +141,7 @@ def segments(data):
 
 
 def decode(data):
-    """(width, height, bytes of RGB, pixels each way that share a sample of colour)."""
+    """(width, height, bytes of RGB, how many pixels in each direction share a sample of colour)."""
     tables, codes, parts = {}, {}, []
     for marker, body in segments(data):
         if marker == 0xDB:

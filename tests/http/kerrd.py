@@ -1,4 +1,4 @@
-"""The program itself, in front of a Vulkan device; skipped where there is none."""
+"""Tests of the program itself with a Vulkan device; skipped where there is none."""
 
 import array
 import concurrent.futures
@@ -52,7 +52,7 @@ class Sites(unittest.TestCase):
 
 class Limits(unittest.TestCase):
     def test_a_limit_of_file_size_is_an_answer(self):
-        """ulimit -f: what is too long for it is refused, and the server goes on."""
+        """ulimit -f: a file that would exceed it is refused, and the server continues."""
         import assets
 
         command = list(daemon.COMMAND)
@@ -105,8 +105,8 @@ MASKS = (
 
 
 def qr_text(lines):
-    """The text of a code drawn in half blocks, of versions 1 to 3 with one block of bytes (ISO/IEC 18004): read as it
-    is, nothing corrected."""
+    """The text of a QR code drawn in half blocks, of versions 1 to 3 with one block of bytes (ISO/IEC 18004), read
+    without error correction."""
     modules = [[c in shown for c in line] for line in lines for shown in ("▀█", "▄█")]
     modules = [row[2:-2] for row in modules[2:]][: len(modules[0]) - 4]
     n = len(modules)
@@ -151,8 +151,8 @@ def qr_text(lines):
 
 class Telephone(unittest.TestCase):
     def test_a_terminal_shows_the_address_as_a_code(self):
-        """Where it listens for others, and where there is a terminal; the code is read by what knows the standard
-        alone."""
+        """If the server listens for other machines and there is a terminal; the code is read by a decoder made from
+        the standard only."""
         for address in ("0.0.0.0", "127.0.0.1"):
             ours, theirs = pty.openpty()
             server = subprocess.Popen(
@@ -256,7 +256,7 @@ class Kerrd(unittest.TestCase):
             float(told["jy"]) / janskys, 1, delta=1e-3
         )  # the pixels of the critical curve have more rays in both
         self.assertIsNone(self.daemon.get(TARGET).header("Kerrd-Flux"))
-        # the pictures that the density is that of
+        # the pictures to which the density applies
         looked_for = (
             "/v1/render?preset=riaf&image.width=128&image.height=128&image.critical_factor=1&volume.normalise_to_jy=1"
         )
@@ -267,7 +267,7 @@ class Kerrd(unittest.TestCase):
         self.assertEqual((problem.status, problem.json()["pointer"]), (422, "/volume/normalise_to_jy"))
 
     def test_a_picture_of_the_sky(self):
-        """By a render, and by a job as by the command line; its author is in each file."""
+        """By a render, and by a job as by the command line; its author is named in each file."""
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         )
@@ -357,7 +357,7 @@ class Kerrd(unittest.TestCase):
         return "f64" in self.daemon.get("/v1/device").json()["precision"]
 
     def device_rays(self):
-        """Rays that the device follows, as exactly as it can."""
+        """Rays that the device traces, as accurately as it can."""
         return {"engine": "mino-rkn6", "precision": "f64" if self.has_float64() else "f32"}
 
     def interrupt(self):
@@ -388,7 +388,7 @@ class Kerrd(unittest.TestCase):
                     if between:
                         break
                 self.assertGreater(between, 0)
-                # The command line renders it in one go, and writes files as jobs do.
+                # The command line renders it in one go, and writes the same files as jobs.
                 alone = subprocess.run(
                     [daemon.COMMAND[0], "render", "-", "-o", "-"],
                     input=json.dumps(scene).encode(),
@@ -433,8 +433,8 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(pictures[0], pictures[1])
 
     def test_moving_frames_may_be_lossy_and_say_how(self):
-        """JPEG beside PNG of the same frame: by a decoder that shares nothing with the encoder, and no further off than
-        is documented."""
+        """JPEG against PNG of the same frame: by a decoder that shares nothing with the encoder, with at most the
+        documented error."""
         session = self.open({"image": {"width": 96, "height": 64}, "motion": {"time_rate": 1}})
         at, number = f"/v1/sessions/{session['id']}/frame", 0
         for quality, least_db in ((30, 24), (75, 29), (95, 36)):
@@ -566,7 +566,7 @@ class Kerrd(unittest.TestCase):
         self.assertGreater(frames, 1)  # the first may have been made before the list was begun
 
     def idle_after(self):
-        """Seconds until nothing is left of what others asked for."""
+        """Seconds until nothing is left of the work that others asked for."""
         begun = time.monotonic()
         self.assertTrue(daemon.eventually(lambda: not self.daemon.metrics()["kerrd_renders_unfinished"], 600))
         return time.monotonic() - begun
@@ -583,7 +583,7 @@ class Kerrd(unittest.TestCase):
         self.assertLess(self.idle_after(), 5 * whole)  # of ten
 
     def event(self, session, words):
-        """The first event of a session that holds the words."""
+        """The first event of a session that contains the words."""
         with self.daemon.connect(20) as s:
             s.sendall(f"GET /v1/sessions/{session['id']}/events HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
             text = b""
@@ -594,7 +594,8 @@ class Kerrd(unittest.TestCase):
                         return json.loads(line[5:].decode())
 
     def drag(self, session, until):
-        """Patch and pull, until that is so of how many rays were traced again, and of the quality in force."""
+        """Patches and pulls frames until the condition holds for the number of rays traced again and the quality in
+        use."""
         at, number = "/v1/sessions/" + session["id"], 0
         owner = {"Authorization": "Bearer " + session["token"], "Content-Type": "application/merge-patch+json"}
         for k in range(1000):
@@ -628,8 +629,8 @@ class Kerrd(unittest.TestCase):
             thread.join()
 
     def test_a_frame_of_a_drag_says_how_many_rays_it_has_at_the_critical_curve(self):
-        """As good as it gets on a machine that is fast, and less on another; which of them is for tests/unit/governor.c
-        to judge."""
+        """The best quality on a fast machine, and less on a slower one; tests/unit/governor.c tests which of them is
+        right."""
         small, frames = self.open({"image": {"width": 64, "height": 36}}), []
         self.assertTrue(self.drag(small, lambda *frame: frames.append(frame) or len(frames) == 4))
         for _, quality in frames:
@@ -683,8 +684,8 @@ class Kerrd(unittest.TestCase):
         self.assertNotIn("light", self.event(session, b'"revision":2'))
 
     def test_named_stars_are_where_the_picture_has_their_light(self):
-        """Alone in the neighbourhood each gives its pixels F g^4 / (solid angle of the sky), by magnitude, and by the
-        magnification over the pixel's own."""
+        """A star with no other nearby gives its pixels F g^4 / (solid angle of the sky), by magnitude, and by the
+        magnification over the pixel's own solid angle."""
         width, height, fov, ask = 400, 240, 80, "application/vnd.kerrd.stars+json"
         scene = {
             "spacetime": {"spin": 0.9},
@@ -743,8 +744,8 @@ class Kerrd(unittest.TestCase):
         self.assertGreater(judged, 20)
 
     def test_named_stars_are_as_bright_as_they_are_where_space_is_flat(self):
-        """Whatever the projection does at its edges, at its poles and on its seam: from far off nothing is magnified,
-        and of all directions each star is listed once."""
+        """Whatever the projection does at its edges, at its poles and on its seam: from far away nothing is
+        magnified, and over all directions each star is listed once."""
         ask, sky = (
             "application/vnd.kerrd.stars+json",
             {"model": "catalogue", "limit_mag": 2.2, "orientation": "equatorial", "brightness": 1},
@@ -775,8 +776,8 @@ class Kerrd(unittest.TestCase):
                 self.assertEqual((len(told), len(set(told))), (65, 65), (camera, "named stars down to V = 2.2"))
 
     def test_named_stars_next_to_the_critical_curve_and_while_the_picture_turns(self):
-        """Images that have gone round are listed where the picture has their light; a list tells where each star will
-        be when the azimuth has gone on."""
+        """Images of light that went round the hole are listed where the picture has their light; a list states where
+        each star will be when the azimuth has changed."""
         ask = "application/vnd.kerrd.stars+json"
         scene = lambda azimuth: {
             "camera": {"r": 30, "fov_deg": 40, "inclination_deg": 80, "azimuth_deg": azimuth},
@@ -861,7 +862,7 @@ class Kerrd(unittest.TestCase):
                     self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_film_of_a_job_is_that_of_the_command_line(self):
-        """One exposure, motion blur in a lane beside others, a playground: the ZIP is the same to the byte."""
+        """One exposure, motion blur computed beside other jobs, a playground: the ZIP is the same to the byte."""
         scene = {"image": {"width": 96, "height": 54}, "spots": [{"brightness": 3}]}
         for asked in (
             {
@@ -890,7 +891,8 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(self.daemon.get("/v1/jobs/" + job["id"] + "/result").body, alone, asked)
 
     def test_a_pixel_is_explained(self):
-        """Its crossings are those of POST /v1/rays, its light adds up, and its path goes through the crossings."""
+        """Its crossings are those of POST /v1/rays, its light adds up to the total, and its path passes through the
+        crossings."""
         scene = {
             "spacetime": {"spin": 0.9},
             "camera": {"inclination_deg": 75},
@@ -935,7 +937,7 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(fates, {"captured", "escaped"})
 
     def test_the_steps_of_a_pixel(self):
-        """Those that `kerrd rays --trace` tells of the same ray, to the bit."""
+        """The steps that `kerrd rays --trace` gives for the same ray, to the bit."""
         for spin, r, precision in ((0.9, "infinity", "f32"), (-0.5, 30, "f64")):
             scene = {
                 "spacetime": {"spin": spin},
@@ -1020,7 +1022,7 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_sweep_that_is_killed_goes_on(self):
-        """To the same bytes as one that is not killed."""
+        """The same bytes as without the kill."""
         scene = {"image": {"width": 400, "height": 225, "layers": ["rgb", "g"]}}
         asked = {"scene": scene, "axes": {"style.exposure": [0, 1], "spacetime.spin": "0:0.9:0.1"}, "output": "cube"}
 

@@ -20,7 +20,7 @@ SEED = int(os.environ.get("KD_SEED", time.time_ns() & 0xFFFFFFFF))
 
 
 def request(n):
-    """A job has 1 to 6 frames, some 10 to 60 ms each; no two alike."""
+    """A job of 1 to 6 frames, some 10 to 60 ms each; all requests differ."""
     scene = {
         "image": {"width": 32 + n % 7, "height": 18},
         "style": {"exposure": 1},
@@ -31,7 +31,7 @@ def request(n):
 
 class Kills(state.Case):
     def pour(self, server, accepted, rest, stop):
-        """Ask for jobs until the server is killed, as many at once as it takes; what it has answered with 202 it has
+        """Asks for jobs until the server is killed, as many at once as it takes; those answered with 202 were
         accepted."""
         while not stop.is_set():
             try:

@@ -1,5 +1,5 @@
-"""Frames of a session in the kinds that are asked for, patches that are under way at once, and answers that are short.
-In the fake renderer's scenes `time` is how many milliseconds a frame takes."""
+"""Tests of session frames in the format requested, of simultaneous patches, and of short answers. In the fake
+renderer's scenes `time` is how many milliseconds a frame takes."""
 
 import json
 import struct
@@ -55,7 +55,7 @@ class Kinds(daemon.Owned):
         self.assertEqual(self.daemon.get(self.at(session, "/frame.png")).body, frame.body, "the same file")
 
     def test_one_frame_in_several_kinds(self):
-        """Of a frame that is there another kind is made when it is asked for; who asks for the same one has the same
+        """An existing frame is encoded in another format on request; requests for the same format get the same
         bytes."""
         session, queries = self.make(MOVING), ("", "lossy=20", "lossy=60", "lossy=95", "lossy=60", "")
 
@@ -107,7 +107,7 @@ class Kinds(daemon.Owned):
             )
 
     def test_qualities_that_take_longer_than_a_frame(self):
-        """Each viewer has frames in its kind, however fast others follow."""
+        """Each viewer gets frames in its format, however fast new ones follow."""
         session = self.make({**MOVING, "image": {"width": 1600, "height": 1200}, "time": 1})
         counts, over = [0, 0, 0], threading.Event()
 

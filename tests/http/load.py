@@ -1,4 +1,4 @@
-"""A full queue, clients that vanish, many at once, and nothing left behind."""
+"""Tests of load: a full queue, clients that vanish, many at once, and nothing left behind."""
 
 import concurrent.futures
 import json
@@ -39,7 +39,7 @@ class Queue(daemon.Case):
         self.assertIsNone(self.refused())
 
     def test_retry_after_is_the_estimated_backlog(self):
-        # 1 us a ray is what the renderer claims: 1280 x 1280 x 4 rays take 6.6 s, and those that wait 3.4 s each
+        # the renderer states 1 us a ray: 1280 x 1280 x 4 rays take 6.6 s, and those that wait 3.4 s each
         held = []
         for side in (1280, 920, 920):
             held.append(self.daemon.connect())
@@ -68,7 +68,7 @@ class Queue(daemon.Case):
         self.assertTrue(daemon.eventually(lambda: self.refused() is None), "the running job was not cancelled")
 
     def probe_waits(self):
-        """Whether a render is accepted, though the device is busy."""
+        """Whether a render is accepted while the device is busy."""
         with begin(self.daemon, 0) as s:
             s.settimeout(0.3)
             try:

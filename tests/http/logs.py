@@ -1,4 +1,4 @@
-"""The log as lines of JSON, and the ids by which a request, its answer and its line are found together."""
+"""Tests of the log as lines of JSON, and of the ids that connect a request, its answer and its line."""
 
 import datetime
 import json
@@ -16,7 +16,7 @@ MADE = re.compile(r"[0-9a-f]{32}")
 
 class Logs(unittest.TestCase):
     def lines(self, asks, *options):
-        """What the server writes while `asks` has it."""
+        """What the server writes while `asks` uses it."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 10, "--log", 2, "--log-format", "json", *options, stderr=log)
             self.addCleanup(server.process.kill)
@@ -95,7 +95,7 @@ class Logs(unittest.TestCase):
                 self.assertEqual(line.get("parent_id"), parent if good else None)
 
     def test_bytes_are_those_of_the_answer(self):
-        """Of several answers on one connection, each its own; header and all."""
+        """With several answers on one connection each has its own number; headers included."""
 
         def asks(server):
             with server.connect() as s:

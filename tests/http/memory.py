@@ -13,8 +13,8 @@ import daemon
 
 SLACK = 192 << 10  # bytes: pages of the heap that some thread touches late
 
-# Blocks of 64 KiB and more go back to the system at once, and all threads share one heap: without these the heap's own
-# habits hide a leak.
+# Makes malloc return blocks of 64 KiB and more to the system at once, and all threads share one heap: otherwise the
+# heap's own behaviour hides a leak.
 ENVIRONMENT = {
     **os.environ,
     "MALLOC_ARENA_MAX": "1",
@@ -24,17 +24,17 @@ ENVIRONMENT = {
 
 
 def is_told(server):
-    """False under a sanitizer, whose heap keeps what was freed; the address sanitizer looks for leaks itself."""
+    """False under a sanitizer, whose heap keeps freed memory; the address sanitizer looks for leaks itself."""
     with open(f"/proc/{server.process.pid}/maps", encoding="utf-8") as maps:
         return not re.search(r"lib[at]san", maps.read())
 
 
 def held(server):
-    """Bytes of its own that are resident: exact, unlike those of /proc/PID/status."""
+    """Resident bytes of the server's own: exact, unlike those in /proc/PID/status."""
     with open(f"/proc/{server.process.pid}/smaps_rollup", encoding="utf-8") as rollup:
         return 1024 * int(re.search(r"^Anonymous: +(\d+) kB", rollup.read(), re.M)[1])
 
 
 def comes_back(server, before):
-    """Whether the server comes back to what it held before, as it does once its last connection is closed."""
+    """Whether the server's memory returns to what it was before, as it does once its last connection is closed."""
     return daemon.eventually(lambda: held(server) - before <= SLACK, 10)

@@ -1,5 +1,5 @@
-"""What GET /metrics tells: that Prometheus's own parser takes it, histograms that agree with themselves, and no more
-series than there are routes."""
+"""Tests of GET /metrics: Prometheus's own parser accepts it, histograms are consistent, and there are no more series
+than routes."""
 
 import re
 import shutil
@@ -51,7 +51,7 @@ class Metrics(daemon.Case):
         )
 
     def test_requests_are_counted_by_route_and_status(self):
-        # A request is counted a moment after its last byte.
+        # A request is counted shortly after its last byte.
         def grows(target, **labels):
             before = count(families(self.daemon), "kerrd_request_seconds", **labels)
             self.daemon.get(target)
@@ -126,7 +126,7 @@ class Metrics(daemon.Case):
         )
 
     def test_a_duration_is_in_its_bucket(self):
-        """An event stream that is left after half a second lies beyond 250 ms, and its sum is of seconds."""
+        """An event stream closed after half a second is above 250 ms, and its sum is in seconds."""
         session = self.daemon.request("POST", "/v1/sessions", "{}").json()
         labels = {"route": "/v1/sessions/{id}/events"}
         with self.daemon.connect() as s:
@@ -164,7 +164,7 @@ class Metrics(daemon.Case):
         self.assertEqual(value["kerrd_device_lost"], 0)
 
     def test_what_is_kept_after_a_rest(self):
-        """Once after each time that something was asked for; the fake renderer counts that as bytes of kernels."""
+        """Stored once after each period of activity; the fake renderer counts that as bytes of kernels."""
         server = daemon.Daemon("--rest-ms", 200)
         self.addCleanup(server.stop)
 

@@ -1,4 +1,5 @@
-"""Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): what is asked for twice with one key is made once."""
+"""Tests of Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): two requests with one key create one
+resource."""
 
 import concurrent.futures
 import json
@@ -123,7 +124,7 @@ class Once(Case):
             self.assertEqual(self.ask(path, STILL, "").status, 200)
 
     def test_many_at_once_make_one(self):
-        """Each is answered with the one, or told to wait for it."""
+        """Each is answered with that one, or told to wait for it."""
         for path, (status, body, _) in KINDS.items():
             with concurrent.futures.ThreadPoolExecutor(8) as pool:
                 answers = list(pool.map(lambda _, p=path, b=body: self.ask(p, b, '"many"'), range(8)))
@@ -135,7 +136,7 @@ class Once(Case):
                     self.assertEqual(answer.header("Retry-After"), "1")
 
     def test_one_that_is_under_way(self):
-        """A job of many frames takes a while to be checked. Of two requests that are sent at once either may be first."""
+        """A job of many frames takes a while to be checked. Of two requests sent at once either may be the first."""
         body = {"scenes": [{**SCENE, "time": k} for k in range(3000)]}
         answers = []
 

@@ -1,4 +1,4 @@
-"""openapi.json is valid, and a client generated from it works."""
+"""Tests that openapi.json is valid, and that a client generated from it works."""
 
 import importlib
 import json
@@ -49,7 +49,7 @@ class OpenApi(daemon.Case):
         self.assertGreater(bodies, 50)
 
     def schemas(self):
-        """Each schema of the document, with where it stands."""
+        """Each schema of the document, with its place."""
 
         def below(at, schema):
             yield at, schema
@@ -72,8 +72,10 @@ class OpenApi(daemon.Case):
                         yield from below(f"{method} {path} {kind}", media["schema"])
 
     def test_nothing_is_left_open(self):
-        """Each schema says what it is, each list of what, each object of which members, and that these are all."""
-        # Documents of their own; what is to be given back as it came; what the type of a job's output decides.
+        """Each schema has a type, each list the type of its items, each object its members and that there are no
+        others."""
+        # Documents with their own description; what is to be given back unchanged; what depends on the type of a job's
+        # output.
         free = {
             "get /openapi.json application/json",
             "get /v1/schema application/schema+json",
@@ -94,7 +96,7 @@ class OpenApi(daemon.Case):
         self.assertEqual(found, free)
 
     def test_headers_are_told(self):
-        """Where one is told there is one."""
+        """Every header of an answer is described."""
         for at, method, status, name in (
             ("/v1/sessions", "post", 201, "Location"),
             ("/v1/jobs", "post", 202, "Location"),
@@ -126,7 +128,7 @@ class OpenApi(daemon.Case):
             self.assertEqual(self.daemon.get("/web/" + name).status, 200, name)
 
     def test_what_the_schema_refuses_and_the_server_too(self):
-        """And, of each, what both take: the last."""
+        """The last of each is one that both accept."""
         orbit, bound = {"case": "isco"}, {"p": 10, "e": 0.1}
         state = {"r": 10, "theta_deg": 90, "phi_deg": 0}
         constants = {"energy": 0.96, "angular_momentum": 4, "carter": 0}
@@ -496,7 +498,8 @@ class OpenApi(daemon.Case):
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
 
     def test_what_is_refused_for_its_form_is_told(self):
-        """Of each operation, whatever its path names: each status of these is one that it has in the document."""
+        """For each operation, whatever its path refers to: each status for a malformed request is one that the
+        document has for it."""
         lines = {
             "a length of 26 digits": "Content-Length: " + 26 * "9",
             "a length that is none": "Content-Length: x",
@@ -542,8 +545,8 @@ class OpenApi(daemon.Case):
         return int(answer.split()[1])
 
     def test_links_lead_to_what_was_made(self):
-        """Each answer that makes something names the operations under its address; those of its owner take its token in
-        the query, as the links have it."""
+        """Each answer that creates something links to the operations at its address; those of its owner take its
+        token in the query, as in the links."""
         paths = self.document["paths"]
         for path, method, status in (
             ("/v1/sessions", "post", "201"),
@@ -686,7 +689,7 @@ class OpenApi(daemon.Case):
         self.assertEqual([one.circular for one in many.orbits], [False, True])
 
     def use_what_is_kept(self, package, base, call, models, small):
-        """A session and a job are made, changed or waited for, and deleted: by the token that came with them."""
+        """A session and a job are created, changed or waited for, and deleted, with the token that came with them."""
         session = call("post_sessions", body=models.KerrdSceneVersion1.from_dict(small))
         job = call("post_jobs", body=models.PostJobsBodyType0(scene=models.KerrdSceneVersion1.from_dict(small)))
 

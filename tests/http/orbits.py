@@ -1,5 +1,5 @@
-"""POST /v1/orbits: what is asked, what is refused, in which form it comes back, and that long integrations disturb
-nobody."""
+"""Tests of POST /v1/orbits: requests, refusals, formats of the answer, and that long integrations do not hold up
+others."""
 
 import csv
 import io
@@ -35,7 +35,7 @@ class Orbits(daemon.Case):
         return answer
 
     def stream(self, document):
-        """A socket on which the answer comes."""
+        """A socket on which the answer arrives."""
         body = json.dumps(document).encode()
         s = self.daemon.connect(60)
         s.sendall(
@@ -45,7 +45,7 @@ class Orbits(daemon.Case):
         return s
 
     def test_steps_of_which_nothing_comes(self):
-        """From 5e19 M on a fall of 10000 M is no way at all: the search for its end is given up."""
+        """From 5e19 M a fall of 10000 M is too short to change r: the search for its end is given up."""
         answer = self.post(
             {
                 "orbit": {"position": {"r": 5.528809622814662e19}},
@@ -59,8 +59,8 @@ class Orbits(daemon.Case):
         self.assertEqual((answer.status, answer.json()["pointer"]), (422, "/steps"))
 
     def test_seen(self):
-        """In every form the same; a circle seen from its axis is a circle; of a fall the end next to the horizon has no
-        image."""
+        """The same in every format; a circle seen along its axis is a circle; the end of a fall next to the horizon
+        has no image."""
         circle = {
             "orbit": {"p": 10, "e": 0},
             "duration": {"periods": 1},
@@ -149,7 +149,7 @@ class Orbits(daemon.Case):
         self.assertEqual(lines[-1]["result"], whole["result"])
 
     def test_numbers(self):
-        """Numbers of the orbit itself follow from what is known of it."""
+        """Numbers of the orbit agree with known formulas."""
         answer = strict(
             self.good({"orbit": {"p": 8, "e": 0.5}, "duration": {"periods": 1000}, "steps": 320, "samples": 1001}).body
         )
@@ -202,7 +202,7 @@ class Orbits(daemon.Case):
         self.assertLess(time.monotonic() - start, 5)
         for s in streams:
             s.close()
-        # and they end with their clients: room for four again
+        # and they end with their clients: there is room for four again
         self.assertTrue(daemon.eventually(lambda: all(self.post(GENERIC).status == 200 for _ in range(4))))
 
     def test_the_queue_is_bounded(self):

@@ -1,5 +1,5 @@
-"""How keyframes are gone along: splines, easing, angles, where a camera looks. Each against formulas of its own: the
-pyramid of Barry and Goldman, the metric and the aberration of special relativity."""
+"""Tests of paths along keyframes: splines, easing, angles, where a camera looks. Each against independent formulas:
+the pyramid of Barry and Goldman, the metric and the aberration of special relativity."""
 
 from math import asin, atan2, cos, degrees, hypot, isclose, radians, sin, sqrt
 
@@ -8,7 +8,8 @@ from job_case import IMAGE, Case, scene_of
 
 
 def pyramid(x, p, at):
-    """Catmull and Rom's curve by the recursion of Barry and Goldman 1988; at either end one more point, reflected."""
+    """Catmull and Rom's curve by the recursion of Barry and Goldman 1988; at either end one more point, by
+    reflection."""
     x, p = [2 * x[0] - x[1], *x, 2 * x[-1] - x[-2]], [2 * p[0] - p[1], *p, 2 * p[-1] - p[-2]]
     i = max(k for k in range(1, len(x) - 2) if x[k] <= at)
 
@@ -21,7 +22,7 @@ def pyramid(x, p, at):
 
 
 class Zamo:
-    """Legs of the observer of zero angular momentum, from the metric."""
+    """The frame of an observer of zero angular momentum, from the metric."""
 
     def __init__(self, a, r, inclination):
         self.a, self.r, self.u, self.s = a, r, cos(radians(inclination)), sin(radians(inclination))
@@ -34,14 +35,14 @@ class Zamo:
         )
 
     def hole(self):
-        """Where light comes from that goes out along the principal null direction, k = ((r^2 + a^2)/Delta, 1, 0,
-        a/Delta)."""
+        """The direction from which light comes that moves outwards along the principal null direction, k = ((r^2 +
+        a^2)/Delta, 1, 0, a/Delta)."""
         t = (self.r**2 + self.a**2) / self.delta
         local = self.lapse * t
         return -sqrt(self.sigma / self.delta) / local, 0, -self.round * (self.a / self.delta - self.omega * t) / local
 
     def straight(self, theta, phi, r=None):
-        """Along e_r, e_theta, e_phi of flat space, the camera at azimuth 0."""
+        """The direction in e_r, e_theta, e_phi of flat space, for a camera at azimuth 0."""
         to = [sin(radians(theta)) * cos(radians(phi)), sin(radians(theta)) * sin(radians(phi)), cos(radians(theta))]
         if r is not None:
             to = [r * c - self.r * d for c, d in zip(to, (self.s, 0, self.u))]
@@ -51,7 +52,7 @@ class Zamo:
 
 
 def aberrated(n, v):
-    """What comes from n is seen there by who moves with v."""
+    """The direction in which an observer with velocity v sees light that comes from n."""
     speed = sqrt(sum(c * c for c in v))
     if not speed:
         return n
@@ -151,7 +152,7 @@ class Paths(Case):
             self.assertEqual(found[2]["inclination_deg"], 40)
 
     def looks(self, camera, looks, keyframes=(), spin=0.9):
-        """Of four frames on the way inwards, turning: what is written and what formulas say."""
+        """For four frames on the way inwards, with a turn: the directions written and those by the formulas."""
         keys = [{"frame": 3, "scene": {"camera": {"r": camera["r"] / 2, "azimuth_deg": 30}}, **dict(keyframes)}]
         return self.cameras({**camera, "yaw_deg": 77, "pitch_deg": -11}, keys, spin, look_at=looks)
 
@@ -193,8 +194,8 @@ class Paths(Case):
                     self.same(c, aberrated(z.straight(at[0], at[1] - c.get("azimuth_deg", 0), at[2]), (0, 0, turned)))
 
     def test_it_falls_and_looks_at_the_hole(self):
-        """Through the horizon, without spin: straight ahead; with it, as the velocity of rain says outside, and
-        smoothly on within."""
+        """Through the horizon. Without spin: straight ahead; with spin: as the velocity of rain gives outside, and
+        continuing smoothly inside."""
         keys = [{"frame": 6, "proper_time": "horizon"}, {"frame": 8, "proper_time": "end"}]
         for c in self.cameras({"r": 6, "observer": "infall", "yaw_deg": 20}, keys, 0, look_at="hole"):
             self.assertLess(hypot(c["yaw_deg"], c["pitch_deg"]), 1e-6)
@@ -211,7 +212,7 @@ class Paths(Case):
         self.assertLess(max(steps), 4 * max(steps[0], 0.2), steps)
 
     def test_it_turns_from_one_to_the_other(self):
-        """By even parts of the great circle between them, from as it looked itself."""
+        """By equal parts of the great circle between them, starting from its own direction."""
         keys = [{"frame": 4, "look_at": "hole"}, {"frame": 5, "look_at": "free"}]
         found = self.cameras(
             {"r": 30, "observer": "zamo", "inclination_deg": 90, "yaw_deg": 90, "pitch_deg": 30}, keys, 0

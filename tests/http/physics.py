@@ -1,4 +1,4 @@
-"""GET /v1/physics: quantities at a point and along ranges, in both forms, and what is refused."""
+"""Tests of GET /v1/physics: quantities at a point and along ranges, in both formats, and refusals."""
 
 import contextlib
 import csv
@@ -19,7 +19,7 @@ OBSERVED = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
 
 
 def strict(body):
-    """Parsed by a reader that does not know NaN or Infinity."""
+    """Parsed by a reader that does not accept NaN or Infinity."""
 
     def refuse(word):
         raise AssertionError(f"{word} in the answer")
@@ -103,7 +103,7 @@ class Physics(daemon.Case):
         return self.daemon.get("/v1/physics/" + target).json()["values"]
 
     def test_ringdown(self):
-        """Leaver 1985, table 1, and Stein's example of 2019; the same mode with the hole turned over."""
+        """Leaver 1985, table 1, and Stein's example of 2019; the same mode with the hole turned upside down."""
         still = self.values("qnm?spin=0&n=1&m=-1")
         self.assertAlmostEqual(2 * still["omega_re"], 0.693422, delta=1e-6)
         self.assertAlmostEqual(2 * still["omega_im"], -0.547830, delta=1e-6)
@@ -178,7 +178,7 @@ class Physics(daemon.Case):
                     self.assertAlmostEqual(samples[k], curve, delta=1.01)
 
     def test_a_ringdown_is_stretched(self):
-        """At the same pitch, and the file says by how much."""
+        """With the same pitch, and the file states by how much."""
         for query, stretch in (("?mass_msun=60", 130), ("?mass_msun=4e6&shift_octaves=16", 100)):
             query += f"&stretch={stretch}&format=wav"
             answer = self.daemon.get("/v1/physics/qnm" + query)
@@ -288,7 +288,7 @@ class Physics(daemon.Case):
         self.assertAlmostEqual(end["rate_msun_yr"] * values["peak_eddington"], values["peak_msun_yr"], delta=1e-12)
 
     def test_nearly_edge_on(self):
-        """At the very figures that a refusal names as allowed."""
+        """At exactly the values that a refusal names as allowed."""
         above, below = (self.values(f"redshift?phi_deg=200&inclination_deg={i}") for i in (89.9, 90.1))
         self.assertAlmostEqual(above["g"], below["g"], delta=1e-9)
         for inside in (89.91, 90.09):
@@ -360,7 +360,7 @@ class Physics(daemon.Case):
         self.assertRegex(answer.header("Server-Timing"), r"^queue;dur=[\d.]+, compute;dur=[\d.]+$")
 
 
-# each more than ten seconds of one core; what is cheap a point and what is not
+# each takes more than ten seconds of one core: some are cheap a point, some are not
 LONG = ("redshift?r=6:60:100000&phi_deg=0", "qnm?n=3&l=4&m=4&spin=0.9998:0.9999:30000", "scale?spin=0:0.999:100000")
 SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # but more than a moment
 
@@ -392,7 +392,7 @@ class Long(daemon.Case):
             self.assertLess(self.seconds(SHORT), 60)  # it takes turns with them
 
     def test_it_ends_with_its_client(self):
-        """A daemon that stops waits for what it has accepted: for long, if nobody had gone."""
+        """A daemon that stops waits for what it has accepted: for long, unless the client has gone."""
         for target in LONG:
             with self.subTest(target):
                 other = daemon.Daemon("--drain-ms", 10)
@@ -437,7 +437,7 @@ class Limits(daemon.Case):
 
 
 class Integrals(daemon.Case):
-    """POST /v1/line and its like."""
+    """POST /v1/line and similar integrals."""
 
     def post(self, name, document, **headers):
         return self.daemon.post("/v1/" + name, document, **headers)
@@ -491,8 +491,8 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(blue, line["columns"]["share"][2], delta=5e-3)
 
     def test_a_disk_shines_what_it_radiates(self):
-        """Far out and nearly face on, where nothing is shifted much: the flux over all frequencies is cos(i)/(pi D^2)
-        of what a face radiates, whatever its colours."""
+        """Far out and nearly face on, where shifts are small: the flux over all frequencies is cos(i)/(pi D^2) of
+        what a face radiates, whatever its colours."""
         document = {"inner": 1e5, "outer": 1e6, "inclination_deg": 10, "frequencies": 1000, "distance_pc": 1000}
         totals = []
         for more in ({}, {"colour_correction": 1}, {"limb": "laor"}):
@@ -523,7 +523,7 @@ class Integrals(daemon.Case):
         )
 
     def test_energies(self):
-        """In any unit, and by edges of one's own."""
+        """In any unit, and with edges given by the request."""
         plain = self.post("line", {"bins": 10, "energy_max": 2}).json()["columns"]
         kev = self.post("line", {"edges": [1.28 * k for k in range(11)], "rest_energy": 6.4}).json()["columns"]
         for a, b in zip(plain["share"], kev["share"]):
@@ -577,8 +577,8 @@ class Integrals(daemon.Case):
         self.assertIn(b"'shape': (27,)", packed[:400])
 
     def test_spectra_of_volumes(self):
-        """The fake renderer's light is worth scene.time: brightness temperature, and so F goes as the frequency's
-        square."""
+        """The fake renderer's brightness temperature is scene.time, so F is proportional to the square of the
+        frequency."""
         told = self.post("spectrum", {"preset": "riaf", "scene": {"time": 4}, "frequencies_hz": [1e11, 3e11]})
         self.assertEqual(told.status, 200, told.body)
         told = strict(told.body)
@@ -633,8 +633,8 @@ class Integrals(daemon.Case):
         )
 
     def test_a_scene_beside_an_observation(self):
-        """As kerrd compare has it (tests/cli/compare.py); what is no observation is refused where it is put, and where
-        it is named."""
+        """As kerrd compare has it (tests/cli/compare.py); a file that is not an observation is refused when it is
+        put, and when it is referred to."""
         sent = {}
         for end, kind in (("csv", "text/csv"), ("uvfits", "application/x-uvfits")):
             data = (OBSERVED / f"m87-2017-04-05-lo.{end}").read_bytes()

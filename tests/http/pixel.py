@@ -1,4 +1,4 @@
-"""/v1/pixel: the same by link and by document, its tag, what it refuses. What it says is judged by
+"""Tests of /v1/pixel: the same by link and by document, its tag, its refusals. Its values are tested by
 tests/gpu/test_pixel.c and kerrd.py."""
 
 import daemon
@@ -49,7 +49,7 @@ class Pixel(daemon.Case):
         self.assertEqual(self.daemon.get(PIXEL.replace("20.5,11", "20,11.9")).header("ETag"), first.header("ETag"))
 
     def test_steps_on_demand(self):
-        """What they are is judged by kerrd.py; the fake's engine starts and does not go on."""
+        """kerrd.py tests the values; the fake's engine only starts a ray."""
         plain = self.daemon.get(PIXEL + "&accuracy.engine=mino-rkn6")
         self.assertNotIn("trace", plain.json())
         told = self.daemon.get(PIXEL + "&accuracy.engine=mino-rkn6&trace=steps")

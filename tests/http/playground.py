@@ -1,4 +1,4 @@
-"""Live playgrounds: their documents, pace, changes, steps, packed places, events, files, limits and ends."""
+"""Tests of live playgrounds: their documents, pace, changes, steps, packed places, events, files, limits and ends."""
 
 import concurrent.futures
 import hashlib
@@ -193,7 +193,7 @@ class Playground(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.status(play)["t"] > going["t"] + 50))
 
     def test_steps_are_those_of_the_command_line(self):
-        """To the bit, through a change on the way, however the way is divided."""
+        """To the bit, through a change on the way, however the time is divided."""
         kerrd = os.environ["KERRD"]
         for document in (
             {"preset": "disruption", "debris_per_body": 2000},
@@ -390,7 +390,7 @@ class Playground(daemon.Owned):
         self.assertEqual(self.status(again)["events"], last)
 
     def test_events_that_are_lost_are_told(self):
-        """Of more mergers than are kept the oldest are gone, which a stream says."""
+        """Of more mergers than are stored the oldest are lost, and a stream says so."""
         play = self.open(
             {"bodies": [{"mass": 1e-9, "radius": 0.5, "position": [300, 0, 0]} for _ in range(4096)]}, paused=True
         )
@@ -623,8 +623,8 @@ class Playground(daemon.Owned):
         self.assertTrue(any("test bodies" in sentence for sentence in self.status(play)["approximations"]))
 
     def test_kerr_bodies_are_where_the_orbits_are(self):
-        """Over a hundred radial periods, to a millionth of r, where /v1/orbits has them: circles all but, inclined
-        ones, eccentric ones, of several spins."""
+        """Over a hundred radial periods, to a millionth of r, at the places given by /v1/orbits: nearly circular,
+        inclined and eccentric orbits, of several spins."""
         at_12, tilt = 12**0.5 / 10, math.radians(50)
         cases = [
             (0, 90, (0, 0, 10**-0.5), 12),
@@ -698,8 +698,8 @@ class Limits(daemon.Owned):
         self.opened.clear()
 
     def test_pictures_after_a_break(self):
-        """Whoever comes back to the picture of a playground that stands, with the number of the last frame it had, sees
-        it again."""
+        """A client that returns to the picture of a playground at rest, with the number of the last frame it had,
+        sees it again."""
         play = self.make({"paused": True, "scene": {"image": {"width": 64, "height": 36}}})
         number = 0
         while (answer := self.daemon.get(self.at(play, f"/frame.png?after={number}&wait_ms=1000"))).status == 200:
@@ -731,7 +731,7 @@ class Limits(daemon.Owned):
 
 
 class Sessions(daemon.Owned):
-    """Pictures of playgrounds are sessions, and take of their number and of the playgrounds' memory."""
+    """Pictures of playgrounds are sessions, and count towards their number and towards the playgrounds' memory."""
 
     kind, made = "/v1/playground", 201
     options = ("--playgrounds", 4, "--sessions", 2, "--client-share", 50, "--session-ms", 60000)
@@ -781,7 +781,7 @@ class Stopping(unittest.TestCase):
 
 
 class Films(job_case.Case):
-    """Jobs whose frames show a playground as time goes by. In the fake renderer's scenes `time`, to which the
+    """Jobs whose frames show a playground as it evolves. In the fake renderer's scenes `time`, to which the
     playground's is added, is how many milliseconds a frame takes."""
 
     STAR = {"preset": "white-dwarf", "debris_per_body": 500}
@@ -848,7 +848,7 @@ class Films(job_case.Case):
         self.assertEqual(self.daemon.get(self.at(job, "/result?format=csv")).body.count(b"\n"), 4)
 
     def test_deleted_while_its_bodies_move(self):
-        """For half an hour, and longer; pictures go on meanwhile, another film after it."""
+        """Bodies that move for half an hour and longer; pictures are made meanwhile, and another film after it."""
         job = self.make(
             {
                 "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},

@@ -1,5 +1,5 @@
-"""What playgrounds answer is what openapi.json says: every route that gives JSON, in as many states as there are kinds
-of members."""
+"""Tests that answers of playgrounds match openapi.json: every route that gives JSON, in enough states for every kind
+of member."""
 
 import json
 
@@ -37,7 +37,7 @@ class PlaygroundSchema(daemon.Owned):
         )
 
     def events(self, play, rest):
-        """What comes first of each kind until there is a tick."""
+        """The first event of each kind until a tick."""
         s = self.daemon.connect(20)
         self.addCleanup(s.close)
         s.sendall(
@@ -97,7 +97,7 @@ class PlaygroundSchema(daemon.Owned):
             self.check_reading(play)
 
     def test_schemas_can_refuse(self):
-        """A member more, a member less, another type."""
+        """The schemas do refuse a member more, a member less, another type."""
         play = self.open({"bodies": PAIR, "paused": True})
         schema = self.schemas.of("get", TEMPLATE)
         good = self.daemon.get(self.at(play)).json()

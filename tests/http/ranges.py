@@ -1,4 +1,5 @@
-"""Parts of what has a length and an ETag (RFC 9110 14): the same table for every kind of answer that has both."""
+"""Tests of parts of whatever has a length and an ETag (RFC 9110 14): the same table for every kind of answer that
+has both."""
 
 import base64
 import hashlib
@@ -15,7 +16,7 @@ WHOLE, BEYOND = "whole", "beyond"
 
 
 def table(n):
-    """Values of Range, and what of n bytes they ask for: first and last, or the whole, or nothing that is there."""
+    """Values of Range, and the part of n bytes they ask for: first and last, or the whole, or nothing that exists."""
     return {
         "bytes=0-0": (0, 0),
         "bytes=0-9": (0, 9),
@@ -40,7 +41,7 @@ def table(n):
         f"bytes={n}-{n + 9}": BEYOND,
         "bytes=99999999999999999999999999-": BEYOND,
         "bytes=-0": BEYOND,
-        # Several: the whole, as RFC 9110 14.2 has it.
+        # Several ranges: the whole is sent, as RFC 9110 14.2 permits.
         "bytes=0-1,4-5": WHOLE,
         "bytes=0-1, -1": WHOLE,
         f"bytes=0-1,{n}-": WHOLE,
@@ -96,7 +97,7 @@ class Ranges(Case):
         return self.at(job, "/result?format=zip")
 
     def kinds(self):
-        """What has a length and an ETag, with the headers by which it is asked for."""
+        """Answers that have a length and an ETag, with the headers of the request."""
         yield "/web/app.js", {}
         yield "/web/app.js", {"Accept-Encoding": "gzip"}
         yield "/openapi.json", {}
@@ -154,7 +155,7 @@ class Ranges(Case):
                     self.assertEqual(head.header(name), whole.header(name), (target, name))
 
     def test_if_range(self):
-        """A strong tag of what is there, and nothing else, lets a part be sent (RFC 9110 13.1.5)."""
+        """Only a strong tag of the present content lets a part be sent (RFC 9110 13.1.5)."""
         for target, headers in self.kinds():
             whole = self.ask(target, **headers)
             tag = whole.header("ETag")
@@ -198,7 +199,8 @@ class Ranges(Case):
                 self.assertPart(self.ask(target, Range="bytes=3-8", **headers, **given), whole, 3, 8)
 
     def test_digests(self):
-        """Of what is sent and of what it is a part of, where the ETag says them (RFC 9530), whatever is wanted."""
+        """Digests of what is sent and of what it is a part of, where the ETag contains them (RFC 9530), whatever is
+        requested."""
         for target, headers in self.kinds():
             for wanted in {}, {"Want-Content-Digest": "sha-256=10"}, {"Want-Content-Digest": "sha-256=0"}:
                 whole = self.ask(target, **headers, **wanted)
@@ -224,7 +226,7 @@ class Ranges(Case):
         self.assertEqual(answer.status, 200)
 
     def test_parts_make_the_whole(self):
-        """Many small ones, and no descriptor is left open."""
+        """Many small parts make up the whole, and no descriptor stays open."""
         target = self.frame()
         whole, files = self.ask(target), self.daemon.open_files()
         step = max(1, len(whole.body) // 40)

@@ -21,7 +21,7 @@ def post(*lines, body=b"{}"):
     return POST + b"".join(line + b"\r\n" for line in lines) + b"\r\n" + body
 
 
-# name: bytes, what may be answered; empty: whatever comes is a problem document or nothing
+# name: bytes, permitted answers; empty: a problem document or no answer
 REFUSED = {
     # lengths
     "length negative": (post(b"Content-Length: -1"), {400}),
@@ -89,7 +89,7 @@ REFUSED = {
 
 
 def read_all(s, patience):
-    """What comes until the server closes, or until nothing has come for so many seconds; and whether it closed."""
+    """What arrives until the server closes, or until nothing has come for that many seconds; and whether it closed."""
     got = b""
     s.settimeout(patience)
     try:
@@ -153,8 +153,7 @@ class Raw(daemon.Case):
                 self.judge(name, answers[1:], closed)
 
     def test_beside_uploads(self):
-        """Whoever is not at fault is not touched: uploads in the middle of body, chunk and header go on after each of
-        these."""
+        """Others are not affected: uploads in the middle of body, chunk and header continue after each of these."""
         half = {
             "body": (POST + b"Content-Length: 2\r\n\r\n{", b"}"),
             "chunk": (CHUNKED + b"1\r\n{\r\n1\r\n", b"}\r\n0\r\n\r\n"),

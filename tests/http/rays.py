@@ -1,5 +1,4 @@
-"""POST /v1/rays: what is asked, what is refused, in which form it comes back, and that large requests disturb
-nobody."""
+"""Tests of POST /v1/rays: requests, refusals, formats of the answer, and that large requests do not hold up others."""
 
 import ast
 import concurrent.futures
@@ -59,7 +58,7 @@ def flat(ray, orders):
 
 
 def strict(body):
-    """Parsed by a reader that does not know NaN or Infinity."""
+    """Parsed by a reader that does not accept NaN or Infinity."""
 
     def refuse(word):
         raise AssertionError(f"{word} in the answer")
@@ -131,7 +130,7 @@ class Requests(daemon.Case):
         self.assertIn(f"line {lines.count(chr(10))}", self.assertProblem(self.post(lines[:-3]), 400)["detail"])
 
     def test_observers_are_refused_in_the_same_words(self):
-        """As a scene's observer, and physics': by other names."""
+        """By the same sentences as a scene's observer, and physics': with other names of the fields."""
         table = (
             ({"r": 9, "velocity_phi": 0.8, "velocity_r": 0.7}, "velocity"),
             ({"r": 1.5}, "static"),
@@ -392,7 +391,7 @@ class Requests(daemon.Case):
 
 
 class Device(daemon.Case):
-    """What asks for an engine of the device takes the render thread's turn."""
+    """Requests for an engine of the device take turns with renders."""
 
     options = ("--queue", 2)
 
@@ -468,8 +467,8 @@ class Device(daemon.Case):
         self.assertLess(time.monotonic() - begun, 5)
 
 
-# spin, inclination, alpha, beta, fate, crossings (r, phi), sky: by the oracle of tests/oracle, from r = 1e6. Azimuths
-# to a turn.
+# spin, inclination, alpha, beta, fate, crossings (r, phi), sky: by the reference of tests/oracle, from r = 1e6.
+# Azimuths up to whole turns.
 ORACLE = (
     (0.9, 60, -5, 1, "escaped", [(4.05136443, -2.08075964)], (1.9273608, 1.5264424)),
     (0.9, 60, -3, 4, "escaped", [(3.72775338, -3.01493976)], (2.3354472, 0.5571441)),
@@ -610,7 +609,7 @@ class Closed(daemon.Case):
 
 
 def send(server, document, accept="application/json"):
-    """A request on its way; the answer is not read."""
+    """Sends a request; the answer is not read."""
     body = json.dumps(document).encode()
     s = server.connect()
     s.sendall(

@@ -48,7 +48,7 @@ def packed(members, method=zipfile.ZIP_STORED):
 
 
 def set_entry(data, name, at, value):
-    """A field of a member's entry in the directory."""
+    """Changes a field of a member's entry in the directory."""
     entry = data.index(b"PK\1\2")
     while data[entry + 46 : entry + 46 + len(name)] != name:
         entry = data.index(b"PK\1\2", entry + 4)
@@ -56,7 +56,7 @@ def set_entry(data, name, at, value):
 
 
 def with_entries(data, n):
-    """A grid whose directory has more entries, all of them of its first member."""
+    """A grid whose directory has additional entries, all referring to its first member."""
     end = data.rindex(b"PK\5\6")
     begin = struct.unpack("<I", data[end + 16 : end + 20])[0]
     first = data[begin : data.index(b"PK\1\2", begin + 4)]
@@ -80,7 +80,7 @@ def with_entries(data, n):
 
 
 def grids():
-    """Grids that are refused, by name: each member missing, damaged, of another shape, and longer than it may be."""
+    """Invalid grids, by name: each member missing, damaged, of another shape, and longer than permitted."""
     good = assets.grid(0.5)
     members = members_of(good)
     zeros = lambda n: assets.npy("<f8", (n,), bytes(8 * n))
@@ -128,7 +128,7 @@ def pictures():
 
 
 def observations():
-    """Files of M87* that are cut, and whose cards are other numbers."""
+    """Files of M87* that are cut, or whose cards have other numbers."""
     folder = pathlib.Path(__file__).resolve().parents[2] / "data/eht"
     uvfits, text = (folder / "m87-2017-04-05-lo.uvfits").read_bytes(), (folder / "m87-2017-04-05-lo.csv").read_bytes()
     for size in (100, 2880, 8640, 50000, 140000):
@@ -179,7 +179,7 @@ class Refusals(daemon.Case):
         cls.daemon = daemon.Daemon("--drain-ms", 10, env=memory.ENVIRONMENT)
 
     def hold(self, kinds, least):
-        """Each kind is refused, and holds no more memory after the last time than after the first."""
+        """Each kind is refused, and the server holds no more memory after the last time than after the first."""
         told, refused, grown = memory.is_told(self.daemon), 0, []
         for name, request in kinds:
             status = [self.daemon.request(*request).status for _ in range(WARM)][0]

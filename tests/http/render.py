@@ -1,4 +1,4 @@
-"""What a picture comes with: size, tags, timings, and revalidation."""
+"""Tests of what accompanies a picture: size, tags, timings, and revalidation."""
 
 import re
 import struct
@@ -56,7 +56,7 @@ class Render(daemon.Case):
         self.assertEqual(by_query.body, by_body.body)
 
     def test_a_style_in_a_query(self):
-        """Whatever its place there: what the query sets itself stays."""
+        """Wherever the style is in the query, what the query itself sets stays."""
         tags = [
             self.daemon.get(RENDER + "&style.bloom=0.25&style.name=dngr&disk.redshift=true").header("ETag"),
             self.daemon.get(RENDER + "&style.name=dngr&disk.redshift=true&style.bloom=0.25").header("ETag"),
@@ -72,8 +72,8 @@ class Render(daemon.Case):
         self.assertEqual(len(set(tags)), 1, tags)
 
     def test_lists(self):
-        """A list by its elements in a query, as an array and as an object in a body, and by the names that its elements
-        once had."""
+        """A list by its elements in a query, as an array and as an object in a body, and by the former names of its
+        elements."""
         image = {"image": {"width": 64, "height": 36}}
         answers = [
             self.daemon.get(RENDER + "&spots.0.r=12&spots.1.brightness=2&spots.0.brightness=3"),

@@ -1,4 +1,4 @@
-"""Every address, HEAD, and what is said of a wrong method or path."""
+"""Tests of every address, of HEAD, and of the answers to a wrong method or path."""
 
 import concurrent.futures
 import ctypes
@@ -55,7 +55,7 @@ class Routes(daemon.Case):
                     json.loads(got.body)
 
     def settled(self):
-        """The figures once nothing but this request is under way: an answer is counted a moment after its last byte has
+        """The metrics once only this request is running: an answer is counted shortly after its last byte has
         arrived."""
         figures = {}
 
@@ -184,7 +184,7 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/m87-EHT").status, 404)
 
     def test_a_small_picture_of_a_preset(self):
-        """It is rendered once, however many ask for it at once, and then kept."""
+        """It is rendered once, however many clients ask for it at once, and then stored."""
         before = self.settled()["kerrd_thumbnails_rendered_total"]
         with concurrent.futures.ThreadPoolExecutor(8) as many:
             answers = list(
@@ -215,7 +215,7 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/edge-on/thumbnail.png?width=9").status, 422)
 
     def test_small_pictures_are_kept_for_later_servers(self):
-        """In the folder of the device's own files; one that is damaged, or of something else, is painted anew."""
+        """In the folder of the device's own files; one that is damaged, or of something else, is rendered anew."""
         target = "/v1/presets/edge-on/thumbnail.png"
 
         def ask():
@@ -404,7 +404,7 @@ class Routes(daemon.Case):
 
 
 class Held(daemon.Case):
-    """The thread that answers everything else is at a standstill, and the connections are used up."""
+    """The thread that answers everything else is stopped, and the connections are used up."""
 
     options = ("--device", "held", "--connections", 8, "--header-ms", 30000)
 
@@ -433,8 +433,8 @@ class Held(daemon.Case):
 
 
 def slice_ns(thread):
-    """How long turns a thread has asked the scheduler for; None: this kernel does not say (it does from Linux 6.12
-    on)."""
+    """The length of the turns that a thread has requested of the scheduler; None: this kernel does not give it (it
+    does from Linux 6.12 on)."""
     attributes = ctypes.create_string_buffer(48)
     known = {"x86_64": 315, "aarch64": 275}.get(os.uname().machine)  # sched_getattr
     if not known or ctypes.CDLL(None).syscall(known, thread, attributes, 48, 0):
@@ -444,7 +444,8 @@ def slice_ns(thread):
 
 class Prompt(daemon.Case):
     def test_health_asks_for_short_turns(self):
-        """The front and the thread of the health routes; nobody else does, or it would be worth nothing."""
+        """The front thread and that of the health routes do; no other thread does, because then it would have no
+        effect."""
         if slice_ns(os.getpid()) is None:
             self.skipTest("this kernel tells no slices")
         for path in ("/healthz", "/v1/device", "/v1/render?" + daemon.SMALL, "/readyz"):

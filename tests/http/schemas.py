@@ -1,4 +1,4 @@
-"""Real answers are held against what openapi.json says of them."""
+"""Compares real answers with openapi.json."""
 
 import jsonschema
 
@@ -8,19 +8,19 @@ class Schemas:
         self.document = document
 
     def wrong(self, schema, value):
-        """What is wrong with it: sentences."""
+        """What is wrong with an answer, as sentences."""
         judge = jsonschema.Draft202012Validator({**schema, "components": self.document["components"]})
         return [f"{'/'.join(map(str, e.absolute_path))}: {e.message[:300]}" for e in judge.iter_errors(value)]
 
     def of(self, method, path, status=200):
-        """The schema of an answer as JSON; of DELETE and the like there is none. A bare {"type": "object"} says
-        nothing, and is refused."""
+        """The schema of an answer as JSON; DELETE and the like have none. A bare {"type": "object"} is too weak, and
+        is refused."""
         schema = self.document["paths"][path][method]["responses"][str(status)]["content"]["application/json"]["schema"]
         assert schema != {"type": "object"}, f"{method} {path} has no schema"
         return schema
 
     def check(self, method, path, answer):
-        """Of an answer to a request of this template, which is given back as JSON."""
+        """Checks an answer to a request of this template, which is returned as JSON."""
         wrong = self.wrong(self.of(method, path, answer.status), answer.json())
         assert not wrong, f"{method} {path}: {wrong[:5]}"
         return answer.json()

@@ -1,5 +1,5 @@
-"""Live sessions: the pull of frames, streams with readers of every kind, patches, tokens, limits and ends. In the fake
-renderer's scenes `time` is how many milliseconds a frame takes."""
+"""Tests of live sessions: requests for frames, streams with readers of every kind, patches, tokens, limits and ends.
+In the fake renderer's scenes `time` is how many milliseconds a frame takes."""
 
 import http.client
 import itertools
@@ -174,7 +174,7 @@ class Sessions(daemon.Owned):
         self.assertProblem(self.patch(session, "{}", **{"Content-Type": "text/plain"}), 415)
 
     def test_what_varies(self):
-        """It is said of each emitter that is there, whether time goes on or not."""
+        """It is reported for each emitter that is there, whether or not time goes on."""
         session = self.open()
         self.assertEqual(self.status(session)["varies"], [])
         for patch, varies in (
@@ -228,7 +228,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(problem["pointer"], "/style/name")
 
     def test_patch_of_a_width(self):
-        """In microarcseconds it follows the hole; one in M takes its place."""
+        """A width in microarcseconds follows the hole's mass and distance; one given in M replaces it."""
         session = self.open({**SCENE, "camera": {"field_uas": 40}})
         camera = lambda patch: self.patch(session, patch).json()["scene"]["camera"]
         before = camera({"time": 1})
@@ -241,7 +241,7 @@ class Sessions(daemon.Owned):
         self.assertEqual((refused.status, refused.json()["pointer"]), (422, "/camera/field_uas"))
 
     def test_patch_of_a_list(self):
-        """RFC 7396 puts an array in the place of the whole one; an object changes elements by their index."""
+        """By RFC 7396 an array replaces the whole one; an object changes elements by their index."""
         session = self.open({**SCENE, "spots": [{"r": 10}, {"r": 11, "size": 2}]})
 
         def after(patch):
@@ -324,7 +324,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.assertProblem(self.strike(session), 422, "invalid-scene")["pointer"], "/style/ringdown")
 
     def test_a_ring_dies_away(self):
-        """Frames come while it rings, one more when it is over, and then the session rests."""
+        """Frames are made during the ringdown, one more after it, and then the session rests."""
         session = self.open(
             {**SCENE, "time": 0, "motion": {"time_rate": 9}}
         )  # frames stay below 33 ms, so that nothing refines the last one
@@ -462,8 +462,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.frame(session, number, 100).status, 204)
 
     def test_how_far_a_finer_picture_is(self):
-        """While it is made, and not before or after: the part that is done grows, and what is left is told in
-        seconds."""
+        """Only while it is being made: the part that is done grows, and the time left is given in seconds."""
         session = self.open(
             {**SCENE, "image": {"width": 64, "height": 36, "samples": 2}, "time": 60}
         )  # 1.8 s with four rays a pixel
@@ -494,8 +493,8 @@ class Sessions(daemon.Owned):
         self.assertNotIn("refining", self.status(session))
 
     def test_how_far_the_first_picture_is(self):
-        """Before there is any: the part that is done grows, and what is left is told in seconds; once it is there
-        nothing is."""
+        """Before there is any: the part that is done grows, and the time left is given in seconds; once it is there
+        neither is given."""
         session, told = self.open({**SCENE, "image": {"width": 64, "height": 36, "samples": 1}, "time": 1500}), []
         thread = threading.Thread(target=lambda: self.frame(session, 0))
         thread.start()
@@ -561,7 +560,7 @@ class Sessions(daemon.Owned):
     WHOLE = 2**0.5 / 3 * 8**1.5  # rain in Schwarzschild, from 8 M to the end
 
     def assertOnRain(self, answer):
-        """The place and the clock of who rains in fit together."""
+        """The place and the clock of an observer that moves with rain agree."""
         r, clock = answer["scene"]["camera"]["r"] if "scene" in answer else answer["r"], answer["clock"]
         left = clock["proper_time_to_end"]
         self.assertAlmostEqual(r, (3 / 2**0.5 * left) ** (2 / 3), places=8)
@@ -648,8 +647,8 @@ class Sessions(daemon.Owned):
         )
 
     def test_a_path_is_looked_along_by_the_workers(self):
-        """Reading and looking along the longest of paths takes tens of milliseconds, which are none of the thread's
-        that serves everybody: it tells how long they had it."""
+        """Parsing and checking the longest of paths takes tens of milliseconds, which must not be spent in the
+        thread that serves everybody: it reports how long they took."""
         session = self.open(SCENE)
         keys = [{"at": i + 1, "scene": {"camera": {"azimuth_deg": i % 360}}} for i in range(999)]
         answer = self.follow(session, {"keyframes": keys})
@@ -681,7 +680,8 @@ class Sessions(daemon.Owned):
         self.assertNotIn("path", self.patch(session, {}).json())
 
     def test_a_path_that_fails(self):
-        """Between two keyframes the disk's edge is inside the ISCO, where no look of those that take the path falls."""
+        """Between two keyframes the disk's edge is inside the ISCO, at a time that the check of the path does not
+        sample."""
         session = self.open({**SCENE, "spacetime": {"spin": -0.9}, "disk": {**SCENE["disk"], "outer": 9.5}})
         turned = {"spacetime": {"spin": 0.998}, "disk": {"outer": 1.5}}
         keys = [
@@ -715,7 +715,7 @@ class Sessions(daemon.Owned):
             ({"keyframes": [{"at": 1, "proper_time": 3}]}, "/keyframes/0/proper_time"),
             ({"keyframes": [{"at": 1, "scene": {"motion": {"time_rate": 1}}}]}, "/keyframes"),
             ({"keyframes": [{"at": 1, "scene": {"disk": {"outer": 1}}}]}, "/keyframes/0/scene/disk/outer"),
-            # valid at both ends, with the disk's edge inside the ISCO between them
+            # valid at both ends, but between them the disk's edge is inside the ISCO
             (
                 {
                     "keyframes": [
@@ -749,8 +749,8 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)["revision"], 1)
 
     def test_those_that_move_share_the_device(self):
-        """Frames of 30 ms, which one that is alone renders in full, are too long for each of two; not beside one that
-        rests."""
+        """Frames of 30 ms, which a single session renders in full, are too long for each of two, but not beside one
+        that rests."""
         moving = {**MOVING, "image": {"width": 220, "height": 40}, "time": 30}
         resting = self.open({**moving, "motion": {}})
         self.frame(resting)
@@ -835,12 +835,12 @@ class Sessions(daemon.Owned):
         self.assertEqual(parts[0].strip(), b"")
         for part in parts[1:4]:
             self.assertTrue(part.startswith(b"\x89PNG") and part.endswith(b"IEND\xaeB`\x82\r\n"), part[:20])
-        # the head of the next part comes with the frame, not with the next frame
+        # the header of the next part comes with the frame, not with the next frame
         self.assertTrue(re.search(rb"IEND\xaeB`\x82\r\n--kerrd\r\nContent-Type: image/png\r\n\r\n", body))
 
     @staticmethod
     def chunks(data):
-        """What complete chunks hold."""
+        """The contents of complete chunks."""
         out = b""
         while True:
             line, found, rest = data.partition(b"\r\n")
@@ -968,7 +968,7 @@ class Sessions(daemon.Owned):
                 self.assertAlmostEqual(event["simulation"]["ringdown"], wave, delta=1e-3)
 
     def exposures(self, s, n):
-        """Exposures that the next n events of a stream tell."""
+        """The exposures given by the next n events of a stream."""
         text = b""
         while text.count(b"\n\n") < n:
             text += s.recv(65536)
@@ -990,8 +990,8 @@ class Sessions(daemon.Owned):
             self.assertEqual(set(self.exposures(s, 5)), {0.25})
 
     def test_slow_reader_gets_the_newest(self):
-        """What has been sent before the reader stalled lies in the kernel's buffers; then comes the present, with no
-        queue between."""
+        """What was sent before the reader stalled is in the kernel's buffers; after that the newest frame comes,
+        with no queue between."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 18)
@@ -1009,7 +1009,8 @@ class Sessions(daemon.Owned):
         self.assertLess(numbers[0], number)
 
     def test_little_waits_in_the_kernel(self):
-        """What it holds for a reader that stalls will be old: TCP_NOTSENT_LOWAT."""
+        """What the kernel holds for a reader that stalls will be out of date, so it must be little:
+        TCP_NOTSENT_LOWAT."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             n = 0
@@ -1125,7 +1126,7 @@ class Sessions(daemon.Owned):
                 for _ in range(2):
                     self.first_frame_s()
                 self.assertEqual(self.status(session)["frame"], number, "these came in between")
-                # of one client a job goes before what a view is refined by
+                # for one client a job goes before the refinement of a view
                 self.daemon.request("DELETE", "/v1/jobs/" + job["id"], headers=self.owner(job))
                 self.assertRegex(self.frame(session, number).header("Kerrd-Quality"), "samples=2 .*final=1")
 
@@ -1139,7 +1140,7 @@ class Sessions(daemon.Owned):
             self.assertEqual(int(answer.header("Kerrd-Frame")), number + 1)
 
     def test_a_patch_ends_a_refinement_that_waits_its_turn(self):
-        """Behind the one of another session."""
+        """The refinement waits behind that of another session."""
         with self.stream(self.open(), "/events"):
             _, _, first = self.refining({**self.LONG, "time": 1000})
             with first:

@@ -1,4 +1,5 @@
-"""What one client may make another one wait or be refused. 127.0.0.1 and 127.0.0.2 are two clients."""
+"""Tests of how long one client may make another wait, and when it is refused. 127.0.0.1 and 127.0.0.2 are two
+clients."""
 
 import http.client
 import json
@@ -9,7 +10,7 @@ import time
 import daemon
 
 RENDER = "/v1/render?" + daemon.SMALL
-# What this renderer says of them is 1 us a ray, 6.6 s; what they take is `time`, in slices of 10 ms.
+# This renderer states 1 us a ray for them, 6.6 s; what they really take is `time`, in slices of 10 ms.
 LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&accuracy.profile=high&time=%d"
 
 
@@ -37,7 +38,7 @@ class Device(Case):
     options = ("--queue", 16, "--client-share", 50)
 
     def test_a_long_picture_holds_nobody(self):
-        """Small ones wait for a few of its slices of 10 ms, and not for the 4 s that it takes."""
+        """Small pictures wait for a few of its slices of 10 ms, and not for the 4 s that it takes."""
         long = self.begin(LONG % 4000)
         self.daemon.reaches("renders_unfinished", 1)
         for source in ("127.0.0.1", "127.0.0.2"):
@@ -56,7 +57,7 @@ class Device(Case):
         self.assertRaises(BlockingIOError, first.recv, 1)
 
     def test_beside_living_sessions_a_picture_has_its_turn(self):
-        """And of a job a frame, though sessions of the same client want all there is."""
+        """So does a frame of a job, though sessions of the same client use all the time they can get."""
         sessions = [
             self.daemon.post(
                 "/v1/sessions",
@@ -88,8 +89,8 @@ class Device(Case):
             self.assertTrue(
                 daemon.eventually(lambda: self.daemon.get("/v1/jobs/" + job["id"]).json()["state"] == "done")
             )
-            # Between six works of 20 ms there are some frames, and not hundreds: counted, for a clock would judge the
-            # machine.
+            # Between six works of 20 ms there are some frames, and not hundreds: counted, because a clock would measure
+            # the machine.
             frames = self.daemon.metrics()["kerrd_session_frames_total"] - before
             self.assertGreater(frames, 1)
         finally:
@@ -102,7 +103,7 @@ class Device(Case):
                 )
 
     def test_waiting_renders_of_one_client(self):
-        """None of them ends before the client goes: nothing here depends on how fast the machine is."""
+        """None of them ends before the client leaves: nothing here depends on the speed of the machine."""
         for waiting in range(9):
             self.begin(LONG % (60000 + waiting))
             self.daemon.reaches("renders_unfinished", waiting + 1)
@@ -113,7 +114,7 @@ class Device(Case):
 
 
 class Kernels(Case):
-    """Those of a sky of seed 4712 are compiled until another picture has been rendered."""
+    """The kernels for a sky of seed 4712 are not ready until another picture has been rendered."""
 
     NEW = RENDER + "&sky.seed=4712"
 
@@ -122,8 +123,8 @@ class Kernels(Case):
         return float(found[1]) if found else 0
 
     def test_a_picture_that_waits_for_its_kernels_holds_nobody(self):
-        """Nor is the second one that needs them compiled for. What they waited is said as such, and not as the queue's;
-        a client who has gone leaves nothing behind."""
+        """Nor does a second picture that needs the same kernels compile them again. The time waited is reported
+        separately from that in the queue; a client that has left leaves nothing behind."""
         gone = self.begin(self.NEW, "127.0.0.3")
         self.daemon.reaches("renders_unfinished", 1)
         daemon.vanish(gone)
@@ -145,7 +146,8 @@ class Kernels(Case):
         self.assertLessEqual(compiled, 2)  # for the one that has gone, and the first of the others
 
     def holds_nobody(self, ask):
-        """Until its kernels are there, which is once another client's picture has been rendered."""
+        """Checks that others are served until its kernels are ready, which is once another client's picture has been
+        rendered."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
         s = own.connect()
@@ -168,14 +170,14 @@ class Kernels(Case):
         self.holds_nobody(ask + b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
 
     def test_a_picture_that_comes_to_lack_a_kernel_holds_nobody(self):
-        """One that is short begins once more, one in a lane goes on. Both say what they waited."""
+        """A short picture begins again, one in a lane continues. Both report how long they waited."""
         for target in (RENDER, LONG % 0):
             with self.subTest(target):
                 ask = f"GET {target}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
                 self.assertGreater(self.kernels(self.holds_nobody(ask)), 0)
 
     def test_one_that_goes_while_its_lane_waits_for_a_kernel_leaves_the_lane(self):
-        """Its client may have no other lane: the next long picture of the same client has it."""
+        """A client may have only one lane: its next long picture gets it."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
         gone = own.connect()
@@ -192,8 +194,8 @@ class Kernels(Case):
         self.assertEqual(daemon.read_answer(again).status, 200)
 
     def test_what_cannot_be_compiled_holds_nobody(self):
-        """What lacks it is made in its own turn, where a kernel that cannot be made is told. Nothing waits for ever,
-        in the line or in a lane, and nothing is compiled again and again."""
+        """The picture is rendered in its own turn, where the kernel's failure is reported. Nothing waits for ever,
+        in the queue or in a lane, and nothing is compiled again and again."""
         own = daemon.Daemon("--device", "miscompiles")
         self.addCleanup(own.stop)
         for target in (self.NEW, RENDER + "&sky.seed=4713", (LONG % 0) + "&sky.seed=4713"):
@@ -235,8 +237,8 @@ class Kernels(Case):
 
 
 class Allowance(Case):
-    """Of the device's time a client may use a second a minute here: one of what it has taken, and of what is accepted
-    by estimate."""
+    """Here a client may use one second of the device's time a minute: both of time taken, and of accepted work by
+    estimate."""
 
     options = ("--client-device-seconds", 1, "--queue", 16, "--client-share", 50)
     SMALL = {"image": {"width": 32, "height": 18}}
@@ -277,7 +279,7 @@ class Allowance(Case):
         )
 
     def test_it_is_told(self):
-        """By RateLimit (draft-ietf-httpapi-ratelimit-headers-11), to each client what is its own."""
+        """RateLimit (draft-ietf-httpapi-ratelimit-headers-11) gives each client its own figures."""
         own, other = "127.0.0.6", "127.0.0.7"
 
         def told(source, target="/v1/presets"):
@@ -301,7 +303,7 @@ class Allowance(Case):
         self.assertGreater(self.refused("127.0.0.3", "GET", RENDER), 60 * 4)
 
     def test_a_job_waits_and_leaves_a_half(self):
-        """The bucket of a second is emptied to a half by a few of 40 frames, and fills for one more in 9 s."""
+        """A few jobs of 40 frames empty the bucket of one second to a half, and it fills for one more in 9 s."""
         own, at = "127.0.0.4", "/v1/jobs/"
         made = self.ask(own, "POST", "/v1/jobs", {"scenes": [{**self.SMALL, "time": 150 + i / 100} for i in range(40)]})
         self.assertEqual(made.status, 202, made.body)
@@ -332,7 +334,7 @@ class Allowance(Case):
 
 
 class Tasks(Case):
-    """What workers answer by turns."""
+    """Tasks that workers process in turns."""
 
     options = ("--queue", 8, "--client-share", 50)
 
@@ -347,7 +349,7 @@ class Tasks(Case):
             )
 
     def look(self, unfinished, method, target, body=None):
-        """One client has filled its share of four: it is told so, and another one is served."""
+        """A client that has used its share of four is told so, and another one is served."""
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_" + unfinished] == 4))
         problem = self.ask("127.0.0.1", method, target, body)
         self.assertIn("4 such requests of yours", self.assertProblem(problem, 429, "quota")["detail"])
@@ -381,8 +383,8 @@ class Tasks(Case):
 
 
 class Unread(Case):
-    """Answers that wait for a client who does not take them: 128 MiB a client here, of 512, and 16 of 64 more for small
-    ones."""
+    """Answers that wait for a client that does not read them: here 128 MiB a client, of 512, and 16 of 64 more for
+    small ones."""
 
     options = ("--client-share", 25)
 
@@ -464,7 +466,7 @@ class Dawdling(Announced):
     options = ("--body-ms", 1500)
 
     def test_a_body_that_dawdles_is_cut(self):
-        """However much it has announced, and sent: within the time for a small one."""
+        """However much it has announced and sent: within the time for a small one."""
         s = self.announce(3000000)
         answer = daemon.read_answer(s)
         self.assertProblem(answer, 408, "timeout")
@@ -478,7 +480,7 @@ class Sites(Case):
             self.assertIn("--allow-cross-site", self.assertProblem(answer, 403, "cross-site")["detail"])
             self.assertEqual(answer.header("Cross-Origin-Resource-Policy"), "same-site")
         self.assertProblem(self.ask("127.0.0.1", "POST", "/v1/render", {}, foreign), 403, "cross-site")
-        # a frame in a foreign page is no visit
+        # a frame in another site's page does not count as a visit
         self.assertProblem(
             self.ask(
                 "127.0.0.1",
@@ -531,8 +533,8 @@ class Connections(Case):
                 before = self.daemon.open_files()
                 self.hold(begin)
                 self.assertEqual({self.ask("127.0.0.2", "GET", "/v1/presets").status for _ in range(20)}, {200})
-                # Some of 200 at once are turned away as one too many before they count as his: he asks until he has all
-                # that he may have.
+                # Some of 200 at once are turned away before they count as this client's: it tries until it has all that
+                # it may have.
                 self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.refused()))
                 self.doCleanups()
                 self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))

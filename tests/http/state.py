@@ -58,7 +58,7 @@ class Case(job_case.Case):
 
 class Leftovers(Case):
     def test_what_a_kill_has_left_half_written(self):
-        """It goes at the next start, and what somebody else has put there stays: also with the job's end."""
+        """It is removed at the next start, and files of others stay; the same at the end of the job."""
         server = self.start()
         job = self.make({"scenes": [SCENE] * 2}, server=server)
         self.until(job, "done", server)
@@ -118,7 +118,7 @@ class Stops(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_the_frames_of_a_large_sweep_are_put_in_order_first(self):
-        """Which takes a while after a start, in which the job says so and the server serves."""
+        """This takes a while after a start, during which the job says so and the server answers."""
         server = self.start()
         axes = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}, "time": 30000}, "axes": axes}, server=server)
@@ -178,7 +178,7 @@ class Descriptors(Case):
 
 class Foreign(Case):
     def snapshot(self):
-        """Every path below the folder: its kind, its bytes or where it points."""
+        """Every path below the folder: its kind, and its bytes or target."""
         found = {}
         for at, folders, files in os.walk(self.folder):
             for name in folders + files:
@@ -295,7 +295,7 @@ class Foreign(Case):
         server.stop()
 
     def test_what_a_job_makes_is_in_its_record(self):
-        """As "output"; records of versions before have "curve"; one that is not known here is left alone."""
+        """Under "output"; records of earlier versions have "curve"; an unknown one is left alone."""
         server = self.start()
         job = self.make({"scene": SCENE, "output": "light-curve"}, server=server)
         self.until(job, "done", server)

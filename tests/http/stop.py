@@ -1,4 +1,4 @@
-"""SIGTERM under load, a lost device, and starts that fail."""
+"""Tests of SIGTERM under load, a lost device, and starts that fail."""
 
 import subprocess
 import tempfile
@@ -41,8 +41,8 @@ class Stop(unittest.TestCase):
         self.assertEqual(server.wait(10), 0)
 
     def test_the_rest_is_ended(self):
-        """What takes longer than a server waits has an answer, each kind of work, and the log says how long it
-        waits."""
+        """Work that takes longer than the server waits gets an answer, for each kind of work, and the log says how
+        long it waits."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 50, "--drain-s", 1, stderr=log)
             rays = {
@@ -99,7 +99,7 @@ class Stop(unittest.TestCase):
 
     def test_a_device_that_is_opened_again(self):
         server = daemon.Daemon("--device", "mends", "--drain-ms", 10)
-        # 6 s, in slices: what is half done begins once more
+        # 6 s, in slices: a picture that is half done begins again
         beside = in_background(server.get, RENDER + "&time=200&image.samples=2")
         self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"]))
         session = server.post("/v1/sessions", {"image": {"width": 64, "height": 36}, "time": 5}).json()

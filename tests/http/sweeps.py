@@ -1,4 +1,4 @@
-"""Sweeps: jobs with axes, the files that come of them, and what POST /v1/plan says that they would take."""
+"""Tests of sweeps: jobs with axes, the files they give, and the estimate of POST /v1/plan."""
 
 import contextlib
 import io
@@ -47,8 +47,8 @@ class Sweeps(Case):
         self.assertEqual((head.status, head.header("Content-Type"), head.body), (200, "application/zip", b""))
 
     def test_lens_maps_are_the_outermost_loop(self):
-        """The fake renderer keeps one lens map: what shares it follows at once, though its axis is the outermost one
-        here."""
+        """The fake renderer keeps one lens map: scenes that share it follow one another, though their axis is the
+        outermost one here."""
         job = self.make(
             {
                 "scene": {"image": IMAGE},
@@ -84,7 +84,7 @@ class Sweeps(Case):
         )
 
     def test_what_a_sweep_may_cost(self):
-        """Not how many scenes it has, but what they are estimated to take, of time and of bytes."""
+        """The limit is not the number of scenes, but their estimated time and bytes."""
         many = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}}, "axes": many})
         self.assertEqual(job["frames"], 10000)
@@ -106,7 +106,7 @@ class Sweeps(Case):
         )
 
     def test_how_many_cubes_are_fetched_at_once(self):
-        """Three by one client; who has been told to wait may come when one of them has left."""
+        """Three by one client; one that was told to wait may fetch when one of them has finished."""
         job = self.make(
             {
                 "scene": {"image": {"width": 1000, "height": 1000, "layers": ["rgb"]}},
@@ -146,7 +146,7 @@ MOST = pair(
 
 
 class Plans(Case):
-    """POST /v1/plan of what a job with axes takes."""
+    """POST /v1/plan for a job with axes."""
 
     options = ("--queue", 2)
 
@@ -156,7 +156,7 @@ class Plans(Case):
         return answer.json()
 
     def test_what_all_scenes_take_together(self):
-        """As much as the scenes one by one, but for lens maps that are there already: those of the second exposure."""
+        """The total of the single scenes, except for lens maps that exist already: those of the second exposure."""
         scene = {"image": {**IMAGE, "samples": 2}}
         plan = self.plan(pair(scene, style__exposure=[0, 1], spacetime__spin=[0, 0.5, 0.9], image__width=[32, 64]))
         alone = [
@@ -179,7 +179,7 @@ class Plans(Case):
         )
 
     def test_it_is_the_body_of_a_job(self):
-        """Preset and output too; of numbers it says how many bytes their files are."""
+        """With preset and output too; for files of numbers it gives their size in bytes."""
         body = {**pair({"image": {**IMAGE, "layers": ["rgb"]}}, style__exposure="0:4:1"), "output": "cube"}
         plan = self.plan(body)
         self.assertEqual(plan["bytes"]["files"], 5 * 3 * 4 * 32 * 18)
@@ -257,7 +257,7 @@ class Plans(Case):
         return self.daemon.metrics()["kerrd_turns_unfinished"]
 
     def test_others_are_answered_meanwhile(self):
-        """By the thread that took it, while the scenes are planned; as many at once as workers take."""
+        """By the thread that accepted it, while the scenes are planned; as many plans at once as there are workers."""
         few = pair(MOST["scene"], **{**MOST["axes"], "spacetime.spin": "0:0.9:0.1"})
         with contextlib.ExitStack() as stack:
             largest = self.begin_the_largest(stack)
@@ -280,7 +280,7 @@ class Plans(Case):
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (10000, 1000))
 
     def test_a_client_that_leaves(self):
-        """What it has asked for ends with it, for which tearDown looks."""
+        """Its plan ends when it leaves, which tearDown checks."""
         for _ in range(2):
             with contextlib.ExitStack() as stack:
                 largest = self.begin_the_largest(stack)

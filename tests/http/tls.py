@@ -1,5 +1,5 @@
-"""The proxies of docs/examples/tls, as they stand there but for ports and certificates: pictures, streams as they are
-sent, a session's token beside the access token, the cookie."""
+"""Tests of the proxies of docs/examples/tls, unchanged except for ports and certificates: pictures, streams without
+delay, a session's token beside the access token, the cookie."""
 
 import http.client
 import json
@@ -32,7 +32,7 @@ def free_port():
 
 
 class Proxies:
-    """For each proxy a class of its own below."""
+    """A subclass for each proxy is below."""
 
     file = program = ()
 
@@ -176,7 +176,7 @@ class Proxies:
         )
 
     def line(self, answer, words):
-        """Whether a line of the stream that has these comes; the socket's timeout ends a wait in vain."""
+        """Whether such a line of the stream arrives; the socket's timeout ends the wait otherwise."""
         for _ in range(400):
             got = answer.readline()
             if words in got:
@@ -186,7 +186,7 @@ class Proxies:
         return False
 
     def test_the_richest_scene(self):
-        """Its answers' headers go through the buffers that a proxy has by default: as a picture and as live frames."""
+        """The headers of its answers fit into a proxy's default buffers: for a picture and for live frames."""
         status, headers, body = self.ask("POST", "/v1/render", RICHEST["gas"], Authorization=f"Bearer {TOKEN}")
         self.assertEqual((status, body[:4]), (200, b"\x89PNG"), body[:300])
         status, _, body = self.ask("POST", "/v1/sessions", RICHEST["gas"], Kerrd_Access=TOKEN)
@@ -218,8 +218,8 @@ class Proxies:
         self.assertTrue([name for name in names if name.startswith("debris.")], names)
 
     def test_the_page(self):
-        """With stars, jets and a spot, in a browser: it is asked for its token, and shows a live view and what is
-        approximated in it."""
+        """With stars, jets and a spot, in a browser: it asks for the token, and shows a live view and which
+        approximations it uses."""
         api = daemon.needed("playwright.sync_api")
         with api.sync_playwright() as playwright:
             browser = playwright.chromium.launch(

@@ -18,7 +18,7 @@ SCRAPE = {"up"}  # and what it makes itself
 
 
 def expressions(node):
-    """Of a dashboard, wherever they stand."""
+    """The expressions of a dashboard, wherever they are in it."""
     if isinstance(node, dict) and "expr" in node:
         yield node["expr"]
     for child in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
@@ -26,7 +26,7 @@ def expressions(node):
 
 
 def selectors(expression):
-    """(name, matchers) of all vectors in it; what is no PromQL raises ValueError."""
+    """(name, matchers) of all vectors in an expression; raises ValueError if it is not PromQL."""
     found = []
     todo = [promql.parse(re.sub(r"\$__rate_interval", "5m", expression))]
     while todo:
@@ -136,7 +136,7 @@ class Dashboard(unittest.TestCase):
             self.assertIn(topic, titles)
 
     def test_what_the_dashboard_leaves_out_is_meant(self):
-        """Each metric of ours is in it, but for these."""
+        """Each of our metrics is in it, except these."""
         out = {
             "kerrd_requests",
             "kerrd_thumbnails_rendered",

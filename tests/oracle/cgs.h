@@ -1,5 +1,5 @@
-/* Constants in CGS (CODATA 2018): the speed of light, the square of the electron's charge, masses of electron and
- * proton, Planck's and Boltzmann's constants, and GM of the sun (IAU 2015). */
+/* Constants in CGS (CODATA 2018): speed of light, squared electron charge, electron and proton mass, Planck and
+ * Boltzmann constant, and GM of the Sun (IAU 2015). */
 #ifndef KD_TEST_CGS_H
 #define KD_TEST_CGS_H
 

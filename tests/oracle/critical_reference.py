@@ -38,7 +38,7 @@ def lowest(a, lam, eta):
 
 
 def on_line(a, u, start, direction, bound):
-    """How far from `start` along `direction` the curve is: a bracket by its sign, the root by Ridder's method."""
+    """The distance of the curve from `start` along `direction`: a bracket by the sign, the root by Ridder's method."""
     value = lambda d: lowest(a, *constants(a, u, start[0] + d * direction[0], start[1] + d * direction[1]))[1]
     low, high = mpf(bound) / 100, mpf(bound)
     while high - low > mpf(1) / 1000:
@@ -92,7 +92,7 @@ def polar_time(a, u, alpha, beta, order):
 
 
 def radial_time(a, u, alpha, beta, source):
-    """From infinity to the source radius: straight in if nothing turns the ray, else on the way out again."""
+    """From infinity to the source radius: straight in if there is no turning point, otherwise on the way out again."""
     lam, eta = constants(a, u, alpha, beta)
     A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     roots = polyroots([1, 0, A, 2 * K, -a * a * eta], maxsteps=500, extraprec=400)
@@ -115,7 +115,7 @@ def radial_time(a, u, alpha, beta, source):
 
 
 def edge(curve, angle, rho, order, source, guess):
-    """delta, where rho (1 + delta) is the edge."""
+    """delta, where the edge is at rho (1 + delta)."""
 
     def late(s):
         point = curve.point(angle, rho * (1 + (1 if guess > 0 else -1) * mp.e**s))

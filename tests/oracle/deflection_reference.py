@@ -31,8 +31,8 @@ def impact(a, r):
 
 
 def critical(a):
-    """The smallest b that turns, by golden section over its radius: the minimum is flat, b is good to twice its
-    digits."""
+    """The smallest b with a turning point, by golden section over the radius: the minimum is flat, so b has twice
+    its digits."""
     low, high, golden = 1 + sqrt(1 - a * a) + mpf(10) ** -9, mpf(6), (sqrt(mpf(5)) - 1) / 2
     for _ in range(130):
         x, y = high - golden * (high - low), low + golden * (high - low)
@@ -44,20 +44,20 @@ def critical(a):
 
 
 def bending(a, b):
-    """And the closest approach."""
+    """The angle, and the closest approach."""
     # r^3 times the radial equation, written out: r^3 + (a^2 - b^2) r + 2 (a - b)^2
     r0 = max((x.real for x in polyroots([1, 0, a * a - b * b, 2 * (a - b) ** 2], maxsteps=200, extraprec=200)))
     tt, tp, pp, _ = inverse(a, r0)
     assert abs(tt - 2 * b * tp + b * b * pp) < mpf(10) ** -25 * abs(tt)
 
     def rate(x):
-        """dphi/dx, r = r0/(1 - x^2): the root at the turning point is gone."""
+        """dphi/dx, r = r0/(1 - x^2): removes the root at the turning point."""
         r = r0 / (1 - x * x)
         tt, tp, pp, rr = inverse(a, r)
         radial = -(tt - 2 * b * tp + b * b * pp) * rr
         return (b * pp - tp) / sqrt(radial) * 2 * x * r0 / (1 - x * x) ** 2
 
-    # close to the critical ray all happens near x = 0
+    # close to the critical ray most of the angle comes from near x = 0
     edges = [mpf(0)] + [mpf(10) ** -k for k in range(5, 0, -1)] + [mpf("0.4"), mpf("0.7"), mpf(1)]
     return 2 * quad(rate, edges, method="gauss-legendre") - pi, r0
 

@@ -38,7 +38,7 @@ def gauss(f, low, high):
 
 
 def pieces(high):
-    """From 0, each half of the way to 1: towards e = 1 the integrands are powers of 1 - e."""
+    """Intervals from 0, each half of the rest up to 1: towards e = 1 the integrands are powers of 1 - e."""
     edges = [mpf(0)]
     while 1 - (1 - edges[-1]) / 2 < high:
         edges.append(1 - (1 - edges[-1]) / 2)

@@ -10,7 +10,7 @@ static double radius(double a, const double *x)
 {
     double rho2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - a * a;
     double root = sqrt(rho2 * rho2 + 4 * a * a * x[2] * x[2]);
-    /* The form without cancellation for either sign. */
+    /* Free of cancellation for either sign. */
     return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
 }
 
@@ -78,7 +78,7 @@ static double extrapolate(const struct system *s, const double *y, double h, dou
     return error;
 }
 
-/* Integral of a/Delta from r to infinity: Boyer-Lindquist against Kerr-Schild azimuth. */
+/* Integral of a/Delta from r to infinity: Boyer-Lindquist minus Kerr-Schild azimuth. */
 static double twist(double a, double r)
 {
     double root = sqrt((1 - a) * (1 + a));
@@ -91,7 +91,7 @@ static double azimuth(double a, const double *y)
     return atan2(y[1], y[0]) - atan2(a, r) + twist(a, r);
 }
 
-/* Kerr-Schild less Boyer-Lindquist time at r: integral of 2r/Delta, up to a constant. */
+/* Kerr-Schild minus Boyer-Lindquist time at r: integral of 2r/Delta, up to a constant. */
 static double slow(double a, double r)
 {
     double root = sqrt((1 - a) * (1 + a)), plus = 1 + root, minus = 1 - root;
@@ -111,7 +111,7 @@ static void place(double a, double r, double s, double u, double phi, const doub
         { (r * c - a * d) * u, (r * d + a * c) * u, -r * s, p[1] },
         { -yy, x, 0, p[2] },
     };
-    if (s == 0) /* on the axis any azimuth does: the third row is empty, momentum along e_phi comes from `phi` */
+    if (s == 0) /* on the axis any azimuth will do: the third row vanishes, and momentum along e_phi comes from `phi` */
         m[2][0] = -d, m[2][1] = c, m[2][3] = 0;
     for (int i = 0; i < 3; i++) {
         int pivot = i;
@@ -140,7 +140,7 @@ static void start(const struct ks_photon *p, double *y)
     y[6] = p->delay + slow(a, r);
 }
 
-/* The step from y that ends on z = 0, given that a step of h crosses it. */
+/* The step from y that ends on z = 0, where a step of h would cross it. */
 static void land(const struct system *s, const double *y, double h, double *out)
 {
     double lo = 0, hi = h, z_lo = y[2], t = h;
@@ -161,9 +161,9 @@ static void land(const struct system *s, const double *y, double h, double *out)
     }
 }
 
-/* Follows the Hamiltonian flow from y. mirrored: azimuth and time run the other way, and the horizon is reached in
- * finite parameter. Otherwise it is that in the past, at which these coordinates stall and momenta grow without end,
- * and the start may lie within the other. */
+/* Follows the Hamiltonian flow from y. mirrored: azimuth and time are reversed, and the horizon is reached at finite
+ * parameter. Otherwise the horizon is the past one, at which these coordinates stall and momenta grow without bound,
+ * and the start may lie within the future one. */
 static struct ks_path run(const struct system s, state y, bool mirrored, int max_crossings)
 {
     struct ks_path path = { .fate = KS_UNDECIDED };
@@ -172,7 +172,7 @@ static struct ks_path run(const struct system s, state y, bool mirrored, int max
     double h = 0.05 * radius(s.a, y);
     for (int step = 0; step < 20000; step++) {
         double r = radius(s.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(s.energy) / r;
-        h = fmin(h, 0.25 * r / v); /* short enough that one step does not cross the plane twice */
+        h = fmin(h, 0.25 * r / v); /* too short to cross the plane twice */
         double error = extrapolate(&s, y, h, next);
         if (!(error < 1e-12) && h > 1e-9) {
             h *= 0.5;
@@ -238,9 +238,9 @@ struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
     double big = w * w - delta * (q + (l - a) * (l - a));
     double angular = q + here * here * (a * a - l * l / ((1 - here) * (1 + here)));
     struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l };
-    p.p_r = sqrt(big) / delta; /* it arrives outwards */
+    p.p_r = sqrt(big) / delta; /* it arrives moving outwards */
     p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
-    /* The coordinate time from r_o to here, less r_o + 2 ln r_o, by the same series. */
+    /* The coordinate time from r_o to here, minus r_o + 2 ln r_o, by the same series. */
     p.delay = -r - 2 * log(r) + (4 + a * a * u * u - 0.5 * pull) * t;
     if (s == 0) { /* on the axis the azimuth is that of the image point, and the traced ray leaves the axis */
         p.p_theta = copysign(p.p_theta, -u);
@@ -303,7 +303,7 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     extrapolate(&w->system, from, t, y);
     const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a,
                  delta = r * r - 2 * r + a * a;
-    /* Traced back it is mirrored; t and phi of ingoing Kerr-Schild coordinates grow with r by 2r/Delta and a/Delta. */
+    /* Traced back it is mirrored; ingoing Kerr-Schild t and phi increase with r by 2r/Delta and a/Delta. */
     const double p_r = ((r * y[0] + a * y[1]) * y[3] + (r * y[1] - a * y[0]) * y[4]) / q + u * y[5];
     struct ks_photon at = *w->photon;
     at.r = r;
@@ -314,7 +314,7 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     w->medium(w->user, &at, r, u, out);
 }
 
-/* From t0 to t1 after a state, by Simpson's rule. */
+/* Integrates from t0 to t1 after a state, by Simpson's rule. */
 static void add_stretch(struct along *w, const double *from, double t0, double t1)
 {
     double a[2], b[2], c[2], h = t1 - t0;
@@ -337,7 +337,7 @@ static double radius_after(const struct along *w, const double *from, double t)
 
 static bool holds(const struct along *w, double r) { return r >= w->inner && r <= w->outer; }
 
-/* The same of what of it lies between the radii, of which no more than one is passed. */
+/* The same for the part between the radii, of which at most one is passed. */
 static void add_inside(struct along *w, const double *from, double t0, double t1)
 {
     bool first = holds(w, radius_after(w, from, t0)), last = holds(w, radius_after(w, from, t1));
@@ -391,7 +391,7 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
 
 struct target { double at[3], f, l[3]; };
 
-/* Azimuths are mirrored, as of the path. */
+/* Azimuths are mirrored, as those of the path. */
 static struct target target_of(double a, double r, double u, double phi)
 {
     const double psi = -phi + atan2(a, r) - twist(a, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
@@ -401,7 +401,7 @@ static struct target target_of(double a, double r, double u, double phi)
                              { (r * x + a * y) / q, (r * y - a * x) / q, u } };
 }
 
-/* Which way it goes there: below 0 towards it. */
+/* Derivative of the distance to the target; negative on approach. */
 static double recedes(const struct system *s, const struct target *c, const double *y)
 {
     state d;
@@ -461,7 +461,7 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
     return n;
 }
 
-/* Where a path is, by distances from the axis and the plane; and its nearest part to each place so far. */
+/* Position of a path by distances from the axis and the plane; and its closest point to each place so far. */
 struct meridian { double x, z; };
 struct nearest {
     state from;
@@ -476,7 +476,7 @@ static struct meridian meridian_after(const struct system *s, const double *from
     return (struct meridian) { r * sqrt((1 - u) * (1 + u)), y[2] };
 }
 
-/* The part of a straight way from a to b at which it is nearest to c, and how near. */
+/* The fraction of the segment from a to b that is closest to c, and the distance. */
 static double part_of(struct meridian a, struct meridian b, struct meridian c, double *off)
 {
     const double dx = b.x - a.x, dz = b.z - a.z, long2 = dx * dx + dz * dz;
@@ -485,8 +485,8 @@ static double part_of(struct meridian a, struct meridian b, struct meridian c, d
     return t;
 }
 
-/* Takes the part of it from `low` to `high` after a state that is nearest to the place, if it is nearer than what
- * was found. */
+/* Finds the closest point to the place between `low` and `high` after a state; stores it if it is closer than the
+ * best so far. */
 static void look(const struct system *s, const double *from, double low, double high, struct meridian place,
                  struct nearest *best)
 {

@@ -1,5 +1,5 @@
-/* An oracle for null geodesics: the Hamiltonian in ingoing Kerr-Schild coordinates, integrated in double precision
- * by Gragg-Bulirsch-Stoer extrapolation to about 1e-12 a step. It shares no equation with what it judges: no Mino
+/* Oracle for null geodesics: the Hamiltonian in ingoing Kerr-Schild coordinates, integrated in double precision by
+ * Gragg-Bulirsch-Stoer extrapolation to about 1e-12 a step. It shares no equation with the code under test: no Mino
  * time, no separation of variables, no elliptic function, no Boyer-Lindquist motion.
  *
  * A ray traced back from an observer is a photon of the mirrored spacetime (t, phi) -> (-t, -phi), in which Kerr
@@ -15,60 +15,59 @@
 struct ks_photon {  /* as it arrives at the observer, covariant Boyer-Lindquist components */
     double a, r, u; /* spin; radius and cos(theta) of the observer */
     double energy, momentum, p_r, p_theta;
-    double phi, delay; /* azimuth and delay already covered, for a start that stands for infinity */
+    double phi, delay; /* azimuth and delay of the path before a start that stands for infinity */
 };
 
 enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };
 
 struct ks_path {
     int crossings;
-    double r[16], phi[16], delay[16]; /* of each crossing of the equatorial plane after the start */
-    double momentum[16];              /* there, about the axis, as it was integrated */
-    bool falls[16];                   /* whether the light comes inwards there: the path, traced back, goes out */
-    double p_z[16]; /* and |p_z| there, by a unit vector normal to the plane: at z = 0, where l_z = 0, the metric's zz
-                       is 1 */
+    double r[16], phi[16], delay[16]; /* at each crossing of the equatorial plane after the start */
+    double momentum[16];              /* integrated angular momentum about the axis there */
+    bool falls[16];                   /* the light moves inwards there; the path, traced back, goes out */
+    /* |p_z| there, by a unit vector normal to the plane: at z = 0, where l_z = 0, the metric's zz component is 1. */
+    double p_z[16];
     enum ks_fate fate;
     double u, sky_phi; /* direction of escape */
 };
 
-/* The photon that reaches (alpha, beta) of an observer at infinity with cos(theta) = u, at r = 1e6. */
+/* The photon that reaches (alpha, beta) of an observer at infinity with cos(theta) = u, started at r = 1e6. */
 struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta);
 
-/* The photon that reaches an observer at (r, theta), at rest (zamo: with zero angular momentum), from the direction k =
- * (k_r, k_theta, k_phi) of its local frame; its energy there is 1. The tetrad is orthonormalised numerically. */
+/* The photon that reaches an observer at (r, theta), at rest (zamo: with zero angular momentum), from the direction
+ * k = (k_r, k_theta, k_phi) of its local frame, with energy 1 there. The tetrad is orthonormalised numerically. */
 struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, const double k[3]);
 
 struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 
-/* What a photon meets at a place: per unit of its affine parameter, light that is added and optical depth. `photon`
- * is the one that arrives, there: its r, u, p_r and p_theta are those of the place, and so is phi, its azimuth less
- * the observer's. */
+/* Medium along a ray: light emitted and optical depth per unit of the affine parameter. `photon` is the arriving one
+ * at that place: r, u, p_r and p_theta are those of the place, and phi is its azimuth minus the observer's. */
 typedef void ks_medium(void *user, const struct ks_photon *photon, double r, double u, double light_and_depth[2]);
 
-/* Light that is emitted and absorbed along the path back in time, between two radii, until it ends or first crosses
- * the equatorial plane. The Hamiltonian's own parameter is affine; a step of it is parted in 16, Simpson's rule in
- * each, and the radii are landed on. */
-struct ks_light { double light, depth, length; }; /* length: of the affine parameter */
+/* Light emitted and absorbed along the path back in time, between two radii, until it ends or first crosses the
+ * equatorial plane. The Hamiltonian's own parameter is affine; each step is divided in 16, with Simpson's rule in
+ * each, and the radii are hit exactly. */
+struct ks_light { double light, depth, length; }; /* length in the affine parameter */
 struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium,
                          void *user);
 
-/* Where the path back in time is nearest to a place (r, cos(theta), azimuth: source minus observer), each time that
- * it comes within so much of it, by these Cartesian coordinates. b: how far it passes, M: the interval, by the
- * metric at the place, from the event there that lies on the same wave front, which all observers measure. delay: as
+/* Closest approaches of the path back in time to a place (r, cos(theta), azimuth: source minus observer), each time
+ * that it comes within `within` of it, by these Cartesian coordinates. b: distance of the approach, M: the interval,
+ * by the metric at the place, from the event there on the same wave front, which is observer-independent. delay: as
  * that of a crossing. */
 struct ks_near { double b, delay; };
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out);
 
-/* The delays of light from places (r, cos(theta)) of the path back in time: of the place of the path that is nearest
- * to each in those two, and how far it passes, M. */
+/* Delays of light from places (r, cos(theta)) of the path back in time: of the closest point of the path in these
+ * two coordinates, and its distance, M. */
 #define KS_MOST_PLACES 512
 void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off);
 
 /* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a
- * place that may lie within the horizon; light that comes from outside left it there through the outer horizon,
- * where all is regular. Azimuths are Boyer-Lindquist, of the source less the place's own in these coordinates, which
- * is the same at infinity. A ray from the horizon in the past counts as captured. Crossings within the horizon
- * count; their phi means nothing. No delays. */
+ * place that may lie within the horizon; light from outside came there through the outer horizon, where all is
+ * regular. Azimuths are Boyer-Lindquist's of the source minus the place's own in these coordinates, which agree at
+ * infinity. A ray from the past horizon counts as captured. Crossings within the horizon count; their phi is
+ * meaningless. No delays. */
 struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings);
 
 #endif

@@ -4,7 +4,7 @@
 
 enum { T, R, THETA, PHI };
 
-/* The inverse metric: t and phi do not mix, and all is finite where Delta vanishes. */
+/* The inverse metric: t and phi do not mix, and all components are finite where Delta vanishes. */
 static void inverse(const struct ks_place *at, double g[4][4])
 {
     double a = at->a, r = at->r, s = sin(at->theta), c = cos(at->theta), sigma = r * r + a * a * c * c;
@@ -48,7 +48,7 @@ static void scale(double p[4], double by)
         p[i] *= by;
 }
 
-/* The covector of d/dphi, by the line element. */
+/* The covector of d/dphi, from the line element. */
 static void turning(const struct ks_place *at, double p[4])
 {
     double a = at->a, r = at->r, s2 = sin(at->theta) * sin(at->theta), sigma = r * r + a * a * (1 - s2),
@@ -56,7 +56,7 @@ static void turning(const struct ks_place *at, double p[4])
     p[T] = -f * a * s2, p[R] = -a * s2 * (1 + f), p[THETA] = 0, p[PHI] = s2 * (r * r + a * a + f * a * a * s2);
 }
 
-/* e_phi along d/dphi, e_theta along dtheta, e_r as given made orthogonal to e_t and e_phi. */
+/* Completes a frame: e_phi along d/dphi, e_theta along dtheta, e_r as given, made orthogonal to e_t and e_phi. */
 static void complete(const struct ks_place *at, struct ks_frame *f)
 {
     turning(at, f->e[PHI]);
@@ -86,7 +86,8 @@ struct ks_frame ks_rain(const struct ks_place *at)
     return f;
 }
 
-/* x -> x + (u + w).x (u + w)/(1 - u.w) - 2 (w.x) u takes the four-velocity w to u, and turns nothing across both. */
+/* x -> x + (u + w).x (u + w)/(1 - u.w) - 2 (w.x) u maps the four-velocity w to u, and does not rotate the directions
+ * perpendicular to both. */
 struct ks_frame ks_boost(const struct ks_place *at, const struct ks_frame *from, const double u[4])
 {
     struct ks_frame f = *from;

@@ -1,32 +1,30 @@
-/* Observers' frames in ingoing Kerr-Schild coordinates (t, r, theta, phi), which know no outer horizon:
+/* Observers' frames in ingoing Kerr-Schild coordinates (t, r, theta, phi), which are regular at the outer horizon:
  *   ds^2 = -dt^2 + dr^2 + Sigma dtheta^2 + (r^2 + a^2) sin^2 dphi^2 - 2a sin^2 dr dphi + (2r/Sigma) (dt + dr - a
  *     sin^2 dphi)^2.
- * All is contraction with the inverse of that metric. Shares no formula with src/physics: no tetrad in closed form,
- * no Boyer-Lindquist coordinates, no addition of components of a boost. Double precision. */
+ * All is computed by contraction with the inverse of that metric. It shares no formula with src/physics: no tetrad
+ * in closed form, no Boyer-Lindquist coordinates, no component formula of a boost. Double precision. */
 #ifndef KD_TESTS_KERR_SCHILD_FRAME_H
 #define KD_TESTS_KERR_SCHILD_FRAME_H
 
 struct ks_place { double a, r, theta; };
 
-/* Four covectors, legs along t, r, theta, phi, of components p_t, p_r, p_theta, p_phi. */
+/* Four covectors, the legs along t, r, theta, phi, with components p_t, p_r, p_theta, p_phi. */
 struct ks_frame { double e[4][4]; };
 
 double ks_product(const struct ks_place *at, const double p[4], const double q[4]);
 
-/* The covector of a body, mass 1, or of light, mass 0, with this E, L and p_theta that goes inwards, as one who
- * falls through the horizon does. */
+/* The covector of a body, mass 1, or of light, mass 0, with this E, L and p_theta that moves inwards, as a body does
+ * that falls through the horizon. */
 void ks_inwards(const struct ks_place *at, double mass, double energy, double momentum, double p_theta, double p[4]);
 
-/* Outside the horizon: zero angular momentum. Anywhere: rain, from rest at infinity. */
+/* Frames of zero angular momentum, outside the horizon; and of rain, from rest at infinity, anywhere. */
 struct ks_frame ks_zamo(const struct ks_place *at);
 struct ks_frame ks_rain(const struct ks_place *at);
 
-/* The frame of one with the four-velocity u (a covector) whose legs are those of `from` by the boost that leads from
- * its velocity to u. */
+/* The frame with four-velocity u (a covector) whose legs are those of `from`, boosted from its velocity to u. */
 struct ks_frame ks_boost(const struct ks_place *at, const struct ks_frame *from, const double u[4]);
 
-/* The photon that is seen, with energy 1, in the direction k = (k_r, k_theta, k_phi) of the frame, towards which one
- * looks. */
+/* The photon seen, with energy 1, in the viewing direction k = (k_r, k_theta, k_phi) of the frame. */
 void ks_seen(const struct ks_frame *f, const double k[3], double p[4]);
 
 /* E, L, p_theta and Sigma dr/dlambda of a covector. */

@@ -30,7 +30,7 @@ static double product(double g[4][4], const double *p, const double *q)
     return sum;
 }
 
-/* By Gauss and Jordan's elimination: g w = v. */
+/* Gauss-Jordan elimination: g w = v. */
 static void solve(double g[4][4], const double *v, double *w)
 {
     double m[4][5];
@@ -108,7 +108,7 @@ static void step(double a, struct state *s, double h)
         add(s, &d[i], h * (i == 0 || i == 3 ? 1. / 6 : 1. / 3));
 }
 
-/* The vector of light from `from` that has the spatial components n: g kk = 0, with k^t > 0. */
+/* The light-like vector with the spatial components n: g kk = 0, with k^t > 0. */
 static void light_like(double a, const double *x, const double n[3], double k[4])
 {
     double g[4][4], half = 0, rest = 0;
@@ -133,8 +133,8 @@ struct ks_screen ks_screen_far(double a, double theta, double alpha, double beta
     return o;
 }
 
-/* A covector of (t, r, theta, phi) as a vector of (t, x, y, z), at azimuth 0 of the spherical coordinates: x + i y =
- * (r + i a) sin(theta). */
+/* Converts a covector of (t, r, theta, phi) to a vector of (t, x, y, z), at azimuth 0: x + i y = (r + i a)
+ * sin(theta). */
 static void to_cartesian(const struct ks_place *at, const double *x, const double p[4], double out[4])
 {
     const double s = sin(at->theta), c = cos(at->theta), a = at->a, r = at->r;
@@ -174,7 +174,7 @@ struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame
     return o;
 }
 
-/* Takes from v its parts along the vectors before it, which are orthogonal to one another. */
+/* Removes from v its components along the preceding vectors, which are orthogonal. */
 static void across(double g[4][4], double v[4], double (*before)[4], int n)
 {
     for (int k = 0; k < n; k++) {
@@ -184,7 +184,7 @@ static void across(double g[4][4], double v[4], double (*before)[4], int n)
     }
 }
 
-/* The squared length of a step d/dt + omega d/dphi, on the circle of the plane with this radius. */
+/* Squared length of d/dt + omega d/dphi on the circle of this radius in the plane. */
 static double line(double a, double r, double omega)
 {
     double g[4][4], x[4] = { 0, sqrt(r * r + a * a), 0, 0 }, v[4] = { 1, 0, omega * x[1], 0 };
@@ -192,7 +192,7 @@ static double line(double a, double r, double omega)
     return product(g, v, v);
 }
 
-/* Where it pulls neither in nor out. */
+/* Angular velocity of the circular geodesic, where its radial derivative vanishes. */
 static double omega_of(double a, double r)
 {
     double low = 0, high = 1 / r, h = 1e-3 * r;
@@ -204,7 +204,7 @@ static double omega_of(double a, double r)
     return 0.5 * (low + high);
 }
 
-/* The velocity of the gas at x: on the circle; within the ISCO with its E and L there, inwards. */
+/* Velocity of the gas at x: circular; within the ISCO with the ISCO's E and L, inwards. */
 static void gas(double a, const double *x, double r_isco, double u[4])
 {
     double r = radius(a, x), turn[4] = { 0, -x[2], x[1], 0 }, g[4][4], t[4] = { 1, 0, 0, 0 };
@@ -220,7 +220,7 @@ static void gas(double a, const double *x, double r_isco, double u[4])
                         round[4] = { 0, 0, y[1], 0 };
     metric(a, y, there);
     const double want[2] = { product(there, v, t), product(there, v, round) };
-    /* u = c t + d turn + e out, whose products with t and turn are those; e by the length. */
+    /* u = c t + d turn + e out; c and d from its products with t and turn, e from its length. */
     double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
     memcpy(basis[0], t, sizeof t);
     memcpy(basis[1], turn, sizeof turn);
@@ -255,7 +255,7 @@ static void judge(const struct state *s, double a, enum ks_field field, double r
         memcpy(b, normal, sizeof b);
     else if (field == KS_TOROIDAL)
         memcpy(b, turn, sizeof b);
-    else { /* outwards, orthogonal to both motions that change nothing */
+    else { /* outwards, orthogonal to both Killing vectors */
         double both[2][4], out[4] = { 0, s->x[1], s->x[2], 0 };
         memcpy(both[0], t, sizeof t);
         memcpy(both[1], turn, sizeof turn);
@@ -265,7 +265,7 @@ static void judge(const struct state *s, double a, enum ks_field field, double r
     }
     memcpy(before[2], b, sizeof b);
     across(g, before[2], before, 2);
-    /* What is left of any vector that is not in their span; of four the longest. */
+    /* The component of any vector outside their span; the longest of four. */
     double most = 0;
     for (int n = 0; n < 4; n++) {
         double v[4] = { 0 };
@@ -304,7 +304,7 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
             continue;
         if (crossed++ < order)
             continue;
-        for (int i = 0; i < 50; i++) { /* lands on the plane */
+        for (int i = 0; i < 50; i++) { /* steps onto the plane */
             double part = last.x[3] / last.v[0][3];
             if (fabs(last.x[3]) < 1e-13)
                 break;
@@ -326,7 +326,7 @@ double ks_carried_product(const struct ks_carried *at, const double p[4], const 
     return sum;
 }
 
-/* Ingoing: t + 2 r/Delta dr, phi + a/Delta dr; and x + i y = (r + i a) sin(theta) exp(i phi). */
+/* Ingoing coordinates: t + 2 r/Delta dr, phi + a/Delta dr; and x + i y = (r + i a) sin(theta) exp(i phi). */
 void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4])
 {
     const double a = at->a, r = at->r, delta = r * r - 2 * r + a * a, c = at->x[3] / r, s = sqrt(1 - c * c),
@@ -350,7 +350,7 @@ static void tell(const struct state *s, double a, double h, ks_told *told, void 
     told(user, &at);
 }
 
-/* The part of a pair of steps after which the ray is at this radius, which it passes in between. */
+/* The fraction of a pair of steps after which the ray is at this radius, which it passes within the pair. */
 static double landing(const struct state *s, double a, double h, double r)
 {
     const bool inwards = radius(a, s->x) > r;

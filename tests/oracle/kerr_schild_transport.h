@@ -1,7 +1,7 @@
-/* An oracle for the direction of polarisation: vectors carried parallel to themselves along a ray, in Cartesian
- * ingoing Kerr-Schild coordinates g = eta + f l l, whose derivatives are differences of the metric. No constant of
- * motion, no separation, no tetrad in closed form; the direction at the source by projections alone. Runge and
- * Kutta's method in double precision, about 1e-7. */
+/* Oracle for the direction of polarisation: vectors transported parallelly along a ray, in Cartesian ingoing
+ * Kerr-Schild coordinates g = eta + f l l, with derivatives from differences of the metric. It uses no constant of
+ * motion, no separation and no tetrad in closed form; the direction at the source comes from projections only.
+ * Runge-Kutta in double precision, accurate to about 1e-7. */
 #ifndef KD_TESTS_KERR_SCHILD_TRANSPORT_H
 #define KD_TESTS_KERR_SCHILD_TRANSPORT_H
 
@@ -9,41 +9,42 @@
 
 #include <stdbool.h>
 
-/* A ray at the observer: place (t, x, y, z), wave vector of the arriving light, and the unit vectors to the right
- * and up across it. */
+/* A ray at the observer: place (t, x, y, z), wave vector of the arriving light, and unit vectors to the right and
+ * up, perpendicular to it. */
 struct ks_screen { double a, x[4], k[4], right[4], up[4]; };
 
-/* Those of the ray (alpha, beta) of an observer at infinity, at r = 1e6. */
+/* The screen of the ray (alpha, beta) for an observer at infinity, placed at r = 1e6. */
 struct ks_screen ks_screen_far(double a, double theta, double alpha, double beta);
-/* Those of the direction look, of a camera whose upwards is up, both (r, theta, phi) in a frame there. */
+/* The screen for the direction `look` of a camera whose upward direction is `up`, both (r, theta, phi) in a local
+ * frame. */
 struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame *frame, const double look[3],
                                 const double up[3]);
 
 enum ks_field { KS_TOROIDAL, KS_RADIAL, KS_VERTICAL };
 
-/* The light's ray crossed the plane at this radius; angle: of its electric field there, across the field in the
- * frame of the gas that goes round on a circle, or falls from the ISCO at r_isco, seen from the observer: from `up`,
- * towards the left, in (-pi/2, pi/2]; cosine: |cos| of the angle of the light to the normal, in that frame; g:
- * frequency there over that at the observer, inverted. */
+/* Where the ray crossed the plane. angle: of the electric field, perpendicular to the magnetic field in the frame of
+ * gas on a circle, or falling from the ISCO at r_isco, as the observer sees it: from `up` towards the left, in
+ * (-pi/2, pi/2]; cosine: |cos| of the light's angle to the normal in that frame; g: frequency there over that at the
+ * observer, inverted. */
 struct ks_polarized {
     bool there, falls;
     double r, angle, cosine, g;
 };
 
-/* At the crossing of the order `order`, going back in time. */
+/* At the crossing of this order, going back in time. */
 struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, enum ks_field field, double r_isco);
 
-/* A place of a ray that goes back in time from the screen, by the Cartesian coordinates; k: of the light, affine, by
- * the energy that the screen measures; right and up as carried there. step: of the affine parameter to the next one
- * that is told, 0 at the last. */
+/* A place on a ray going back in time from the screen, in Cartesian coordinates; k: of the light, affine, divided by
+ * the energy that the screen measures; right and up, transported there. step: of the affine parameter to the next
+ * reported place, 0 at the last. */
 struct ks_carried { double a, r, x[4], k[4], right[4], up[4], g[4][4], step; };
 typedef void ks_told(void *user, const struct ks_carried *at);
 
-/* Tells the places of the ray from where it comes within outer to where it leaves the shell inner < r < outer; pairs
- * of steps are of one length. fine: steps as parts of r. */
+/* Reports the places of the ray from where it enters `outer` to where it leaves the shell inner < r < outer; the
+ * steps of a pair are of equal length. fine: step over r. */
 void ks_carry(const struct ks_screen *screen, double inner, double outer, double fine, ks_told *told, void *user);
-/* Gives a vector of Boyer and Lindquist's coordinates (t, r, theta, phi), whose components do not depend on phi, at
- * that place. */
+/* Converts a vector in Boyer-Lindquist coordinates (t, r, theta, phi), with components independent of phi, to this
+ * place. */
 void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4]);
 double ks_carried_product(const struct ks_carried *at, const double p[4], const double q[4]);
 

@@ -1,8 +1,8 @@
-/* An oracle for line profiles: a ray of its own for each place of the disk's image, where the profile has a table
- * that it interpolates; triangles over which g is linear and light is even, where the profile has cells with
- * moments; and two such sums, of which what they tend to is taken. g is written out (Bardeen, Press & Teukolsky
- * 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays themselves are judged by tests/oracle/kerr_schild.h. The cumulative
- * share is good to about a tenth of `apart`: 1e-5 to 1e-4 with 1024 directions. */
+/* Oracle for line profiles. It traces a ray for each place of the disk's image, where the profile interpolates a
+ * table; uses triangles with linear g and uniform light, where the profile has cells with moments; and extrapolates
+ * from two such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays
+ * themselves are tested by tests/oracle/kerr_schild.h. The cumulative share is accurate to about a tenth of `apart`:
+ * 1e-5 to 1e-4 with 1024 directions. */
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
 
@@ -38,7 +38,7 @@ static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const stru
     double low = fmin(fmin(a->g, b->g), c->g), high = fmax(fmax(a->g, b->g), c->g),
            g[3] = { low, fmin(fmax(a->g + b->g + c->g - low - high, low), high), high };
     int first = 0, last = s->bins - 1;
-    while (first < last) { /* the bin that the least g is in */
+    while (first < last) { /* the bin of the smallest g */
         int middle = (first + last + 1) / 2;
         *(s->edges[middle] <= low ? &first : &last) = s->edges[middle] <= low ? middle : middle - 1;
     }
@@ -51,7 +51,7 @@ static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const stru
     s->total += light;
 }
 
-/* What a line's gas sends out, as the profile is asked for it; mu is the cosine off the disk's normal. */
+/* The emission law of the line, with the profile's parameters; mu is the cosine to the disk's normal. */
 struct lt_law {
     double inner, outer;
     double (*light)(const void *user, double r, double g, double mu);
@@ -65,8 +65,8 @@ static inline double lt_cosine(const struct kd_disk_image *image, const struct l
     return fmin(1, p->g * sqrt(fmax(eta, 0)) / r);
 }
 
-/* cumulative[i]: of photons below edges[i + 1], edges grow, of a line of that law; n directions, m rings, both even.
- * Returns by how much the two sums differ, the most of all edges; less than 0: a place was not found. */
+/* cumulative[i]: fraction of photons below edges[i + 1], ascending edges, for a line of this law; n directions, m
+ * rings, both even. Returns the largest difference of the two sums over all edges; negative: a place was not found. */
 static inline double lt_profile_of(const struct kd_disk_image *image, const struct lt_law *law, int n, int m,
                                    const double *edges, int bins, double *cumulative)
 {
@@ -99,7 +99,7 @@ static inline double lt_profile_of(const struct kd_disk_image *image, const stru
     double fine = 0, rough = 0;
     for (int i = 0; i < bins && apart >= 0; i++) {
         fine += sums[0].in[i] / sums[0].total, rough += sums[1].in[i] / sums[1].total;
-        cumulative[i] = fine + (fine - rough) / 3; /* both err with the square of their steps */
+        cumulative[i] = fine + (fine - rough) / 3; /* both err as the square of their steps */
         apart = fmax(apart, fabs(fine - rough));
     }
     free(at);
@@ -113,7 +113,7 @@ static inline double lt_power(const void *user, double r, double g, double mu)
     return g * g * g * pow(r, -*(const double *)user);
 }
 
-/* The same of a line r^-index from the ISCO to `outer`. */
+/* The same for a line r^-index from the ISCO to `outer`. */
 static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m,
                                 const double *edges, int bins, double *cumulative)
 {

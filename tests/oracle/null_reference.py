@@ -163,7 +163,7 @@ RAYS = [  # spin, inclination, radius, alpha, beta, outward
     (0.0, 90, INF, 5.25, 0.125, 0),
     (0.0, 135, INF, 4.0, 5.0, 0),
     (0.0, 180, INF, 0.0, 5.5, 0),
-    # turning on by degrees: 1e-9, 1e-4, both signs
+    # a small spin: 1e-9, 1e-4, both signs
     (1e-9, 45, INF, 5.0, -2.5, 0),
     (-1e-9, 45, INF, 5.0, -2.5, 0),
     (1e-4, 70, INF, -5.2, 0.25, 0),
@@ -261,7 +261,7 @@ RAYS = [  # spin, inclination, radius, alpha, beta, outward
 
 
 def critical(a, i, r, distance):
-    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), the more distant from the middle by a
+    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), moved away from the centre by a
     fraction."""
     a, r, u = mpf(a), mpf(r), cosine(i)
     s, delta = sqrt(1 - u * u), r * r - 2 * r + a * a

@@ -71,7 +71,7 @@ static number slope(const number *c, number h)
     return sum;
 }
 
-/* The place in (0, h) where the series is `level`, between whose ends it changes sides. */
+/* Root of series = level in (0, h), which the ends bracket. */
 static number root(const number *c, number level, number h)
 {
     number low = 0, high = h, side = value(c, h) - level, x = 0.5L * h;
@@ -90,7 +90,7 @@ static number root(const number *c, number level, number h)
     return x;
 }
 
-/* The radius of convergence, by the last coefficients; that of chi unless the ray is falling in, where azimuths end. */
+/* Radius of convergence from the last coefficients; including chi unless the ray is falling in, where azimuths end. */
 static number radius_of(const struct series *s, bool with_chi)
 {
     number least = INFINITY;
@@ -108,7 +108,7 @@ static number radius_of(const struct series *s, bool with_chi)
     return least;
 }
 
-/* The angle that n turns about the axis in a step. */
+/* The angle by which n turns about the axis in a step. */
 static number turned(const struct series *s, number h)
 {
     number x0 = s->n[0][0], y0 = s->n[1][0], x1 = value(s->n[0], h), y1 = value(s->n[1], h);

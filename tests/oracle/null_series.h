@@ -1,15 +1,15 @@
 /* Null geodesics of Kerr by Taylor series in extended precision (long double: 64 bits of significand on x86, 113 on
- * aarch64): where rays cross the equatorial plane, known to 1e-3 of what double precision can tell, some tenths of a
+ * aarch64): crossings of the equatorial plane, to 1e-3 of the resolution of double precision, some tenths of a
  * millisecond each.
  *
- * Neither elliptic functions nor steps of a fixed order: the equations in Mino time of
+ * It uses neither elliptic functions nor steps of a fixed order, but the equations in Mino time of
  * tests/oracle/null_reference.py,
  *
  *     w'' = A w + 3K w^2 + 2C w^3        n'' = a^2 n_z z - (eta + lambda^2 + 2 a^2 n_z^2) n        chi' = a (2r - a
  *                                        lambda)/Delta
  *
- * w = 1/r and n the unit vector of the direction, which do not single out turning points or the axis. Labels as in
- * physics/null/null_geodesic.h; azimuths source minus observer. Pure; any thread. */
+ * for w = 1/r and n, the unit vector of the direction, for which turning points and the axis are not special. Labels
+ * as in physics/null/null_geodesic.h; azimuths source minus observer. Pure; any thread. */
 #ifndef KD_TESTS_NULL_SERIES_H
 #define KD_TESTS_NULL_SERIES_H
 
@@ -27,13 +27,13 @@ struct series_ray {
 enum series_fate { SERIES_CAPTURED, SERIES_ESCAPED, SERIES_LOST };
 
 struct series_path {
-    enum series_fate fate; /* LOST: a ray that winds for ever */
+    enum series_fate fate; /* LOST: the ray winds for ever */
     int crossings;
     long double r[SERIES_CROSSINGS], phi[SERIES_CROSSINGS];
     long double u, sky_phi; /* of the direction of escape */
 };
 
-/* The cosine and the sine of a number of degrees, each with all its digits. */
+/* Cosine and sine of an angle in degrees, each with full precision. */
 void series_angle(double degrees, long double *cosine, long double *sine);
 
 struct series_path series_trace(const struct series_ray *ray, int orders);

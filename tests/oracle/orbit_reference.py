@@ -59,7 +59,7 @@ def constants(a, p, e, x):
         value, slope = radial(a, energy, x * l_x, carter(a, energy, l_x, x))
         return [value(r1) / r1**3, value(r2) / r2**3 if e else slope(r1) / r1**2]
 
-    # from the orbit of Schwarzschild, by degrees of spin
+    # from the orbit of Schwarzschild, increasing the spin in steps
     energy, l_x = (
         sqrt(((p - 2) ** 2 - 4 * e * e) / (p * (p - 3 - e * e))) if p > 3 + e * e else mpf(1),
         p / sqrt(abs(p - 3 - e * e)),
@@ -124,7 +124,7 @@ def integral(f, end, i, start=0):
 
 
 def phase_at(f, mino, half):
-    """Where the integral of the first is `mino`: whole half turns, then Newton's method."""
+    """The radial phase where the first integral is `mino`: whole half turns, then Newton's method."""
     turns = mp.floor(mino / half)
     rest, x = mino - turns * half, (mino / half) * pi
     for _ in range(60):

@@ -114,7 +114,7 @@ def advance(a, m, omega, lam, at, to, y, dy, terms):
 
 
 def horizon(a, m, omega, lam, outer, gap, to, terms):
-    """Frobenius's series with the exponent of the ingoing wave; the power itself is left out of y, not of dy/y."""
+    """Frobenius's series with the exponent of the ingoing wave; the power itself is left out of y, but not of dy/y."""
     p2, p1, p0 = polynomials(a, m, omega, lam, outer)
     p2, p1 = p2[2:], p1[1:]  # Delta^2 ~ x^2, p1 ~ x: exact zeros
     rho = -S - 1j * ((outer**2 + a * a) * omega - a * m) / gap
@@ -164,7 +164,7 @@ def wronskian(a, m, omega, lam, far, terms):
     gap = 2 * (sqrt if isinstance(omega, mpc) else cmath.sqrt)((1 - a) * (1 + a))
     outer, r = 1 + gap / 2, far
     y, dy = infinity(a, m, omega, lam, r, 3 * terms)
-    # not straight there: near r+ the waves keep their size on the real axis alone
+    # not straight there: near r+ the waves keep their size only on the real axis
     for goal in (10 + 0 * r, outer + gap / 4 + 0 * r):
         while r != goal:
             room = 0.5 * min(abs(r - outer), abs(r - outer + gap))

@@ -1,5 +1,6 @@
-/* Coefficients of polarised synchrotron light in CGS, as papers have them: of I, Q (along the electric field across
- * the magnetic one) and V; s and c: sine and cosine of the angle to the field, turn: the gyrofrequency. */
+/* Coefficients of polarised synchrotron light in CGS, as in the papers: of I, Q (along the electric field,
+ * perpendicular to the magnetic one) and V; s and c: sine and cosine of the angle to the field, turn: the
+ * gyrofrequency. */
 #ifndef KD_TEST_SYNCHROTRON_CGS_H
 #define KD_TEST_SYNCHROTRON_CGS_H
 
@@ -7,7 +8,7 @@
 
 #include <math.h>
 
-/* K_n(x) exp(x), by the trapezium rule, which is exact for what falls as quickly. */
+/* K_n(x) exp(x), by the trapezoidal rule, which converges exponentially for such decay. */
 static inline double bessel(double n, double x)
 {
     enum { POINTS = 200 };
@@ -55,7 +56,7 @@ static inline struct coefficients thermal(double n, double theta, double turn, d
     return o;
 }
 
-/* rho_V of L. Huang & R. V. Shcherbakov 2011, as Dexter 2016 has it: B14 and B15. */
+/* rho_V of L. Huang & R. V. Shcherbakov 2011, as given by Dexter 2016: B14 and B15. */
 static inline double rotation_of_dexter(double n, double theta, double turn, double s, double c, double nu)
 {
     const double omega = 2 * M_PI * turn, plasma = 4 * M_PI * n * E2 / ME, w = 2 * M_PI * nu,
@@ -86,7 +87,7 @@ static inline struct coefficients power_law(double p, double least, double most,
     return o;
 }
 
-/* Rotativities of A. Marszewski et al. 2021 (ApJ 921, 17) for their kappas. */
+/* Rotativities of A. Marszewski et al. 2021 (ApJ 921, 17) for the kappas of that paper. */
 static inline void marszewski(double kappa, double w, double x, double rho[2])
 {
     const double r = sqrt(w), e = r * exp(-5 * w);
@@ -109,11 +110,11 @@ static inline void marszewski(double kappa, double w, double x, double rho[2])
     rho[1] *= bessel(0, 1 / w) / bessel(2, 1 / w);
 }
 
-/* Two laws joined. */
+/* Joins two laws. */
 static inline double least_of(double low, double high, double s) { return pow(pow(low, -s) + pow(high, -s), -1 / s); }
 
-/* Pandya et al. 2016, equations 35 to 44, the hypergeometric function by Euler's integral in ln t; between kappas of
- * Marszewski's by the way to each. */
+/* Pandya et al. 2016, equations 35 to 44, with the hypergeometric function by Euler's integral in ln t; linear
+ * between the kappas of Marszewski. */
 static inline struct coefficients kappa_law(double kappa, double n, double theta, double turn, double s, double c,
                                             double nu)
 {

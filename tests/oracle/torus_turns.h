@@ -1,12 +1,12 @@
-/* How matter of a torus goes round: in equilibrium with u^t u_phi = l everywhere (L. G. Fishbone & V. Moncrief 1976,
- * ApJ 207, 962). */
+/* Rotation of a torus in equilibrium with u^t u_phi = l everywhere (L. G. Fishbone & V. Moncrief 1976, ApJ 207,
+ * 962). */
 #ifndef KD_TEST_TORUS_TURNS_H
 #define KD_TEST_TORUS_TURNS_H
 
 #include <math.h>
 
-/* Finds by bisection the angular velocity at which u^t u_phi = l, of g_tt, g_tphi and g_phiphi; gives u there, and
- * ln h = ln u^t - l Omega but for a constant. */
+/* Finds by bisection the angular velocity with u^t u_phi = l, from g_tt, g_tphi and g_phiphi; gives u, and ln h = ln
+ * u^t - l Omega up to a constant. */
 static inline double torus_turns(double tt, double tp, double pp, double l, double out[4])
 {
     const double omega = -tp / pp, reach = sqrt(tp * tp - tt * pp) / pp;

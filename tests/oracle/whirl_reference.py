@@ -30,7 +30,7 @@ def slope(c, w):
 
 
 def whirl(a, energy):
-    """w and L of the unstable circle, from the marginally bound one by degrees of E."""
+    """w and L of the unstable circle, from the marginally bound one by small steps of E."""
     r = 2 - a + 2 * sqrt(1 - a)
     w, l = 1 / r, 2 * (1 + sqrt(1 - a))
     for k in range(1, 21):
@@ -40,14 +40,14 @@ def whirl(a, energy):
 
 
 def rates(a, energy, l, w):
-    """These are of Mino time, proper time, t, phi."""
+    """The integrands of Mino time, proper time, t, phi."""
     r = 1 / w
     delta, past = r * r - 2 * r + a * a, energy * (r * r + a * a) - a * l
     return 1, r * r, (r * r + a * a) * past / delta + a * (l - a * energy), l - a * energy + a * past / delta
 
 
 def crowded(low, high, at):
-    """Nodes between low and high that crowd towards `at`."""
+    """Nodes between low and high, denser towards `at`."""
     steps = [at + side * mpf(10) ** -k for side in (1, -1) for k in range(1, 9)]
     return sorted({low, high, *[x for x in steps if low < x < high], *([at] if low < at < high else [])})
 

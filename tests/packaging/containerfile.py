@@ -14,8 +14,8 @@ TEXT = (SOURCE / "packaging/Containerfile").read_text()
 
 class Containerfile(unittest.TestCase):
     def test_what_is_built_here_stays_out(self):
-        """`COPY .` takes all that the file of ignored names leaves. podman reads either name of it, docker this one
-        alone."""
+        """`COPY .` takes everything that the file of ignored names does not exclude. podman reads either name of
+        that file, docker only this one."""
         self.assertFalse((SOURCE / ".containerignore").exists(), "podman would read it in the place of .dockerignore")
         patterns = (SOURCE / ".dockerignore").read_text().split()
         for name in ("build", "build-asan", "build-package", "venv", "venv-jupyter", ".git"):
@@ -50,7 +50,7 @@ class Containerfile(unittest.TestCase):
         )
 
     def test_of_itself_it_serves_nobody_else(self):
-        """What opens it stands in the command that a person gives, and in the documented one."""
+        """What makes it reachable is in the command that a person types, and in the documented one."""
         commands = re.findall(r"^CMD (.*)$", TEXT, re.M)
         self.assertEqual(commands[0], '["serve"]')
         documented = re.findall(
@@ -70,7 +70,7 @@ class Containerfile(unittest.TestCase):
         self.assertLessEqual({"distributed", "dask", "zarr", "numpy", "httpx", "pillow"}, names)
 
     def test_no_address_is_invalid(self):
-        """Of those that people may write to: no domain that is kept for examples (RFC 2606)."""
+        """Of the addresses given for contact: no domain that is reserved for examples (RFC 2606)."""
         for name in (
             "packaging/debian/control",
             "packaging/debian/changelog",
@@ -87,8 +87,8 @@ class Containerfile(unittest.TestCase):
         "libraries have the names of Debian 12 there",
     )
     def test_it_has_the_libraries_of_the_program_and_no_others(self):
-        """Those that the program itself names, by package, against those that the stage `server` installs; what they
-        need in turn apt knows."""
+        """The libraries that the program itself is linked with, by package, against those that the stage `server`
+        installs; apt adds what these need."""
         needed = re.findall(
             r"NEEDED.*\[(.+)\]",
             subprocess.run(["readelf", "-d", KERRD], capture_output=True, text=True, check=True).stdout,

@@ -82,8 +82,8 @@ class Installed(unittest.TestCase):
         self.assertEqual({folder + name for name in documents} - self.names, set())
 
     def test_licences_of_what_it_has_inside(self):
-        """Each that lies in the tree is installed as it is, and Debian's copyright file has its folder, its holders and
-        the first words of its text."""
+        """Each licence in the tree is installed unchanged, and Debian's copyright file has its folder, its holders
+        and the first words of its text."""
         stanzas = (SOURCE / "packaging/debian/copyright").read_text().split("\n\n")
         found = [
             path
@@ -118,7 +118,7 @@ class Installed(unittest.TestCase):
 
     def test_nothing_names_the_folder_it_was_built_in(self):
         def named(folder):
-            """/usr/bin/kerrd does not name a folder /kerrd, and neither does an address that ends so."""
+            """/usr/bin/kerrd does not count as naming a folder /kerrd, and neither does an address that ends so."""
             end = rb"(?![\w-])" if len(folder.parts) > 2 else rb"/(src|build)\b"
             return re.compile(rb"(?<![\w/.])" + re.escape(bytes(folder)) + end)
 

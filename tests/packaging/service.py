@@ -34,7 +34,7 @@ class Unit(unittest.TestCase):
             )
 
     def test_systemd_takes_it(self):
-        """With the program of this build in the place of the installed one, which need not be there."""
+        """With the program of this build instead of the installed one, which may be missing."""
         text = re.sub(r"^ExecStart=\S+", f"ExecStart={KERRD}", UNIT.read_text(), flags=re.M)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "kerrd.service")

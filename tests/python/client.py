@@ -40,7 +40,7 @@ SIZE = {"width": 48, "height": 27}
 
 
 def raw(url, method, path, document=None, accept="*/*"):
-    """An answer's status, headers and bytes, without the client."""
+    """An answer's status, headers and bytes, read without the client."""
     connection = http.client.HTTPConnection(httpx.URL(url).host, httpx.URL(url).port, timeout=120)
     try:
         connection.request(
@@ -71,8 +71,8 @@ class Case(unittest.TestCase):
 
 
 class Said(Case):
-    """Values of numpy and dataclasses wherever a document may have them, and words for what is wrong before anything is
-    sent."""
+    """Values of numpy and dataclasses are accepted wherever a document may have them, and errors are explained
+    before anything is sent."""
 
     def test_numbers_of_numpy(self):
         at = self.hole.pixel(np.int64(3), np.float32(4), {"image": SIZE})
@@ -251,7 +251,7 @@ class Blocking(Case):
         self.assertIn("gargantua", [preset["name"] for preset in self.hole.presets()])
 
     def test_a_scene_beside_an_observation(self):
-        """By a file, its bytes, and the hash that it has at the server."""
+        """Given as a file, as its bytes, and by the hash that it has at the server."""
         file = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.uvfits"
         options = {"preset": "m87", "pixels": 32, "average_s": 600, "check": "none", "flux_jy": 0.6}
         told = self.hole.compare(file, **options)
@@ -314,7 +314,7 @@ class Blocking(Case):
 
 
 class Saved(Case):
-    """A file keeps its scene, and its name is not that of another format."""
+    """A saved file contains its scene, and its name must not end as another format's."""
 
     def scene_in(self, path):
         return json.loads(
@@ -424,8 +424,8 @@ class Saved(Case):
         self.assertEqual(notes, sweep.notes)
 
     def test_an_image_for_ehtim(self):
-        """In place of ehtim, which is not installed here, what it would be given; tests/cli/ehtim_reads.py has ehtim
-        itself. The scale is that which the FITS file of the same picture tells."""
+        """Tests what ehtim, which is not installed here, would be given; tests/cli/ehtim_reads.py uses ehtim itself.
+        The scale equals that in the FITS file of the same picture."""
         given = {}
 
         class Image:
@@ -477,7 +477,7 @@ class Saved(Case):
             self.assertTrue(np.allclose(given[name], ratio * frame.layers["stokes_" + name], rtol=1e-6))
 
     def test_a_field_in_microarcseconds(self):
-        """What is changed last holds, over a scene that was told whole, too."""
+        """What is changed last holds, also over a scene that was given completely."""
         told = self.hole.render({"camera": {"field_uas": 40}}, size=(16, 9)).scene
         self.assertEqual(told["camera"]["field_uas"], 40)
         again = self.hole.render(told, spacetime={"mass_msun": 2e8}).scene["camera"]
@@ -510,7 +510,7 @@ class Saved(Case):
 
 
 class Typed(Case):
-    """Answers have the keys that their types name."""
+    """Answers have the keys that their types declare."""
 
     def held(self, answer, kind):
         needed = {
@@ -575,7 +575,7 @@ class Async(Case):
 
 
 class Busy(http.server.BaseHTTPRequestHandler):
-    """Is busy twice, then answers."""
+    """Answers twice that it is busy, then normally."""
 
     asked = 0
 
@@ -595,7 +595,7 @@ class Busy(http.server.BaseHTTPRequestHandler):
 
 
 class Stranger(http.server.BaseHTTPRequestHandler):
-    """Another program: a page for each path, or that there is none."""
+    """Another program: it has a page for each path, or answers that there is none."""
 
     def answer(self):
         self.rfile.read(int(self.headers.get("Content-Length", 0)))
@@ -639,7 +639,7 @@ class Loses(http.server.BaseHTTPRequestHandler):
 
 
 class Broken(Case):
-    """What a connection that broke may have carried is sent again where that makes nothing twice."""
+    """What a broken connection may have carried is sent again if that cannot create anything twice."""
 
     def test_a_lost_answer(self):
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Loses)
@@ -661,7 +661,7 @@ class Broken(Case):
 
 
 class Absent(unittest.TestCase):
-    """One sentence for who is not there."""
+    """One sentence if the server is not there."""
 
     def test_a_server_that_is_off(self):
         with contextlib.closing(socket.socket()) as free:
@@ -717,7 +717,7 @@ class Documented(unittest.TestCase):
                 done = subprocess.run(
                     [sys.executable, "-c", block], cwd=folder, env=env, capture_output=True, text=True, timeout=200
                 )
-                # A server that still had work says how long it waits, which is no complaint.
+                # A server that still had work reports how long it waits, which is not an error.
                 said = [line for line in done.stderr.splitlines() if not line.startswith("kerrd: warning: stopping:")]
                 self.assertEqual((done.returncode, said), (0, []), block)
                 self.assertNotRegex(done.stdout, r"\bnan\b")
@@ -735,7 +735,7 @@ class Documented(unittest.TestCase):
 
 class Elsewhere(unittest.TestCase):
     def test_where_there_is_no_posix(self):
-        """A client on Windows, by a platform that lacks what Windows lacks; the libraries are there before."""
+        """A client on Windows, simulated by a platform without what Windows lacks; libraries are imported before."""
         code = f"""
 import sys, asyncio, subprocess, httpx, numpy, PIL.Image, PIL.PngImagePlugin, atexit, shutil
 sys.path.insert(0, {str(FOLDER / "src")!r})
@@ -807,7 +807,7 @@ class Local(unittest.TestCase):
                 self.assertEqual(list(live)[-1].revision, 2)
 
     def test_an_access_token(self):
-        """Beside the tokens of a session and a job, which are others."""
+        """An access token beside the tokens of a session and a job, which differ from it."""
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "tokens")
             file.write_text("ann view ann-0123456789abcdef\nbob render bob-0123456789abcdef\n")

@@ -79,7 +79,7 @@ def notebook(url):
 
 
 class Lab:
-    """JupyterLab on a folder of its own, and nothing of the user's."""
+    """JupyterLab with a folder of its own and without the user's settings."""
 
     def __init__(self, folder, url):
         with socket.socket() as free:
@@ -213,7 +213,7 @@ class Notebook(unittest.TestCase):
             self.page.wait_for_timeout(50)
 
     def rest(self):
-        """Waits until nothing new comes; returns the bytes of the picture."""
+        """Waits until no new picture comes; returns the bytes of the last."""
         shown, end = None, time.monotonic() + PATIENCE_MS / 1000
         while (
             shown != (shown := self.stage.get_attribute("data-serial"))
@@ -232,7 +232,7 @@ class Notebook(unittest.TestCase):
         return float(self.page.locator(f'.kerrd input[type=number][data-path="{path}"]').first.input_value())
 
     def shown_while(self, going_on):
-        """How many pictures are seen meanwhile."""
+        """The number of pictures shown meanwhile."""
         serials = set()
         while going_on():
             serials.add(self.stage.get_attribute("data-serial"))
@@ -319,7 +319,7 @@ class Notebook(unittest.TestCase):
         )
 
     def test_6_while_a_cell_runs(self):
-        """Pictures follow what it sets, though the kernel does not hear that they are shown."""
+        """Pictures follow the values it sets, though the kernel receives no acknowledgment meanwhile."""
         self.run_cell("busy", wait=False)
         self.assertGreater(self.shown_while(lambda: "azimuth 39°" not in self.stage.get_attribute("aria-label")), 5)
         self.assertEqual(self.where()[0], 39)
@@ -344,7 +344,7 @@ class Notebook(unittest.TestCase):
         self.assertEqual([url for url in self.requests if not url.startswith(own)], [], "it speaks to Jupyter alone")
 
     def test_9_the_end(self):
-        """Of the server, which is told, and of the kernel, with which the other widget's session ends."""
+        """When the server ends, this is reported; when the kernel ends, the other widget's session ends too."""
         before = self.where()
         self.run_cell("second")
         self.page.locator(".kerrd-stage[data-final=true]").nth(1).wait_for()

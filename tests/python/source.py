@@ -38,7 +38,7 @@ for name in ("mypy", "unasync", "numpy", "httpx"):
 made = subprocess.run([sys.executable, folder / "generate.py", "--check", kerrd])
 with tempfile.TemporaryDirectory() as cache:
     typed = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache], cwd=folder)
-    # What docs/python.md shows, and the forms that people write.
+    # Code that docs/python.md shows, and the forms that people write.
     text = folder.resolve().parents[1].joinpath("docs/python.md").read_text()
     # A cell of a notebook ends in an expression, and Dask's own client is not typed.
     shown = [

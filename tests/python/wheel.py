@@ -96,7 +96,7 @@ class Wheels(unittest.TestCase):
         self.assertEqual(program.read_bytes(), KERRD.read_bytes())
         said = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
         self.assertRegex(said, r"^kerrd \d+\.\d+\.\d+")
-        # The environment is not active, so that the PATH does not lead there.
+        # The environment is not activated, so that PATH does not contain it.
         there = subprocess.run(found, env=away, check=True, capture_output=True, text=True).stdout.strip()
         self.assertEqual(Path(there), program.resolve())
         said = subprocess.run([*found], env={**away, "KERRD": "/bin/true"}, check=True, capture_output=True, text=True)
@@ -108,7 +108,7 @@ class Wheels(unittest.TestCase):
 
 class Portable(unittest.TestCase):
     def test_what_needs_more_is_refused(self):
-        """This tree's build has its libraries beside it."""
+        """A program that needs libraries beside it, as this tree's build does, is refused."""
         done = subprocess.run([TREE / "scripts/portable", "--check", KERRD], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stderr, r"must need (glibc 2\.31 or older|the C library alone)")

@@ -37,7 +37,7 @@ PATIENCE_S = 60
 
 
 class Comm(BaseComm):
-    """Keeps what would go to the browser."""
+    """Records what would be sent to the browser."""
 
     def __init__(self, *args, **keys):
         self.sent = []
@@ -51,7 +51,7 @@ comm.create_comm = Comm
 
 
 class Page:
-    """A view of the widget, as widget.js would be."""
+    """A view of the widget, acting as widget.js would."""
 
     def __init__(self, widget, name="one"):
         self.widget, self.name = widget, name
@@ -73,7 +73,7 @@ class Page:
         ]
 
     def state(self, name):
-        """The last value of a trait that the browser was told."""
+        """The last value of a trait that the browser was sent."""
         values = [data["state"][name] for _, data, _ in list(self.widget.comm.sent) if name in data.get("state", {})]
         return values[-1] if values else None
 
@@ -111,7 +111,7 @@ class Case(unittest.TestCase):
         return widget
 
     def there(self, widget, hole=None):
-        """Whether the widget's session is."""
+        """Whether the widget's session exists."""
         return httpx.get(f"{(hole or self.hole).url}v1/sessions/{widget._follower._session.id}").status_code == 200
 
     def rested(self, page):
@@ -212,7 +212,7 @@ class Browser(Case):
         self.assertEqual((widget.scene.camera.azimuth_deg, widget.scene.camera.inclination_deg), (21, 61))
 
     def test_a_loop_in_a_cell_is_seen(self):
-        """During which the kernel hears no acknowledgment."""
+        """While the cell runs the kernel receives no acknowledgment."""
         widget = self.open()
         page = Page(widget)
         until(lambda: page.told("frame"), "a first frame")
@@ -392,7 +392,7 @@ print(widget._follower._session.id, widget.png[:4])
             before = widget._follower._session
             before.close()
             change()
-            # The thread that fetches frames may open the session before the change is told.
+            # The thread that fetches frames may open the session before the change is reported.
             until(
                 lambda: widget._follower._session is not before and widget.scene.camera.inclination_deg == degrees,
                 "another session with the change",

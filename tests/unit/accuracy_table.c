@@ -1,4 +1,5 @@
-/* The accuracy table: the choice from made-up ones, the document there and back, the file, and the rays. */
+/* The accuracy table: choices from synthetic tables, the JSON document in both directions, the file, and the sets of
+ * rays. */
 #include "physics/spacetime/kerr.h"
 #include "render/device/accuracy_store.h"
 
@@ -24,7 +25,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         struct kd_accuracy_entry *e = &row->sets[k];
         *e = (struct kd_accuracy_entry) { .rays_per_s = speed, .rays = 1000, .crossings = 1500 };
-        /* Only radii are to be looked at, and nothing near the critical curve. */
+        /* Only radii are judged, and nothing near the critical curve. */
         for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++)
             e->of[q] = k == KD_ACCURACY_NEAR_CRITICAL || q ? (struct kd_accuracy_errors) { 1, 1, 1 }
                                                            : (struct kd_accuracy_errors) { median, 4 * median, 1 };
@@ -32,7 +33,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     return row;
 }
 
-/* Medians are a quarter of what is held. */
+/* Medians are a quarter of the promised error. */
 static int made_up(void **state)
 {
     (void)state;
@@ -50,8 +51,8 @@ static int made_up(void **state)
     add(KD_ENGINE_CLOSED, KD_PRECISION_F64, 0, 1e9, NAN);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4, 4e6, 0.25e-5);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 8, 2e6, 0.25e-6);
-    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6);   /* rounding has taken over */
-    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8, 2.5e6, 0.25e-8); /* a device quicker in double */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6);   /* limited by rounding */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8, 2.5e6, 0.25e-8); /* a device that is faster in double */
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16, 1e5, 0.25e-11);
     add(KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64, 3e6, 0.25e-4);
     return 0;
@@ -73,11 +74,11 @@ static void the_cheapest_that_holds(void **state)
     (void)state;
     expect(0.5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
     expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
-    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8); /* the fastest below, not the least exact */
+    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8); /* the fastest below, not the least accurate */
     expect(1e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(0.99e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
     expect(1e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
-    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* now Runge and Kutta are the fastest at 1e-4 */
+    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* now Runge-Kutta is the fastest at 1e-4 */
     expect(1e-4, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
 }
 
@@ -94,7 +95,7 @@ static void what_none_holds(void **state)
 {
     (void)state;
     refused(0.99e-11, "1.01e-11 and above (mino-rkn6 f64 with 16 steps)");
-    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* what it offers it takes */
+    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* a tolerance that it offers is accepted */
     table.n = 4;                                                 /* a device without double precision */
     refused(0.99e-6, "mino-rkn6 f32 with 8 steps");
     refused(0, "above 0");
@@ -107,7 +108,7 @@ static void what_none_holds(void **state)
     refused(0.5, "kerrd bench accuracy");
 }
 
-/* Few steps may do for the bulk and not edge-on. */
+/* A number of steps may suffice for the bulk and not edge-on. */
 static void other_sets(void **state)
 {
     (void)state;
@@ -123,7 +124,7 @@ static void other_sets(void **state)
     expect(0.5, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
 }
 
-/* A row that loses rays, or has no figures, cannot be relied on. */
+/* A row that loses rays, or has no figures, is not used. */
 static void rows_to_be_left_out(void **state)
 {
     (void)state;
@@ -183,7 +184,7 @@ static void there_and_back(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Every prefix, and damaged documents: an error, never a table. */
+/* Every prefix, and damaged documents, give an error and never a table. */
 static void no_table(void **state)
 {
     (void)state;
@@ -221,7 +222,7 @@ static void kept(void **state)
     assert_int_equal(kd_accuracy_load(path, &again, &error), KD_EIO);
     assert_non_null(strstr(error.message, "kerrd bench accuracy"));
     assert_int_equal(kd_accuracy_load(NULL, &again, &error), KD_EIO);
-    assert_int_equal(kd_accuracy_save(&table, path, &error), KD_OK); /* makes the folder */
+    assert_int_equal(kd_accuracy_save(&table, path, &error), KD_OK); /* creates the folder */
     assert_int_equal(kd_accuracy_load(path, &again, &error), KD_OK);
     assert_int_equal(again.n, table.n);
     table.n = 2;
@@ -233,7 +234,7 @@ static void kept(void **state)
     assert_non_null(strstr(error.message, "kerrd bench accuracy"));
     assert_int_equal(kd_accuracy_load(inner, &again, &error), KD_EIO); /* a directory */
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(rmdir(inner), 0); /* and nothing else was left there */
+    assert_int_equal(rmdir(inner), 0); /* nothing else was left there */
     assert_int_equal(kd_accuracy_save(&table, "/proc/kerrd/table.json", &error), KD_EIO);
     assert_int_equal(rmdir(folder), 0);
 }
@@ -259,8 +260,7 @@ static void markdown(void **state)
 }
 
 /* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root
- * outside the horizon, and beside it none or two (Bardeen 1973): its least value there, which is looked for by
- * trying. */
+ * outside the horizon, and beside it none or two (Bardeen 1973). Returns its minimum there, by search. */
 static double least_potential(double a, double inclination_deg, const double *x)
 {
     double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;
@@ -272,8 +272,8 @@ static double least_potential(double a, double inclination_deg, const double *x)
     return least;
 }
 
-/* The near-critical set lies on both sides of the critical curve in turn, at the distances it is said to; no other
- * set comes near. */
+/* The near-critical set lies alternately on both sides of the critical curve, at the stated distances; no other set
+ * comes near. */
 static void critical_curve(void **state)
 {
     (void)state;
@@ -286,8 +286,7 @@ static void critical_curve(void **state)
     for (int k = 0; k < N; k++) {
         int decade = k / 2 % 5 + 2;
         double least = least_potential(a, i, rays + 2 * k), scale = fabs(least) * 0.2 * pow(10, decade);
-        /* R grows with the distance from the curve, some tens of M^4 a unit of it: beyond 1e-4 its least value has
-         * been found. */
+        /* R grows with the distance from the curve, by some tens of M^4 a unit: beyond 1e-4 its minimum is resolved. */
         if ((k % 2 ? least > 0 : least < 0) || (decade <= 4 && !(scale > 5 && scale < 500)))
             fail_msg("ray %d: R is %g at least, 5e-%d from the curve", k, least, decade);
     }
@@ -308,7 +307,7 @@ static void lists_of_rays(void **state)
         for (uint32_t v = 0; v < n_views; v++) {
             kd_accuracy_rays((enum kd_accuracy_set)set, v, 50, first);
             kd_accuracy_rays((enum kd_accuracy_set)set, v, N, rays);
-            assert_memory_equal(first, rays, 100 * sizeof(double)); /* a longer list starts as a shorter one */
+            assert_memory_equal(first, rays, 100 * sizeof(double)); /* a longer list begins like a shorter one */
             int quadrants[4] = { 0 };
             for (int k = 0; k < N; k++) {
                 assert_true(fabs(rays[2 * k]) <= 12 && fabs(rays[2 * k + 1]) <= 12);

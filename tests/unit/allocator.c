@@ -1,5 +1,5 @@
-/* A process that runs for long gives large blocks back, and its threads do not have a heap each: seen by what the C
- * library says of itself. */
+/* A long-running process returns large blocks to the kernel, and its threads share heaps: checked with the C
+ * library's own statistics. */
 #include "base/allocator.h"
 #include "base/cores.h"
 
@@ -22,7 +22,7 @@
 
 static size_t mapped(void) { return mallinfo2().hblks; }
 
-/* Written to, so that no compiler leaves it out. */
+/* Written to, so that the compiler keeps it. */
 static void *block(size_t size)
 {
     char *p = malloc(size);
@@ -35,7 +35,7 @@ static void large_blocks_are_the_kernels_again(void **state)
 {
     (void)state;
     const size_t before = mapped();
-    free(block(16 * MIB)); /* by itself the library would keep all that is smaller from now on */
+    free(block(16 * MIB)); /* by default the library would cache all smaller blocks from now on */
     void *large = block(2 * MIB);
     assert_int_equal(mapped(), before + 1);
     free(large);

@@ -1,4 +1,4 @@
-/* What a client may use of the device's time in the long run, by a clock that is simulated. */
+/* A client's long-term allowance of device time, with a simulated clock. */
 #include "server/http/allowance.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static void test_it_fills_at_its_rate_and_no_further(void **state)
 static void test_what_is_owed_is_waited_for(void **state)
 {
     (void)state;
-    kd_allowance_charge(&all, "a", 630e3, NOW); /* ten minutes of work leave twenty to wait */
+    kd_allowance_charge(&all, "a", 630e3, NOW); /* ten minutes of work leave a debt of ten minutes */
     assert_float_equal(kd_allowance_left_ms(&all, "a", NOW), -600e3, NEAR);
     const double wait = kd_allowance_wait_ms(&all, "a", 0, NOW);
     assert_float_equal(wait, 1200e3, 10);
@@ -71,7 +71,7 @@ static void test_patient_work_leaves_a_half(void **state)
     assert_true(kd_allowance_may(&all, "b", true, NOW));
 }
 
-/* Clients that come and go do not make a debtor forgotten. */
+/* A debtor is not forgotten when other clients come and go. */
 static void test_the_fullest_gives_way(void **state)
 {
     (void)state;

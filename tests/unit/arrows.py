@@ -10,7 +10,8 @@ import re
 import sys
 import tempfile
 
-# What each module may know besides itself. The server sees no Vulkan type, so not vk; who adds a module adds a row.
+# What each module may include besides itself. The server uses no Vulkan type, so not vk; whoever adds a module adds a
+# row.
 MODULES = {
     "base": set(),
     "physics": {"base"},
@@ -54,7 +55,8 @@ MODULES = {
     },
     "main.c": {"base", "cli"},
 }
-# Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
+# Inside the large modules a folder may include those listed before it; files in none of them are at the top and may
+# include all.
 FOLDERS = {
     "render": [
         "view",
@@ -73,7 +75,7 @@ FOLDERS = {
     ],
     "server": ["http", "asset", "render", "session", "playground", "job", "openapi", "answers"],
 }
-# Inside physics each room knows itself and these; nothing lies outside of a room.
+# Inside physics each folder may include itself and these; every file is in a folder.
 ROOMS = {
     "physics": {
         "math": set(),
@@ -84,7 +86,8 @@ ROOMS = {
         "waves": {"math", "spacetime"},
     }
 }
-# In these modules files form no circle: a header and its source count as one, which knows what either includes.
+# In these modules files must not include each other in a circle: a header and its source count as one, with the
+# includes of both.
 NO_CIRCLES = {"base", "physics", "scene", "quantity", "orbit", "observe", "integral", "playground", "job", "cli"}
 # Headers of other projects, and who may include them.
 FOREIGN = {
@@ -105,13 +108,13 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 
 def rank(module, parts):
-    """The place of a file or header of a module among its folders: the larger, the more it may know."""
+    """The position of a file or header of a module among its folders: the larger, the more it may include."""
     order = FOLDERS[module]
     return len(order) if len(parts) < 3 else order.index(parts[1]) if parts[1] in order else -1
 
 
 def room_knows(module, mine, its):
-    """Whether what lies in the folder mine of a module may know what lies in its; None is no folder."""
+    """Whether a file in the folder mine of a module may include one in the folder its; None is no folder."""
     rooms = ROOMS[module]
     return mine in rooms and its in rooms and (mine == its or its in rooms[mine])
 
@@ -121,7 +124,7 @@ def folder(parts):
 
 
 def wrong(src):
-    """Sentences, one for each arrow that points the wrong way."""
+    """Sentences, one for each include that points the wrong way."""
     for path in sorted(src.rglob("*.[ch]")):
         where = path.relative_to(src)
         module = where.parts[0]
@@ -153,7 +156,7 @@ def wrong(src):
 
 
 def circle(known):
-    """Files each of which knows the next, and the last one the first; [] if there is no circle."""
+    """Files each of which includes the next, and the last one the first; [] if there is no circle."""
     done, way = set(), []
 
     def follow(file):
@@ -171,7 +174,7 @@ def circle(known):
 
 
 def circles(src):
-    """A sentence for each module that has a circle and may have none."""
+    """A sentence for each module that has a circle although it must not."""
     for module in sorted(NO_CIRCLES):
         known = {}
         for path in (src / module).rglob("*.[ch]"):
@@ -183,7 +186,7 @@ def circles(src):
 
 
 def self_test():
-    """Each kind of wrong arrow is found, a right one is not."""
+    """Each kind of wrong include is found, a right one is not reported."""
     faults = {
         "base/a.c": '#include "physics/spacetime/kerr.h"',
         "physics/a.h": "#include <vulkan/vulkan.h>",

@@ -1,4 +1,4 @@
-/* Parts of the device's time, by a clock that is simulated; and by another way to divide it. */
+/* Shares of the device's time, with a simulated clock, and against another algorithm. */
 #include "server/session/budget.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static struct kd_budget_entry *enter(struct bench *b, int i, int client)
     return &b->entries[i];
 }
 
-/* A frame that waits for others, has the device for `ms`, and is followed by a pause. */
+/* A frame that waits for others, uses the device for `ms`, and is followed by a pause. */
 static void frame(struct bench *b, struct kd_budget_entry *e, double waits, double ms, double pause)
 {
     kd_budget_ask(e, b->now);
@@ -51,7 +51,7 @@ static void want(struct bench *b, struct kd_budget_entry *e, double demand)
         kd_budget_end(e, b->now, ms);
         b->now += k ? 0 : pause;
     }
-    kd_budget_ask(e, b->now + (demand > 0 ? pause : 0)); /* it waits now, for as long as it takes */
+    kd_budget_ask(e, b->now + (demand > 0 ? pause : 0)); /* it is waiting now, for as long as it takes */
 }
 
 static void who_is_alone_has_everything(void **state)
@@ -64,7 +64,7 @@ static void who_is_alone_has_everything(void **state)
         frame(&b, one, 0, 30, 5);
         assert_true(kd_budget_share(&b.budget, one, b.now) == 1);
     }
-    for (int k = 0; k < 10; k++) /* what others had counts for 400 ms */
+    for (int k = 0; k < 10; k++) /* others' use counts for 400 ms */
         frame(&b, k % 2 ? other : stranger, 0, 20, 5);
     assert_true(kd_budget_share(&b.budget, one, b.now + 300) < 0.5);
     assert_true(kd_budget_share(&b.budget, one, b.now + 450) == 1);
@@ -80,7 +80,7 @@ static void waiting_for_others_is_no_lack_of_eagerness(void **state)
         struct kd_budget_entry *e = enter(&b, 0, 0);
         assert_true(kd_budget_demand(e, b.now) == 0);
         frame(&b, e, waits, 20, 60);
-        assert_true(kd_budget_demand(e, b.now) == 0); /* one frame has no pace */
+        assert_true(kd_budget_demand(e, b.now) == 0); /* one frame does not give a rate */
         frame(&b, e, waits, 20, 60);
         assert_true(fabs(kd_budget_demand(e, b.now) - 0.25) < 1e-9);
         kd_budget_ask(e, b.now);
@@ -97,13 +97,13 @@ static void a_single_pause_or_a_slow_frame_says_little(void **state)
         frame(&b, e, 0, 20, 10);
     frame(&b, e, 0, 20, 390);
     assert_true(kd_budget_demand(e, b.now) > 0.66);
-    frame(&b, e, 0, 20, 1e5); /* it rests for long */
+    frame(&b, e, 0, 20, 1e5); /* a long rest */
     assert_true(kd_budget_demand(e, b.now) == 0);
-    kd_budget_ask(e, b.now); /* and is believed at once */
+    kd_budget_ask(e, b.now); /* counts at once */
     assert_true(kd_budget_demand(e, b.now) > 0.66);
     kd_budget_end(e, b.now, 100);
     assert_true(kd_budget_demand(e, b.now) < 0.81);
-    for (int k = 0; k < 9; k++) /* who asks seldom, and each time so, asks for little */
+    for (int k = 0; k < 9; k++) /* rare, regular requests are a small demand */
         frame(&b, e, 0, 20, 380);
     assert_true(fabs(kd_budget_demand(e, b.now) - 0.05) < 1e-9);
 }
@@ -118,10 +118,10 @@ static void frames_that_are_given_up_measure_nothing(void **state)
     kd_budget_ask(e, b.now);
     kd_budget_end(e, b.now + 5, 0);
     assert_true(fabs(kd_budget_demand(e, b.now + 10) - 0.5) < 1e-9);
-    assert_true(kd_budget_demand(e, b.now + 1e3) == 0); /* and it waits no more */
+    assert_true(kd_budget_demand(e, b.now + 1e3) == 0); /* and it has stopped waiting */
 }
 
-/* Pauses between the hold time and 2 s are those of one hand. */
+/* Pauses between the hold time and 2 s belong to the same gesture. */
 static void pauses_of_one_hand_are_bridged(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void clients_come_before_their_sessions(void **state)
         assert_true(fabs(kd_budget_share(&b.budget, &b.entries[i], b.now) - 1.0 / 14) < 1e-9);
 }
 
-/* Poured out drop by drop, each to whoever has least of those that are not full: of n bowls, one without a bottom. */
+/* Poured drop by drop, each to the least full vessel with room: n bowls, one without a bottom. */
 static double pour(const double *sizes, int n, double whole)
 {
     static const double drop = 1e-4;

@@ -1,4 +1,4 @@
-/* Bytes held by client: the whole, a client's share, room for small ones, and the one that may exceed. */
+/* Bytes held by clients: the total, a client's share, the reserve for small ones, and the one that may exceed. */
 #include "server/http/bytes.h"
 
 #include <setjmp.h>
@@ -55,19 +55,19 @@ static void test_room_for_small_ones(void **state)
     assert_int_equal(take(b, "a", 5), FULL);
     kd_bytes_give(b, "b", 50);
     for (int i = 0; i < 4; i++)
-        assert_int_equal(take(b, "a", 5), TAKEN); /* of the share, and 12 beside it */
+        assert_int_equal(take(b, "a", 5), TAKEN); /* of the share, and 12 beyond it */
     assert_int_equal(take(b, "a", 5), OVER_SHARE);
     kd_bytes_destroy(b);
 }
 
-/* Who has nothing may have one of any size that the others leave room for; alone, of any. */
+/* A client that holds nothing may hold any size that the others leave room for; alone, any size at all. */
 static void test_a_lone_one(void **state)
 {
     struct kd_bytes *b = make(true);
     (void)state;
     assert_int_equal(take(b, "a", 150), TAKEN);
     assert_int_equal(take(b, "a", 1), OVER_SHARE);
-    assert_int_equal(take(b, "b", 1), FULL); /* room for small ones is not beside one that exceeds the whole */
+    assert_int_equal(take(b, "b", 1), FULL); /* there is no reserve for small ones beside one that exceeds the total */
     kd_bytes_give(b, "a", 150);
     assert_int_equal(take(b, "b", 30), TAKEN);
     assert_int_equal(take(b, "a", 70), TAKEN);
@@ -90,7 +90,7 @@ static void test_what_is_there_already(void **state)
     kd_bytes_destroy(b);
 }
 
-/* More clients than are told apart: they count together, and all comes back. */
+/* More clients than the table distinguishes: they count together, and all bytes are returned. */
 static void test_many_clients(void **state)
 {
     struct kd_bytes *b = make(false);

@@ -1,5 +1,4 @@
-/* Colour maps, judged by the lightness and hue of what a screen shows: sRGB decoded, XYZ by the standard's own
- * matrix, CIELAB. */
+/* Colour maps, judged by lightness and hue as displayed: sRGB decoded, XYZ by the standard's matrix, CIELAB. */
 #include "image/colour_map.h"
 
 #include <math.h>
@@ -15,7 +14,7 @@ struct lab { double l, a, b; };
 static double decode(double c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
 static double cube_root(double t) { return t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116; }
 
-/* IEC 61966-2-1: linear to XYZ, the inverse of what the maps are made with. */
+/* IEC 61966-2-1: linear to XYZ, the inverse of the matrix that the maps are made with. */
 static struct lab lab_of(struct kd_map_colour c)
 {
     double r = decode(c.r), g = decode(c.g), b = decode(c.b);
@@ -38,7 +37,7 @@ static void assert_near(double value, double wanted, double within)
 
 enum { STEPS = 400 };
 
-/* The same lightness more at each step; no jump of colour either. */
+/* Lightness rises by the same amount at each step; colours do not jump. */
 static void lightness_rises_at_a_constant_rate(void **state)
 {
     (void)state;
@@ -78,7 +77,7 @@ static void a_diverging_map_has_a_white_middle_and_equal_sides(void **state)
     }
 }
 
-/* Both ends are one colour, no place is lighter than others, and equal steps turn the hue by the same. */
+/* Both ends are one colour, lightness is constant, and equal steps turn the hue equally. */
 static void a_cyclic_map_closes(void **state)
 {
     (void)state;
@@ -111,7 +110,7 @@ static void a_table_is_the_map(void **state)
         for (int i = -10; i <= 10 * STEPS; i++) {
             double x = i / (10.0 * STEPS - 10);
             struct kd_map_colour own = kd_colour_map_at((enum kd_colour_map)map, x), kept = kd_map_table_at(&table, x);
-            assert_near(kept.r, own.r, 1.0 / 150); /* half an entry of the steepest, violet to blue: 12.2 */
+            assert_near(kept.r, own.r, 1.0 / 150); /* half an entry of the steepest part, violet to blue: 12.2 */
             assert_near(kept.g, own.g, 1.0 / 150);
             assert_near(kept.b, own.b, 1.0 / 150);
         }

@@ -1,4 +1,4 @@
-/* Deadlines of connections: a sweep shuts down those whose client is late, and none whose daemon is. */
+/* Deadlines of connections: a sweep shuts down those whose client is late, and none whose daemon is late. */
 #include "server/http/connections.h"
 
 #include <setjmp.h>
@@ -46,7 +46,7 @@ static void sweep_past_the_deadline(struct pair *p)
     kd_connections_sweep(p->all);
 }
 
-/* Whether the server's end was shut down, as its client sees it. */
+/* True if the server's end was shut down, as its client sees it. */
 static bool is_shut(const struct pair *p)
 {
     char byte;
@@ -63,7 +63,7 @@ static void test_a_silent_client_is_late(void **state)
     closed(&p);
 }
 
-/* Half a request line, which nobody has been given: its client may not hold a place by it. */
+/* Half a request line that has not been read yet: its client may not keep a connection with it. */
 static void test_half_a_line_is_late(void **state)
 {
     (void)state;
@@ -84,7 +84,7 @@ static void test_a_request_that_waits_for_its_daemon_is_not_late(void **state)
     assert_int_equal(kd_connections_hand_on(p.all, p.one, true), KD_HANDED_ON);
     sweep_past_the_deadline(&p);
     assert_false(is_shut(&p));
-    assert_int_equal(recv(p.server, read, sizeof read, 0), sizeof request); /* the daemon begins at last */
+    assert_int_equal(recv(p.server, read, sizeof read, 0), sizeof request); /* the daemon starts at last */
     sweep_past_the_deadline(&p);
     assert_true(is_shut(&p));
     closed(&p);

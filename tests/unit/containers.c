@@ -1,6 +1,5 @@
-/* Files of numbers, read back: texts of any length in FITS cards, the checksum by its definition, members of a ZIP
- * file, attributes of an EXR file; and each of them cut short. tests/cli/files.py has other people's readers judge
- * them. */
+/* Numeric files read back: texts of any length in FITS cards, the checksum by its definition, members of a ZIP file,
+ * attributes of an EXR file; and each of them truncated. tests/cli/files.py uses third-party readers. */
 #include "image/exr.h"
 #include "image/fits.h"
 #include "image/unzip.h"
@@ -42,7 +41,7 @@ static bool found(const struct kd_buffer *file, const char *key, const char *exp
     return same;
 }
 
-/* Quotes at every place of texts that fill one, two and three cards: doubled, and never parted. */
+/* Quotes at every position of texts that fill one, two and three cards: doubled, and never split. */
 static void texts_of_any_length(void **state)
 {
     (void)state;
@@ -62,7 +61,7 @@ static void texts_of_any_length(void **state)
     kd_buffer_finish(&file);
 }
 
-/* By its definition: the ones' complement sum of all words of a unit is all ones, and of the data what DATASUM says. */
+/* By definition: the ones' complement sum of all words of a unit is all ones, and that of the data is DATASUM. */
 static void checksums(void **state)
 {
     (void)state;
@@ -88,7 +87,7 @@ static void checksums(void **state)
     }
 }
 
-/* Numbers read back the same, and are numbers with a point. */
+/* Numbers read back the same, and are written with a decimal point. */
 static void numbers(void **state)
 {
     (void)state;
@@ -157,8 +156,8 @@ static void zip_members(void **state)
     }
 }
 
-/* A file that is cut anywhere, and one with any byte changed, is refused or read: a sanitizer sees a byte too far,
- * and what is read is what was written unless it is refused. */
+/* A file truncated anywhere, or with any byte changed, is refused or read: a sanitizer detects overruns, and what is
+ * read equals what was written. */
 static void damaged_zip(void **state)
 {
     (void)state;
@@ -195,8 +194,7 @@ static void damaged_zip(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A directory of 700 000 entries is refused by the count in its end record, whichever of the two that is: going
- * through it would take seconds. */
+/* A directory of 700 000 entries is refused by the count in either end record: going through it would take seconds. */
 static void too_many_members(void **state)
 {
     (void)state;
@@ -215,7 +213,7 @@ static void too_many_members(void **state)
     for (int liar = 0; liar < 2; liar++) {
         struct kd_unzip zip;
         struct kd_error error;
-        const uint16_t said = liar ? 3 : 0xffff; /* a liar has more than it says */
+        const uint16_t said = liar ? 3 : 0xffff; /* a liar has more entries than it says */
         const uint32_t bytes_said = liar ? (uint32_t)size : 0xffffffff;
         memcpy(end + 84, &said, 2);
         memcpy(end + 86, &said, 2);
@@ -231,8 +229,8 @@ static void too_many_members(void **state)
     free(bytes);
 }
 
-/* What the writer says of members beyond 4 GiB is read back: sizes stand in the fields of ZIP64. The bytes
- * themselves are taken off, as for a film. */
+/* Members beyond 4 GiB read back as the writer declared them: sizes are in the fields of ZIP64. The bytes themselves
+ * are taken off, as for a film. */
 static void long_members(void **state)
 {
     (void)state;
@@ -241,7 +239,7 @@ static void long_members(void **state)
     struct kd_buffer file = { 0 };
     struct kd_zip *writer;
     uint8_t *piece = calloc(1, PIECE);
-    uint64_t taken = 0; /* off the buffer */
+    uint64_t taken = 0; /* from the buffer */
     OK(kd_zip_create(&file, false, &writer));
     OK(kd_zip_begin(writer, "long", size));
     for (uint64_t left = size, n; left; left -= n) {
@@ -275,13 +273,13 @@ static void exr_texts(void **state)
     const struct kd_exr_text texts[] = { { "kerrd:scene", "{\"version\":1}" }, { "kerrd:hash", "" } };
     const struct kd_exr image = { 3, 2, channels, 2, texts, 2 };
     struct kd_buffer file = { 0 }, got = { 0 };
-    OK(kd_buffer_append(&file, "before", 6)); /* it is appended */
+    OK(kd_buffer_append(&file, "before", 6)); /* the file is appended */
     OK(kd_exr_encode(&image, &file, &error));
     OK(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:scene", &got, &error));
     assert_true(got.size == 13 && !memcmp(got.data, "{\"version\":1}", 13));
     assert_int_equal(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:none", &got, &error), KD_EINVAL);
-    for (size_t size = 0; size < 300; size += 7) { /* in its header */
-        uint8_t *cut = malloc(size + 1);           /* of its own size, so that a sanitizer sees a byte too far */
+    for (size_t size = 0; size < 300; size += 7) { /* within its header */
+        uint8_t *cut = malloc(size + 1);           /* exact size, so that a sanitizer detects an overrun */
         memcpy(cut, file.data + 6, size);
         assert_int_equal(kd_exr_find_text(cut, size, "kerrd:scene", &got, &error), KD_EINVAL);
         assert_memory_equal(error.message, "EXR: ", 5);

@@ -1,5 +1,5 @@
-/* The list of a camera is made once, is that of kd_critical_pixels_of whatever was kept before, and is not kept for
- * good. */
+/* The cached list of a camera is computed once, equals that of kd_critical_pixels_of whatever was cached before, and
+ * is evicted eventually. */
 #include "render/view/critical_kept.h"
 
 #include "scene/table.h"
@@ -22,7 +22,7 @@ static struct kd_scene scene_of(double spin, int32_t width)
     return scene;
 }
 
-/* Whether the kept list is what a new one would be; how many lists were made for that. */
+/* Checks that the cached list equals a new one; returns how many lists were computed. */
 static uint64_t check(const struct kd_scene *scene)
 {
     struct kd_critical_pixels kept, fresh;
@@ -51,13 +51,13 @@ static void made_once(void **state)
     scene.image.samples = 3;
     scene.style.exposure = 1;
     assert_int_equal(check(&scene), 0);
-    scene.camera.field_m = 1e-6; /* none: an empty list is kept as well */
+    scene.camera.field_m = 1e-6; /* none: an empty list is cached as well */
     assert_int_equal(check(&scene), 1);
     assert_int_equal(check(&scene), 0);
 }
 
 /* Every field of the document that moves the curve in the picture is part of the key: after each change the list is
- * right. */
+ * correct. */
 static void every_field_counts(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void every_field_counts(void **state)
             check(&scene);
             const struct kd_field *field = &kd_fields[i];
             if (field->stride || field->kind == KD_FIELD_ASSET)
-                continue; /* of lists, and names: the camera has none */
+                continue; /* fields of lists, and names: the camera has none */
             double value = kd_field_get(&scene, field, 0);
             const double others[] = { value * 0.9 + 0.05, value + 1, 1 - value };
             for (size_t k = 0; k < 3; k++) {
@@ -91,12 +91,12 @@ static void the_oldest_goes(void **state)
     for (int i = 0; i < KD_CRITICAL_KEPT - 1; i++) {
         struct kd_scene other = scene_of(0.6 + 0.001 * i, 64);
         assert_int_equal(check(&other), 1);
-        assert_int_equal(check(&first), 0); /* is used, and stays */
+        assert_int_equal(check(&first), 0); /* used, and so stays */
     }
     assert_int_equal(check(&second), 1);
 }
 
-/* Long ones push the others out: what is kept is bounded by bytes too. */
+/* Long lists evict the others: the cache is limited by bytes too. */
 static void long_lists_are_few(void **state)
 {
     (void)state;

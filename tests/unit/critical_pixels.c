@@ -1,5 +1,5 @@
-/* Which pixels the critical curve passes: judged by the fates of rays in closed form, which know nothing of the
- * curve. And where the rays on such a pixel stand. */
+/* Pixels on the critical curve, judged by the fates of rays in closed form, which do not use the curve; and the
+ * places of rays within such a pixel. */
 #include "render/view/critical_pixels.h"
 
 #include "physics/null/null_geodesic.h"
@@ -28,7 +28,7 @@ static struct kd_scene scene_of(double spin, double r, double inclination)
     return scene;
 }
 
-/* Two by two rays a pixel: whether they fall into the hole. */
+/* Two by two rays a pixel: true if they fall into the hole. */
 static void fates(const struct kd_scene *scene, bool *captured)
 {
     const struct kd_scene fine = kd_critical_camera(scene, 2);
@@ -50,7 +50,7 @@ static void fates(const struct kd_scene *scene, bool *captured)
         }
 }
 
-/* Whether the rays of the pixels up to `reach` from this one have both fates. */
+/* True if the rays of the pixels up to `reach` from this one have both fates. */
 static bool mixed(const bool *captured, int x, int y, int reach)
 {
     bool some[2] = { false, false };
@@ -61,8 +61,7 @@ static bool mixed(const bool *captured, int x, int y, int reach)
     return some[0] && some[1];
 }
 
-/* All pixels that the edge of the shadow is seen to pass are listed, and none that is far from it. Returns how many
- * are listed. */
+/* All pixels that the visible edge of the shadow passes are listed, and none far from it. Returns the number listed. */
 static size_t judge(const struct kd_scene *scene, const char *what)
 {
     static bool captured[4 * WIDTH * HEIGHT];
@@ -77,8 +76,7 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* What lies beyond the picture is not judged: near its edge a listed pixel may be there for a curve that is not
-     * in it. */
+    /* Beyond the picture nothing is judged: near its edge a pixel may be listed because of a curve outside. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -116,7 +114,7 @@ static void from_infinity(void **state)
         }
 }
 
-/* Turned, rolled, and with the hole all round; one that looks away from it. */
+/* Yawed, rolled, and with the hole all round; and one that looks away from it. */
 static void from_nearby(void **state)
 {
     (void)state;
@@ -160,7 +158,7 @@ static void from_nearby(void **state)
     }
 }
 
-/* A hole that is small, one of which the edge alone is in the picture, one that fills it, and one outside it. */
+/* A small hole, one with only its edge in the picture, one that fills it, and one outside it. */
 static void sizes(void **state)
 {
     (void)state;
@@ -182,7 +180,7 @@ static void sizes(void **state)
     assert_in_range(judge(&scene, "the edge"), HEIGHT * 4, HEIGHT * 6);
 }
 
-/* Bytes that have been asked for; the linker leads those who call malloc and calloc here. */
+/* Bytes requested; the linker redirects calls of malloc and calloc here. */
 static size_t asked;
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t n, size_t size);
@@ -199,7 +197,7 @@ void *__wrap_calloc(size_t n, size_t size)
     return __real_calloc(n, size);
 }
 
-/* Whoever plans the largest picture waits for the length of the curve, and not for its 2^30 pixels: a bit for each
+/* Planning the largest picture takes memory for the length of the curve, and not for its 2^30 pixels: a bit for each
  * is 128 MiB. */
 static void the_largest_picture(void **state)
 {
@@ -216,8 +214,8 @@ static void the_largest_picture(void **state)
     kd_critical_pixels_finish(&list);
 }
 
-/* The rays of a pixel: one in each column and row, and opposite to each another; how far apart they are, next to the
- * closest packing of points there is, sqrt(2/sqrt 3) over the root of their number. */
+/* The rays of a pixel: one in each column and row, point-symmetric; and their spacing, compared with the closest
+ * packing, sqrt(2/sqrt 3) over the square root of their number. */
 static void places(void **state)
 {
     (void)state;

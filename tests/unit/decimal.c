@@ -1,4 +1,4 @@
-/* Shortest decimals against printf and strtod, which share nothing with them. */
+/* Shortest decimals against printf and strtod, which are independent. */
 #include "base/decimal.h"
 
 #include <math.h>
@@ -65,10 +65,10 @@ static int digits_of(const char *text)
         n++;
         zeros = *text == '0' ? zeros + 1 : 0;
     }
-    return n - zeros; /* zeros at the end of whole numbers are no digits of theirs */
+    return n - zeros; /* trailing zeros of whole numbers are not significant digits */
 }
 
-/* Reads back as itself; with one digit fewer no text does; and none of as many digits is nearer. */
+/* Reads back as itself; with one digit fewer no text does; and none of as many digits is closer. */
 static void check(double value)
 {
     char out[KD_DECIMAL_SIZE], fewer[40], same[40];
@@ -105,12 +105,12 @@ static void any_bits(void **state)
         memcpy(&value, &bits, sizeof value);
         if (isfinite(value) && value != 0)
             check(value);
-        check(ldexp((double)(int64_t)next(&seed), -60)); /* what physics gives */
-        check((double)(next(&seed) % 1000000) / 1000);   /* what people type */
+        check(ldexp((double)(int64_t)next(&seed), -60)); /* results of physics */
+        check((double)(next(&seed) % 1000000) / 1000);   /* typed numbers */
     }
 }
 
-/* What printf and strtod make of it, unless the two decimals are as near as a rounding. */
+/* Same as printf and strtod, unless the two decimals are equally close within rounding. */
 static void rounded(void **state)
 {
     (void)state;

@@ -30,7 +30,7 @@ def braces(name):
 
 
 def anchors(text):
-    """The names that headings of a document have in links to them."""
+    """The names that the headings of a document have in links to them."""
     return {
         re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower()).replace(" ", "-")
         for line in text.splitlines()
@@ -39,7 +39,7 @@ def anchors(text):
 
 
 def tree(root):
-    """Every file and folder of ROOT that people write, as text relative to it."""
+    """Every file and folder of ROOT that people write, as paths relative to it."""
     for folder, folders, names in os.walk(root):
         if "build.ninja" in names or "pyvenv.cfg" in names:
             folders.clear()
@@ -49,7 +49,7 @@ def tree(root):
 
 
 def named(name, paths, tops):
-    """Whether a quoted name is one of a file or folder, and whether there is such."""
+    """Whether a quoted text is the name of a file or folder, and whether that exists."""
     if not re.fullmatch(r"[\w.*{},/-]+", name) or name.startswith("build/") or "DATE" in name or name.startswith("."):
         return True
     for each in braces(name):
@@ -62,7 +62,7 @@ def named(name, paths, tops):
 
 
 def wrong(root):
-    """Sentences, one for each name of nothing."""
+    """Sentences, one for each name of a file that does not exist."""
     paths = list(tree(root))
     tops = {path for path in paths if "/" not in path}
     for document in [
@@ -97,7 +97,7 @@ def untold(root):
 
 
 def self_test():
-    """Each kind of vain name is found, a true one is not."""
+    """Each kind of wrong name is found, a right one is not reported."""
     files = {
         "src/job/run.c": "",
         "docs/right.md": "# A b\n[x](wrong.md#c-1) [y](#a-b) `src/job` `job/run.c` `run.{c,c}` `src/*/run.c` `a/b` `GET /v1` [z](https://a.b/c.md)\n```\n`no.c`\n```\n",

@@ -27,13 +27,13 @@ SUFFIXES = {
     ".supp",
     "",
 }
-# Not ours to write: other people's files, results that a program wrote, and what git or a build makes.
+# Files that we do not write: other people's files, results that a program wrote, and what git or a build makes.
 LEFT_OUT = ("clients/web/vendor", "bench/results", "venv")
 
 
 def texts(root):
-    """The files of ROOT that people write, without hidden folders and those of builds, which git leaves out by their
-    names or which have a build.ninja."""
+    """The files of ROOT that people write, except in hidden folders and those of builds, which are recognised by the
+    names that git ignores or by a build.ninja."""
     for folder, folders, names in os.walk(root):
         where = pathlib.Path(folder).relative_to(root).as_posix()
         if where in LEFT_OUT or "build.ninja" in names or "pyvenv.cfg" in names:
@@ -76,7 +76,7 @@ def wrong(root):
 
 
 def self_test():
-    """Each kind of fault is found, a right text is not."""
+    """Each kind of fault is found, a right text is not reported."""
     faults = {
         "a.c": b"int a; \n",
         "b.py": b"if 1:\n\tpass\n",

@@ -1,4 +1,4 @@
-/* The table of emitters holds together: none is left out of plan, approximations, motion or numbers. */
+/* The table of emitters is complete: plan, approximations, motion and numbers cover every emitter. */
 #include "render/emit/emitter.h"
 #include "render/emit/motion.h"
 #include "render/emit/describe.h"
@@ -22,13 +22,13 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->name);
         assert_non_null(kd_emitters[i]->title);
         assert_non_null(kd_emitters[i]->present);
-        assert_true(kd_emitters[i]->n_sentences > 0); /* each approximates something */
+        assert_true(kd_emitters[i]->n_sentences > 0); /* each has approximations */
         assert_true(!kd_emitters[i]->fill ||
-                    kd_emitters[i]->depends[0].size); /* or it would be filled once and for all */
+                    kd_emitters[i]->depends[0].size); /* otherwise it would be filled only once */
     }
 }
 
-/* None can be dropped in silence: a plan has room for all sentences, though no scene is that approximate. */
+/* None is dropped silently: a plan has room for all sentences. */
 static void sentences_have_room(void **state)
 {
     (void)state;
@@ -36,7 +36,7 @@ static void sentences_have_room(void **state)
     assert_true(kd_emit_sentence_count() > 20);
 }
 
-/* A header has them with commas between them, and proxies take no more than 4096 bytes of all headers. */
+/* A header lists them separated by commas, and proxies limit all headers together to 4096 bytes. */
 enum { ALL_NAMES = 2000 };
 static void check_name(const char *name, char all[ALL_NAMES])
 {
@@ -122,7 +122,7 @@ static const char GAS[] =
     "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
     "\"camera\": {\"r\": 40}}";
 
-/* Numbers are those of the scene at hand, whatever was filled before, in any order. */
+/* Numbers depend on the present scene only, whatever was filled before, in any order. */
 static void numbers_follow_the_scene(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static void numbers_follow_the_scene(void **state)
     free(fresh);
 }
 
-/* Whatever field changes, what emitters have kept is what they would make anew. */
+/* After the change of any field, the emitters' cached data equals new data. */
 static int follow_each_field(const char *document)
 {
     struct kd_emit_state *one = calloc(1, sizeof *one), *fresh = calloc(1, sizeof *fresh);
@@ -179,7 +179,7 @@ static int follow_each_field(const char *document)
             kd_emit_update(one, &base, 100);
             kd_emit_update(one, &scene, 100);
             memset(fresh, 0, sizeof *fresh);
-            fresh->colours = one->colours; /* 15 ms each, and of no scene */
+            fresh->colours = one->colours; /* 15 ms each, and independent of the scene */
             fresh->luminous = one->luminous;
             kd_emit_update(fresh, &scene, 100);
             uint32_t traits[KD_EMITTER_COUNT];
@@ -208,7 +208,7 @@ static void numbers_follow_each_field(void **state)
     assert_true(follow_each_field(STARS) > 40);
 }
 
-/* Gas takes the place of the smooth disk, and what is off of it is not looked for. */
+/* Gas replaces the smooth disk, and features that are off are not evaluated. */
 static void gas_replaces_the_disk(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void gas_replaces_the_disk(void **state)
     scene.disk.slow_light = true;
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE | KD_LENS_DELAY);
     assert_true(!says(&scene, "gas: fast light") && !kd_emit_slow_along(&scene));
-    scene.disk.height = 0.1; /* the march knows delays by itself */
+    scene.disk.height = 0.1; /* the march computes delays by itself */
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE);
     assert_true(!says(&scene, "gas: fast light") && kd_emit_slow_along(&scene));
     scene.gas.amplitude = 0; /* nothing moves */
@@ -248,8 +248,7 @@ static void gas_replaces_the_disk(void **state)
     assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
-/* An emitter has no variant but those that its GLSL lists, which do not overlap: a check at compile time sees to
- * that. */
+/* An emitter has only the variants that its GLSL lists, which do not overlap; a compile-time check ensures that. */
 #define LISTED(trait) | KD_TRAIT_##trait
 #define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
 static void traits_are_listed(void **state)
@@ -295,8 +294,7 @@ static void what_shines_is_told(void **state)
     kd_buffer_finish(&json);
 }
 
-/* Stars are a pass of their own, the light between them none; without either there is no sky to speak of, but for
- * its blackness. */
+/* Stars are a pass of their own, diffuse light is not; without either the sky is only black. */
 static void skies(void **state)
 {
     (void)state;
@@ -342,7 +340,7 @@ static void told(int model, double milky_way, const char *image, const char *sen
     kd_buffer_finish(&json);
 }
 
-/* A picture alone, under stars, and where there is none; each in a sentence, and the last as an approximation. */
+/* A panorama alone, under stars, and missing; each has a sentence, the last as an approximation. */
 static void pictures_of_the_sky(void **state)
 {
     (void)state;
@@ -368,11 +366,11 @@ static void pictures_of_the_sky(void **state)
     assert_true(says(&scene, "sky: the light between the stars is a picture") &&
                 says(&scene, "sky: a picture of three colours has no spectrum"));
     assert_true(kd_emit_device_bytes(&scene) > 3 * stands_in);
-    scene.sky.milky_way = 0; /* nothing at all */
+    scene.sky.milky_way = 0; /* no light at all */
     assert_true(!says(&scene, "sky:") && kd_emit_needs(&scene) == KD_LENS_W && !kd_emit_device_bytes(&scene));
 }
 
-/* "auto": 0.2 of the grid and of a sky alone, 0.01 of stars behind what shines. */
+/* "auto": 0.2 for the grid and for a sky alone, 0.01 for stars behind other light. */
 static void brightness_of_skies(void **state)
 {
     (void)state;
@@ -396,7 +394,7 @@ static void brightness_of_skies(void **state)
     }
 }
 
-/* Where so few particles fall that there are none, nothing does. */
+/* If the number of falling particles rounds to 0, none fall. */
 static void none_of_a_thousand(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Wishes for accuracy, and what they come to. */
+/* Requests for accuracy, and the engines chosen. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static void refuse(struct kd_accuracy_request asked_accuracy, bool float64, cons
         fail_msg("\"%s\" is not in \"%s\"", part, error.message);
 }
 
-/* A scene's words and the engines are two lists in one order. */
+/* A scene's words and the engines are two lists in the same order. */
 static void words_are_names(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void profiles(void **state)
     assert_true(kd_accuracy_request_needs_device(&asked_accuracy));
 }
 
-/* A finer tolerance is never answered with a row that holds less, nor a coarse one with a slower row. */
+/* A finer tolerance never gets a row with a larger error, nor a coarser one a slower row. */
 static void tolerances(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void what_cannot_be(void **state)
     asked_accuracy.tolerance = 1e-15;
     refuse(asked_accuracy, true, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     asked_accuracy.tolerance = 1e-9;
-    assert_int_equal(settle(asked_accuracy, false).engine, KD_ENGINE_CLOSED); /* which needs no device */
+    assert_int_equal(settle(asked_accuracy, false).engine, KD_ENGINE_CLOSED); /* needs no device */
     asked_accuracy.precision = KD_PRECISION_F32;
     refuse(asked_accuracy, false, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     asked_accuracy.precision = -1;

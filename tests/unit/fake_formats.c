@@ -1,5 +1,5 @@
-/* The table of formats with one more in it, for tests: "fake" is a line of text with what kd_encode was given, then
- * the scene. It needs the light of a frame and not its picture, and keeps a count of its files. */
+/* The table of formats with one more, for tests: "fake" is a line of text with kd_encode's arguments, then the
+ * scene. It needs the light of a frame and not its picture, and counts its files. */
 #include "fake_formats.h"
 
 #include <stdio.h>

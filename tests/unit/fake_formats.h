@@ -4,6 +4,6 @@
 #include "render/output/format.h"
 
 extern const struct kd_format fake_format;
-extern int fake_memories; /* that it was given and has not been asked to forget */
+extern int fake_memories; /* memories that it was given and not yet asked to free */
 
 #endif

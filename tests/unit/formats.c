@@ -1,5 +1,4 @@
-/* A format is found by its name, its media type, the end of a path and its first bytes, and one that is added to the
- * table needs nothing else. */
+/* A format is found by its name, media type, file extension and first bytes; adding one to the table is sufficient. */
 #include "fake_formats.h"
 
 #include "render/accuracy/table.h"
@@ -50,7 +49,7 @@ static struct kd_buffer encoded(const struct kd_format *format, const struct kd_
     return file;
 }
 
-/* What an encoder keeps is that of its latest format. */
+/* An encoder's memory belongs to its latest format. */
 static void memory_is_kept_and_forgotten(void **state)
 {
     (void)state;
@@ -112,7 +111,7 @@ static struct kd_plan planned(const struct kd_format *format, struct kd_scene *s
     return plan;
 }
 
-/* How many of the passes that only a picture needs. */
+/* Number of passes that only a picture needs. */
 static int shows(const struct kd_plan *plan)
 {
     int n = 0;
@@ -122,8 +121,8 @@ static int shows(const struct kd_plan *plan)
     return n;
 }
 
-/* A picture is exposed, made and read back, and its light left alone; what needs the light alone has it measured,
- * and no picture. */
+/* For a picture the plan exposes, renders and reads back, and does not measure light; for light alone it measures,
+ * without a picture. */
 static void a_plan_is_for_what_is_carried(void **state)
 {
     (void)state;

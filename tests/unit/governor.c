@@ -1,4 +1,4 @@
-/* Governor and ladder: machines that are steady, noisy, loaded for a while, recorded, and out to make it oscillate. */
+/* Governor and ladder, on machines that are steady, noisy, temporarily loaded, recorded, and adversarial. */
 #include "governor_recorded.h"
 #include "governor_simulation.h"
 
@@ -44,7 +44,7 @@ static void assert_same_scene(const struct kd_scene *a, const struct kd_scene *b
 
 static int rank(int samples) { return samples ? samples : 9; }
 
-/* What an order of qualities is for: nothing is given up before all of what goes before it is. */
+/* The order of qualities: nothing is given up before everything that precedes it. */
 static void assert_order(const struct kd_quality *before, const struct kd_quality *after)
 {
     bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
@@ -140,8 +140,7 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
-    asked.camera.projection =
-        KD_PROJECTION_RING; /* photon rings, one above the other: as many of them as are asked for */
+    asked.camera.projection = KD_PROJECTION_RING; /* photon rings, one above the other: as many as requested */
     asked.accuracy.orders = 7;
     kd_ladder_make(&asked, &bounds, &ladder);
     for (size_t i = 0; i < ladder.n_rungs; i++)
@@ -158,8 +157,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     assert_true(ladder.rungs[without].quality.sketch && ladder.rungs[without].quality.profile == KD_PROFILE_DRAFT);
 }
 
-/* A view whose pixels have as many rays as they need moves with one each where that is too slow, and comes to rest
- * on all; a small scale is not given for it. */
+/* An adaptively sampled view moves with one ray a pixel if that is too slow, and comes to rest with all; the scale
+ * is not reduced for it. */
 static void adaptive_pictures_move_with_one_ray(void **state)
 {
     (void)state;
@@ -179,7 +178,7 @@ static void adaptive_pictures_move_with_one_ray(void **state)
 
 /* Steady machines */
 
-/* After half a minute nothing changes, the target is met if it can be, and no quality is given away. */
+/* After half a minute nothing changes, the target is met if possible, and no quality is wasted. */
 static void settles_on_a_steady_machine(void **state)
 {
     (void)state;
@@ -204,7 +203,7 @@ static void settles_on_a_steady_machine(void **state)
             assert_true(true_cost(&s, last_rung(&s), pattern == PLAY) > 1.1 * (may - fixed) + fixed);
             hopeless++;
         }
-        if (rung > 0) /* what would be 80 % of what there is room for was climbed to */
+        if (rung > 0) /* a rung that uses 80 % of the room was climbed to */
             assert_true(true_cost(&s, rung - 1, pattern == PLAY) - fixed > 0.8 * (may - fixed) ||
                         (pattern == PLAY && true_cost(&s, rung - 1, false) - fixed > 0.7 * s.governor.params.stall_ms));
     }
@@ -212,7 +211,7 @@ static void settles_on_a_steady_machine(void **state)
     assert_true(reached > 200 && hopeless > 20);
 }
 
-/* Nothing is known of where the time goes. */
+/* Frames report only their total time. */
 static void settles_when_told_only_totals(void **state)
 {
     (void)state;
@@ -231,7 +230,7 @@ static void settles_when_told_only_totals(void **state)
     }
 }
 
-/* A first guess saves the slow frames. */
+/* A first estimate avoids the slow frames. */
 static void begins_where_it_is_told_to_expect(void **state)
 {
     (void)state;
@@ -245,9 +244,10 @@ static void begins_where_it_is_told_to_expect(void **state)
     assert_int_equal(s.governor.paces[0].rung, 0);
     run(&s, DRAG, 60e3);
     assert_int_equal(s.changes, 0);
-    kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .rays_ms = 1, .total_ms = 1 }); /* too late: measured */
+    /* too late: already measured */
+    kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .rays_ms = 1, .total_ms = 1 });
     assert_true(s.governor.paces[1].rung > 0);
-    /* A larger picture is asked for: by what the smaller one cost. */
+    /* For a larger picture the estimate scales with the smaller one's cost. */
     s.asked.image.width *= 2;
     s.asked.image.height *= 2;
     s.truth.traced *= 4;
@@ -259,7 +259,7 @@ static void begins_where_it_is_told_to_expect(void **state)
     assert_true(true_cost(&s, s.governor.paces[1].rung, false) <= 33 || s.governor.paces[1].rung == last_rung(&s));
 }
 
-/* A drag that begins on a slow machine is not to be waited for. */
+/* A drag on a slow machine reacts soon. */
 static void two_slow_frames_are_enough(void **state)
 {
     (void)state;
@@ -267,7 +267,7 @@ static void two_slow_frames_are_enough(void **state)
     begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 400, .reused = 40, .pixels = 20 });
     change(&s, true);
     frame(&s);
-    assert_int_equal(s.changes, 0); /* one may be a kernel that was compiled */
+    assert_int_equal(s.changes, 0); /* one slow frame may be a kernel being compiled */
     change(&s, true);
     frame(&s);
     assert_int_equal(s.changes, 1);
@@ -301,7 +301,7 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
         }
 }
 
-/* But what the picture adds is kept within a quarter of it, and within half the target. */
+/* But the picture's own part is kept within a quarter of that, and within half the target. */
 static void what_can_be_mended_is(void **state)
 {
     (void)state;
@@ -332,7 +332,7 @@ static void recovers_from_a_slow_beginning(void **state)
         for (int i = 0; i < slow; i++)
             run(&s, DRAG, 1);
         s.load = 1;
-        run(&s, DRAG, 4500); /* the wait after what was too slow, a few climbs */
+        run(&s, DRAG, 4500); /* the wait after a slow frame, and a few climbs */
         assert_int_equal(rung_of(&s, DRAG), 0);
         run(&s, PLAY, 600); /* as soon as the drag counts as over */
         assert_int_equal(rung_of(&s, PLAY), 0);
@@ -340,8 +340,8 @@ static void recovers_from_a_slow_beginning(void **state)
     }
 }
 
-/* Time goes on, for minutes; a drag; and it goes on at full size when the drag is over, however long after the last
- * change. */
+/* Time advances for minutes; then a drag; afterwards it continues at full size, however long ago the last change
+ * was. */
 static void a_drag_is_soon_forgotten(void **state)
 {
     (void)state;
@@ -357,8 +357,7 @@ static void a_drag_is_soon_forgotten(void **state)
     }
 }
 
-/* Ten million particles that became as many thousand; a sky that was taken away: what was too slow then says nothing
- * now. */
+/* Ten million particles become as many thousand; a sky is removed: earlier slowness no longer counts. */
 static void another_kind_of_scene_begins_anew(void **state)
 {
     (void)state;
@@ -378,8 +377,7 @@ static void another_kind_of_scene_begins_anew(void **state)
     }
 }
 
-/* Nothing moves while a smooth disk rings: the picture keeps its size on any machine, and gets it back where it had
- * lost it. */
+/* A ringing smooth disk does not move: the picture keeps its size on any machine, and regains it. */
 static void what_only_rings_keeps_its_size(void **state)
 {
     (void)state;
@@ -391,12 +389,12 @@ static void what_only_rings_keeps_its_size(void **state)
             run(&s, before == 1 ? PLAY : DRAG, 5000);
         else
             change(&s, true);
-        s.now += before < 3 ? 3000 : 0; /* else at the very end of a drag */
+        s.now += before < 3 ? 3000 : 0; /* otherwise at the very end of a drag */
         while (before < 3 && frame(&s))
             s.now += 200;
         assert_true(s.last.final == (before < 3));
         s.asked.motion.time_rate = 8;
-        change(&s, false); /* a picture knows nothing of that */
+        change(&s, false); /* the picture does not depend on it */
         assert_true(kd_governor_decide(&s.governor, s.now).wait_ms > 0);
         s.asked.style.ringdown = 1;
         for (int i = 0; i < 200; i++) {
@@ -412,13 +410,13 @@ static void what_only_rings_keeps_its_size(void **state)
         while (frame(&s))
             s.now += 200;
         assert_true(s.last.final);
-        s.asked.disk.model = KD_DISK_PARTICLES; /* that moves */
+        s.asked.disk.model = KD_DISK_PARTICLES; /* which moves */
         run(&s, PLAY, 5000);
         assert_true(s.last.scale < 1);
     }
 }
 
-/* A guess that was much too dear is mended by the first frame that says better, before anybody drags. */
+/* A first estimate that is much too high is corrected by the first frame, before a drag begins. */
 static void what_refinement_measured_is_believed(void **state)
 {
     (void)state;
@@ -433,11 +431,11 @@ static void what_refinement_measured_is_believed(void **state)
     change(&s, true);
     frame(&s);
     assert_true(s.last.final);
-    /* And one that was much too cheap. */
+    /* And one that is much too low. */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
-    s.now += 1000; /* nothing was drawn while the camera moved: that frames trace is learnt from one that misses its
-                      lens map */
+    /* Nothing was rendered while the camera moved: that frames trace is learnt from one that misses its lens map. */
+    s.now += 1000;
     frame(&s);
     change(&s, true);
     frame(&s);
@@ -488,7 +486,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
         run(&s, DRAG, 30e3);
         assert_true(s.changes <= 7);
         s.load = 1;
-        run(&s, DRAG, 15e3); /* and back, by no more changes than it took */
+        run(&s, DRAG, 15e3); /* and back, by no more changes */
         assert_int_equal(s.governor.paces[1].rung, 0);
         run(&s, DRAG, 60e3);
         assert_true(s.changes <= 8);
@@ -497,7 +495,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
 
 /* Machines that want it to oscillate */
 
-/* Cheap until the rung was climbed to, dear for as long as it is held. */
+/* Cheap until it climbs a rung, expensive while it stays there. */
 static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -506,7 +504,7 @@ static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, co
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
 
-/* As above, and where it has no climb to punish, it makes one rung at a time be given up. */
+/* The same, and without a climb to punish it forces it down a rung at a time. */
 static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -535,7 +533,7 @@ static struct kd_frame_cost telegraph(const struct simulation *s, const struct k
                                     .total_ms = factor * c.total_ms };
 }
 
-/* Says that what it takes is fixed as soon as the picture is small, and goes with its size when it is large. */
+/* Claims a fixed cost when the picture is small, and a cost proportional to its size when it is large. */
 static struct kd_frame_cost liar(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)reused;
@@ -554,8 +552,8 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Climbs that were in vain, by the doubling of the wait after each: 3 s (2^n - 1) <= T, those that came before the
- * first wait besides, one a rung; each between a descent and a climb of the whole ladder at most. */
+/* Bounds failed climbs: since the wait doubles after each, 3 s (2^n - 1) <= T, plus those before the first wait, one
+ * a rung; each is at most between a descent and a climb of the whole ladder. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
@@ -566,7 +564,7 @@ static void assert_settles(machine *adversary, struct truth truth, int hours)
     uint64_t vain = n + (uint64_t)ceil(log2(3600 / 3.0));
     assert_true(hour <= 2 * vain * n);
     run(&s, DRAG, (hours - 1) * 3600e3);
-    assert_true(s.changes - hour <= 8 * n); /* log2(10) more tries at most */
+    assert_true(s.changes - hour <= 8 * n); /* at most log2(10) more tries */
     assert_true(s.least_pause >= 1000);
     print_message("%llu changes in an hour, %llu in %d more\n", (unsigned long long)hour,
                   (unsigned long long)(s.changes - hour), hours - 1);
@@ -579,7 +577,7 @@ static void adversaries_are_outwaited(void **state)
     assert_settles(greedy, (struct truth) { 0 }, 10);
     for (int period = 1; period <= 40; period += period < 10 ? 1 : 10)
         assert_settles(by_count, (struct truth) { .spike = period }, 2);
-    for (double ms = 100; ms < 100e3; ms *= 3.3) /* load that comes and goes every so often */
+    for (double ms = 100; ms < 100e3; ms *= 3.3) /* load with a period of this length */
         assert_settles(telegraph, (struct truth) { .traced = 20, .reused = 3, .pixels = 3, .spike = ms }, 3);
     assert_settles(liar, (struct truth) { 0 }, 10);
     for (double ms = 100; ms < 100e3; ms *= 3.3)
@@ -603,7 +601,7 @@ static void no_climb_back_before_the_wait_is_over(void **state)
             top = before;
         } else if (after < before && after <= top) {
             waited = s.now - left;
-            assert_true(waited >= longest && waited >= 3000); /* each longer than the one before */
+            assert_true(waited >= longest && waited >= 3000); /* each wait is longer than the one before */
             longest = waited;
         }
     }
@@ -633,7 +631,7 @@ static void slow_traced_frames_leave_cheap_ones_alone(void **state)
     assert_int_equal(s.changes, changes);
 }
 
-/* After a drag the first frame of what goes on in time alone traces, on its own rung. */
+/* After a drag the first frame in which only time advances traces, on its own rung. */
 static void the_end_of_a_drag_is_no_stall(void **state)
 {
     (void)state;
@@ -651,13 +649,13 @@ static void the_end_of_a_drag_is_no_stall(void **state)
         assert_true(longest <= 1.1 * 500);
         uint32_t rung = s.governor.paces[0].rung;
         assert_true(full > 0.7 * 500 ? true_cost(&s, rung, false) <= 1.1 * 500 : s.last.final);
-        /* And no less than that, as far as can be told: orders and steps cost less on this machine than the governor
-         * believes. */
+        /* And not less than necessary, as far as can be told: orders and steps cost less on this machine than the
+         * governor assumes. */
         assert_true(rung == 0 || true_cost(&s, rung - 1, false) > 0.4 * 500);
     }
 }
 
-/* Also what is seen settles, not only each rung. */
+/* The visible quality settles too, not only each rung. */
 static void mixed_changes_do_not_flicker(void **state)
 {
     (void)state;
@@ -676,7 +674,7 @@ static void mixed_changes_do_not_flicker(void **state)
     }
 }
 
-/* A picture too large for its lens map to be kept. */
+/* A picture too large for its lens map to be cached. */
 static void lens_maps_that_are_never_kept(void **state)
 {
     (void)state;
@@ -693,7 +691,7 @@ static void lens_maps_that_are_never_kept(void **state)
         seen += s.last.scale != last;
     }
     print_message("hoped for %llu times more\n", (unsigned long long)seen);
-    assert_true(seen <= 4); /* there and back; each hope is twice as rare as the one before */
+    assert_true(seen <= 4); /* there and back; each retry is twice as rare as the one before */
 }
 
 /* Rest */
@@ -707,7 +705,7 @@ static double refine_to_rest(struct simulation *s, int *n)
             assert_true(turn.quality.final);
             break;
         }
-        s->now += turn.wait_ms; /* until it says so, and not a moment longer */
+        s->now += turn.wait_ms; /* exactly until it says so */
         assert_true(frame(s));
         assert_true(s->last.scale >= before.scale &&
                     (s->last.samples >= before.samples || s->last.scale > before.scale));
@@ -728,7 +726,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         run(&s, i % 2 ? DRAG : PLAY, 5000 * uniform());
         change(&s, i % 3);
         double changed = s.now;
-        assert_true(frame(&s)); /* at once, by the rung in force */
+        assert_true(frame(&s)); /* at once, at the present rung */
         const bool final = s.last.final, slow = s.now > changed + 150;
         struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
         if (!slow) { /* what is shown is in force */
@@ -737,7 +735,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         }
         assert_true(final ? isinf(turn.wait_ms)
                           : fabs(turn.wait_ms - fmax(changed + 150 - s.now, 50)) <
-                                1e-9); /* who has waited for a slow frame has time for a change */
+                                1e-9); /* after waiting for a slow frame there is time for a change */
         refine_to_rest(&s, &frames);
         assert_true(final ? frames == 0 : frames >= 1 && frames <= KD_LADDER_STEPS);
         assert_true(s.last.final);
@@ -749,7 +747,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
     }
 }
 
-/* Member by member: bytes between members are anything. */
+/* Compares member by member, since padding is undefined. */
 static void assert_same_pace(const struct kd_pace *a, const struct kd_pace *b)
 {
     assert_true(a->rung == b->rung && a->ceiling == b->ceiling && a->count == b->count && a->climbed == b->climbed &&
@@ -781,7 +779,7 @@ static void a_change_breaks_into_refinement(void **state)
     change(&s, true);
     struct kd_frame_decision next = kd_governor_decide(&s.governor, s.now);
     assert_true(!next.refining && next.wait_ms == 0 && next.quality.scale < 1);
-    /* The old one comes in after all: not what is asked now, nor a measure of anything. */
+    /* The old frame arrives after all: it is neither what is wanted now, nor a measurement. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
     assert_same_pace(&pace, &s.governor.paces[1]);
@@ -794,8 +792,8 @@ static void a_change_breaks_into_refinement(void **state)
     assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
 }
 
-/* Where no lens map is kept, frames of a scene whose time alone goes on trace, too: the camera stands still, the eye
- * sees the photon ring, and its rays are as many as are asked. */
+/* If no lens map is cached, frames in which only time advances trace, too. The camera is at rest and the photon ring
+ * visible, so it has the full number of rays. */
 static void time_keeps_the_rays_at_the_curve(void **state)
 {
     (void)state;
@@ -816,8 +814,8 @@ static void time_keeps_the_rays_at_the_curve(void **state)
     assert_true(dragged.rung && dragged.quality.critical == 2);
 }
 
-/* The rays next to the critical curve and the stars are fewer in a drag, on any rung but the first, and all are
- * there while time goes on and at rest. */
+/* In a drag the rays near the critical curve and the stars are reduced, on any rung but the first; while time
+ * advances and at rest all are there. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
 {
     (void)state;
@@ -850,7 +848,7 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
     }
 }
 
-/* Frames of a rung or a ladder that was left, and times that are none. */
+/* Frames of an earlier rung or ladder, and invalid times. */
 static void what_measures_nothing_is_not_counted(void **state)
 {
     (void)state;
@@ -872,7 +870,7 @@ static void what_measures_nothing_is_not_counted(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         kd_governor_frame(&s.governor, s.now, &turn, &bad[i]);
     assert_same_pace(&pace, &s.governor.paces[1]);
-    /* Another ladder; by chance on the same rung. And there the ceiling of the old one is none. */
+    /* Another ladder, by chance on the same rung: the old ladder's ceiling does not apply. */
     s.asked.image.width = 1300;
     change(&s, true);
     assert_int_equal(s.governor.paces[1].rung, turn.rung);
@@ -922,9 +920,9 @@ static void whatever_happens_the_answer_is_sound(void **state)
     }
 }
 
-/* A starry view whose azimuth turns: of what goes with rays, by the frames of a session, 7.2 ms stay whatever the
- * picture's size is, and nobody says so. It was too slow for a while, as others had the machine; then it has the
- * size again that is in time. */
+/* A starry view whose azimuth changes: 7.2 ms of the rays' time, from the frames of a session, do not depend on the
+ * picture's size, and this is not reported. It was too slow for a while because of other load; then it regains the
+ * size that meets the target. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     const double pixels = 1e-3 * scene->image.width * scene->image.height,
@@ -959,8 +957,8 @@ static void what_stays_at_any_size_is_learned(void **state)
     }
 }
 
-/* The same view in a session that its first frame, for which kernels were made, has told to begin on the lowest
- * rung: it has been on no other, by which it could tell what stays. */
+/* The same view in a session whose first frame, for which kernels were compiled, made it start on the lowest rung:
+ * it has seen no other rung, from which the fixed part could be inferred. */
 static void who_began_low_finds_out(void **state)
 {
     (void)state;
@@ -1004,7 +1002,7 @@ static struct kd_frame_cost replay(const struct simulation *s, const struct kd_s
                                     .total_ms = recorded[recorded_scene][!reused][i][frame].total };
 }
 
-/* Whatever a machine takes, no frame is narrower than was asked for; and what is taken back is used again. */
+/* Whatever the machine's times, no frame is narrower than the minimum; and a lowered minimum is used. */
 static void no_frame_is_less_than_the_least(void **state)
 {
     (void)state;
@@ -1036,8 +1034,8 @@ static void no_frame_is_less_than_the_least(void **state)
     }
 }
 
-/* Frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the width of the last one,
- * as a part of what is asked. */
+/* Frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the last one's width over
+ * the requested one. */
 static double after_frames_of(struct kd_governor *governor, const struct kd_scene *scene, double *now, double stays_ms,
                               double full_ms, int frames)
 {
@@ -1060,8 +1058,8 @@ static double after_frames(struct kd_governor *governor, const struct kd_scene *
     return after_frames_of(governor, scene, now, 0, full_ms, frames);
 }
 
-/* Where much of a frame takes its time at any size, half the width is had again as soon as the machine has time for
- * it, and not before. */
+/* If much of a frame's time is independent of its size, half the width returns as soon as there is time for it, and
+ * not earlier. */
 static void wide_frames_come_back_where_much_stays(void **state)
 {
     (void)state;
@@ -1070,7 +1068,7 @@ static void wide_frames_come_back_where_much_stays(void **state)
     scene.image.width = 1600;
     scene.image.height = 900;
     scene.accuracy.orders = 2;
-    scene.accuracy.profile = KD_PROFILE_DRAFT; /* only width is left to give up */
+    scene.accuracy.profile = KD_PROFILE_DRAFT; /* only the width can be reduced */
     struct kd_governor governor;
     kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
     kd_governor_least(&governor, 0.5, 100);
@@ -1083,8 +1081,8 @@ static void wide_frames_come_back_where_much_stays(void **state)
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5);
 }
 
-/* Half the width is kept as long as such a frame takes no longer than the patience; it is kept again when it would
- * not any more, and when the scene is another. */
+/* Half the width is kept while such a frame is within the patience, given up beyond it, and regained when it would be
+ * within it again, or when the scene is another. */
 static void wide_frames_give_way_to_slowness(void **state)
 {
     (void)state;
@@ -1098,7 +1096,7 @@ static void wide_frames_give_way_to_slowness(void **state)
     double now = 0;
     assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.5); /* 90 ms */
     assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
-    assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.25); /* too near the patience */
+    assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.25); /* too close to the patience */
     assert_true(after_frames(&governor, &scene, &now, 200, 300) == 0.5);
     assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
     scene.sky.model = KD_SKY_GRID;

@@ -1,4 +1,4 @@
-/* Governors of sessions that share a device: each gives way to the others, and has again what it had when they stop. */
+/* Governors of sessions that share a device: each yields to the others, and recovers when they stop. */
 #include "shared_device.h"
 
 #include <setjmp.h>
@@ -7,7 +7,8 @@
 
 #include <cmocka.h>
 
-/* 640 x 360 dragged before a sky, as measured on two cores (governor_recorded.h): 80 ms as asked, 27 at 400 x 225. */
+/* 640 x 360 dragged in front of a sky, as measured on two cores (governor_recorded.h): 80 ms as requested, 27 at 400
+ * x 225. */
 static const struct truth sky = { .traced = 62, .reused = 14, .pixels = 5, .fixed = 2.4, .hidden = 0.6 };
 
 static struct truth noisy(struct truth truth)
@@ -31,7 +32,7 @@ static double rate(const struct sharer *s, double ms) { return 1e3 * (double)s->
 
 static uint32_t rung(const struct sharer *s) { return s->sim.governor.paces[1].rung; }
 
-/* One among sessions that rest is served as one that knows of no others. */
+/* A session among resting ones gets the same service as alone. */
 static void alone_is_as_it_was(void **state)
 {
     (void)state;
@@ -86,8 +87,8 @@ static void tell(const char *what, int n, const struct device *d, const struct s
                   (unsigned long long)sum->seen);
 }
 
-/* Who is told nothing keeps a picture that takes 30 ms and loses frames: 4 a second of eight. Told, each has the
- * same number, none falls below 12 of eight, and what is in force stays in force. */
+/* Without knowledge of its share a session keeps a picture that takes 30 ms, and loses frames: 4 a second for eight.
+ * With it all have the same rate, none falls below 12 for eight, and quality is stable. */
 static void many_keep_moving(void **state)
 {
     (void)state;
@@ -127,8 +128,7 @@ static void noise_divides_nobody(void **state)
     }
 }
 
-/* On any machine, with any pause: each gets its part, and what it does with it is as near to its target as that of
- * one alone. */
+/* On any machine, with any pause: each gets its share, and comes as close to its target as it would alone. */
 static void parts_are_equal_on_any_machine(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void parts_are_equal_on_any_machine(void **state)
         for (int i = 0; i < n; i++)
             assert_true(d.sharers[i].sim.governor.share >= 0.999 / n);
         if (rung(s) + 1 < s->sim.governor.ladder.n_rungs &&
-            sum.used > 0.9) { /* else it is too slow at its least, or idle */
+            sum.used > 0.9) { /* otherwise it is too slow at its minimum, or idle */
             assert_true(cost <= 1.1001 * may_take(period * share, truth.fixed));
             assert_true(sum.most <= 1.25 * sum.least);
             reached++;
@@ -161,7 +161,7 @@ static void parts_are_equal_on_any_machine(void **state)
     assert_true(reached > 60 && seen <= 40);
 }
 
-/* A frame that waits for others for longer than it takes a hand to rest is no hand that rests. */
+/* A frame that waits for others for longer than a hand's rest is not taken for a resting hand. */
 static void who_waits_is_not_taken_for_resting(void **state)
 {
     (void)state;
@@ -185,7 +185,7 @@ static void with_share(struct simulation *s, double share, enum pattern pattern,
     run(s, pattern, ms);
 }
 
-/* What was too slow with an eighth of the device says nothing of all of it. */
+/* Slowness with an eighth of the device says nothing about all of it. */
 static void a_ceiling_of_less_is_none(void **state)
 {
     (void)state;
@@ -197,8 +197,8 @@ static void a_ceiling_of_less_is_none(void **state)
     assert_true(s.last.final);
 }
 
-/* However often others come: no climb was in vain that they ended, and the wait before the next does not grow with
- * them. */
+/* However often others come: a climb that they end does not count as failed, and the wait before the next does not
+ * grow. */
 static void climbs_that_others_end_are_not_in_vain(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static void climbs_that_others_end_are_not_in_vain(void **state)
     assert_true(s.governor.paces[1].retry_ms <= 6000);
 }
 
-/* The lens map that a drag leaves to trace at its end stops all of them. */
+/* Tracing the lens map at the end of a drag delays all sessions. */
 static void a_stall_is_shared(void **state)
 {
     (void)state;
@@ -234,8 +234,8 @@ static void a_stall_is_shared(void **state)
 
 /* Coming and going */
 
-/* What it had alone it has again within two seconds and a half, and in the seconds after they come all have their
- * frames. */
+/* Within two and a half seconds a session recovers what it had alone; in the seconds after others come all have
+ * their frames. */
 static void others_come_and_go(void **state)
 {
     (void)state;
@@ -264,7 +264,7 @@ static void others_come_and_go(void **state)
         }
 }
 
-/* A hand that pauses for less than two seconds is not lent out: what others see does not go up and down with it. */
+/* A pause of less than two seconds in a gesture is not lent: what others see does not fluctuate with it. */
 static void strokes_of_another_are_not_seen(void **state)
 {
     (void)state;
@@ -285,7 +285,7 @@ static void strokes_of_another_are_not_seen(void **state)
 
 /* What is not used is lent */
 
-/* One who asks for little, at whatever pace, costs the other no more than that. */
+/* A session with a small demand, at whatever rate, costs the others only that. */
 static void who_asks_for_little_gets_little(void **state)
 {
     (void)state;
@@ -305,7 +305,7 @@ static void who_asks_for_little_gets_little(void **state)
     }
 }
 
-/* Clients have equal parts, however many sessions each of them has. */
+/* Clients have equal shares, however many sessions each has. */
 static void clients_share_before_sessions(void **state)
 {
     (void)state;
@@ -329,8 +329,8 @@ static void clients_share_before_sessions(void **state)
 
 /* Refinement */
 
-/* A picture that takes long to refine makes way for those that move: it has a fifth of their client's time, or its
- * own client's half. */
+/* A picture that takes long to refine yields to moving ones: it has a fifth of their client's time, or its own
+ * client's half. */
 static void refinement_makes_way(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* A session round a governor, on a machine made of formulas: who asks what and when, what frames cost, what was done
- * about it. */
+/* Simulates a session with a governor, on a machine made of formulas: when which scene is requested, what frames
+ * cost, and which quality is chosen. */
 #ifndef KD_TESTS_GOVERNOR_SIMULATION_H
 #define KD_TESTS_GOVERNOR_SIMULATION_H
 
@@ -21,16 +21,17 @@ static double uniform(void) /* in [0, 1) */
 
 struct simulation;
 
-/* What a frame of this scene costs on the machine. */
+/* Cost of a frame of this scene on the machine. */
 typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd_scene *scene, bool reused);
 
-/* A machine whose cost goes with rays, pixels and nothing; noise and spikes on top. */
+/* A machine with costs by rays, by pixels and fixed; plus noise and spikes. */
 struct truth {
-    double traced, reused, pixels; /* ms of the scene as asked: of rays traced, of rays with their lens map, ... */
-    double fixed, hidden;          /* at any size; that it tells; that it does not */
-    double noise;                  /* relative; uniform */
-    double spikes, spike;          /* how often, how many times as long */
-    bool silent;                   /* tells only the total */
+    /* ms of the scene as requested: for rays traced, for rays with their lens map, ... */
+    double traced, reused, pixels;
+    double fixed, hidden; /* independent of size: reported, and not reported */
+    double noise;         /* relative; uniform */
+    double spikes, spike; /* how often, and how many times as long */
+    bool silent;          /* reports only the total */
 };
 
 struct simulation {
@@ -40,12 +41,12 @@ struct simulation {
     machine *cost;
     double now;
     uint64_t frames, changes, climbs;           /* changes of rung, of both kinds of frames; those upwards */
-    double last_change, sum, load, least_pause; /* of a climb after the change before */
+    double last_change, sum, load, least_pause; /* least_pause: shortest time between a change and the next climb */
     uint64_t summed;
-    uint32_t lens;             /* of the scene: counts */
-    uint32_t kept[4][3], next; /* lens maps: lens, width, samples */
+    uint32_t lens;             /* counter of the scene's lens map */
+    uint32_t kept[4][3], next; /* cached lens maps: lens, width, samples */
     struct kd_quality last;    /* of the last frame rendered */
-    bool forgets;              /* no lens map is ever kept */
+    bool forgets;              /* never caches a lens map */
 };
 
 static double rays_of(const struct kd_scene *scene)
@@ -53,7 +54,7 @@ static double rays_of(const struct kd_scene *scene)
     return (double)scene->image.width * scene->image.height * scene->image.samples * scene->image.samples;
 }
 
-/* Neither orders nor profiles cost here what ray_cost() in quality.c believes. */
+/* Orders and profiles cost something else here than ray_cost() in quality.c assumes. */
 static double ray_weight(const struct kd_scene *scene)
 {
     static const double profile[] = { 0.9, 0.95, 1, 1.1, 9 };
@@ -79,7 +80,7 @@ static inline struct kd_frame_cost truthful(const struct simulation *s, const st
     return c;
 }
 
-/* As the renderer's cache of lens maps: the last four. */
+/* Like the renderer's cache of lens maps: the last four. */
 static bool lens_kept(struct simulation *s, const struct kd_scene *scene)
 {
     uint32_t key[3] = { s->lens, (uint32_t)scene->image.width, (uint32_t)scene->image.samples };
@@ -106,7 +107,7 @@ static inline void change(struct simulation *s, bool lens)
     kd_governor_changed(&s->governor, s->now, &s->asked, lens);
 }
 
-/* Render what the governor wants, if anything: whether it wanted. */
+/* Renders the frame that the governor wants, if any; returns true if there was one. */
 static inline bool frame(struct simulation *s)
 {
     struct kd_frame_decision turn = kd_governor_decide(&s->governor, s->now);
@@ -136,7 +137,7 @@ static inline bool frame(struct simulation *s)
     return true;
 }
 
-/* The scene changes before each frame, which `lens` decides the kind of, and never faster than 60 times a second. */
+/* The scene changes before each frame, at most 60 times a second; `lens` determines the kind of change. */
 enum pattern { PLAY, DRAG, BOTH_IN_TURN, AT_RANDOM, DRAG_IN_BURSTS, PATTERNS };
 
 static bool moves_lens(const struct simulation *s, enum pattern pattern)
@@ -173,7 +174,7 @@ static inline double mean_over(struct simulation *s, enum pattern pattern, doubl
     return s->sum / (double)s->summed;
 }
 
-/* Without noise: what a rung truly costs. */
+/* True cost of a rung, without noise. */
 static inline double true_cost(const struct simulation *s, uint32_t rung, bool reused)
 {
     struct simulation quiet = *s;
@@ -185,7 +186,7 @@ static inline double true_cost(const struct simulation *s, uint32_t rung, bool r
 
 static inline struct truth some_truth(void)
 {
-    double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as asked */
+    double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as requested */
     double fixed = uniform() < 0.5 ? 0 : exp(7 * uniform()), hidden = uniform() < 0.5 ? 0 : 30 * uniform() * uniform();
     double rays = all * (0.3 + 0.6 * uniform());
     return (struct truth) { .traced = rays,
@@ -195,7 +196,7 @@ static inline struct truth some_truth(void)
                             .hidden = hidden };
 }
 
-/* What frames may take where some of it is fixed: no more than the target if that leaves half of it to the picture. */
+/* Permitted time of frames with a fixed part: at most the target, if that leaves half of it to the picture. */
 static inline double may_take(double target, double fixed)
 {
     double picture = fmax(target / 2, fixed / 4);

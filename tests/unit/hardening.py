@@ -27,7 +27,7 @@ def main(program, flags):
     }
     if any("FORTIFY_SOURCE=" in f for f in flags):
         found["fortified"] = re.search(r"__\w+_chk\b", symbols.replace("__stack_chk_fail", ""))
-    # Debian's C library leaves its own beginnings unmarked, so that the linker marks no program: landing pads are
+    # Debian's C library does not mark its own start files, so that the linker marks no program: landing pads are
     # counted instead.
     with open(program, "rb") as f:
         code = f.read()

@@ -1,4 +1,4 @@
-/* Histograms for /metrics: which bucket a duration is in, and what counting one costs. */
+/* Histograms for /metrics: the bucket of a duration, and the cost of counting one. */
 #include "base/clock.h"
 #include "server/http/histogram.h"
 #include "server/http/request_id.h"
@@ -42,7 +42,7 @@ static void test_buckets(void **state)
     kd_buffer_finish(&out);
 }
 
-/* Told, not judged. */
+/* Printed, not judged. */
 static void test_cost(void **state)
 {
     enum { N = 1000000 };

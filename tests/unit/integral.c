@@ -1,5 +1,5 @@
-/* Visibilities of maps whose transform is known: a uniform disk's is 2 J1(x)/x, a thin ring's J0(x), a Gaussian's a
- * Gaussian (Thompson, Moran & Swenson 2017, table 2.1), and a point's a turn. */
+/* Visibilities of maps with known transforms: a uniform disk's is 2 J1(x)/x, a thin ring's J0(x), a Gaussian's a
+ * Gaussian (Thompson, Moran & Swenson 2017, table 2.1), and a point's a phase. */
 #include "integral/fourier.h"
 #include "integral/pictures.h"
 #include "integral/request.h"
@@ -17,7 +17,7 @@
 #define UAS (M_PI / 180 / 3.6e9)
 enum { WIDTH = 201, HEIGHT = 160 };
 
-static const struct kd_fourier_grid grid = { WIDTH, HEIGHT, 1 * UAS, 90.5, 83.25 }; /* the hole is off the middle */
+static const struct kd_fourier_grid grid = { WIDTH, HEIGHT, 1 * UAS, 90.5, 83.25 }; /* the hole is off centre */
 
 static void near(double got, double want, double bound)
 {
@@ -25,10 +25,10 @@ static void near(double got, double want, double bound)
         fail_msg("%.12g, not %.12g", got, want);
 }
 
-/* Light of a pixel by its place in microarcseconds to the east and to the north of the middle of what is drawn. */
+/* Light of a pixel by its position, in microarcseconds east and north of the centre of the figure. */
 typedef double light_of(double x, double y);
 
-/* The mean over 15 x 15 places of each pixel, so that edges are as fine as a fifteenth of one. */
+/* The mean over 15 x 15 places of each pixel, so that edges are resolved to a fifteenth. */
 static void draw(float *map, light_of *light, double east, double north)
 {
     for (int j = 0; j < HEIGHT; j++)
@@ -46,8 +46,8 @@ static double a_disk(double x, double y) { return hypot(x, y) < 21 ? 1 : 0; }
 static double a_ring(double x, double y) { return exp(-pow((hypot(x, y) - 24) / 1.5, 2) / 2); }
 static double a_gaussian(double x, double y) { return exp(-(x * x / (2 * 49.) + y * y / (2 * 144.))); }
 
-/* Of one pulled wide by the pixels over which it is averaged: sinc(u pixel) sinc(v pixel), which a sum over points
- * in their middles has besides. */
+/* Effect of averaging over pixels, sinc(u pixel) sinc(v pixel), which a sum over points in their centres has in
+ * addition. */
 static double pixel_turns(double u, double v)
 {
     const double a = M_PI * u * 1e9 * UAS, b = M_PI * v * 1e9 * UAS;
@@ -57,7 +57,7 @@ static double pixel_turns(double u, double v)
 /* x = 2 pi q a for a baseline of q wavelengths and a radius of a uas. */
 static double argument(double u, double v, double a) { return 2 * M_PI * hypot(u, v) * 1e9 * a * UAS; }
 
-/* A ring that thin has the J0 of each of its circles, weighted by its light there. */
+/* A thin ring has the J0 of each of its circles, weighted by its light. */
 static double ring_transform(double u, double v)
 {
     double sum = 0, all = 0;
@@ -84,7 +84,7 @@ static void test_transforms_are_the_closed_forms(void **state)
     static light_of *const shapes[] = { a_disk, a_ring, a_gaussian };
     static const double bounds[] = {
         3e-3, 1e-5, 1e-5
-    }; /* a disk's edge is that of a fifteenth of a pixel; the others are smooth */
+    }; /* a disk's edge is resolved to a fifteenth of a pixel; the others are smooth */
     static const double away[][2] = { { 0, 0 }, { 8.5, -5.25 } };
     static float map[WIDTH * HEIGHT];
     double scratch[2 * WIDTH], worst[3] = { 0 };
@@ -112,8 +112,7 @@ static void test_transforms_are_the_closed_forms(void **state)
     print_message("visibilities off by at most: disk %.1e, ring %.1e, Gaussian %.1e\n", worst[0], worst[1], worst[2]);
 }
 
-/* East is to the left, north at the top: a point there turns by exp(-2 pi i (u x + v y)). Several maps are summed at
- * once. */
+/* East is left, north is up: a point there has the phase exp(-2 pi i (u x + v y)). Several maps are summed at once. */
 static void test_a_point_turns(void **state)
 {
     static float left[WIDTH * HEIGHT], top[WIDTH * HEIGHT];
@@ -159,14 +158,14 @@ static void test_baselines(void **state)
     assert_int_equal(kd_integral_pictures(&r), 1);
     assert_int_equal(kd_integral_rows(&r), 2);
     kd_integral_request_finish(&r);
-    /* A scene makes a spectrum that of its volume. */
+    /* With a scene, a spectrum becomes that of its volume. */
     ask(&r, KD_INTEGRAL_SPECTRUM,
         "{\"frequencies_hz\":[1e11,2e11,3e11],\"preset\":\"riaf\",\"scene\":{\"camera\":{\"inclination_deg\":30}}}");
     assert_int_equal(r.what, KD_INTEGRAL_VOLUME);
     assert_int_equal(kd_integral_pictures(&r), 6);
     near(kd_integral_scene(&r, 3).volume.frequency_ghz, 200, 1e-9);
     kd_integral_request_finish(&r);
-    /* Matter of a given flux has it at the scene's frequency, and is the same matter at all others. */
+    /* Matter of a given flux has it at the scene's frequency, and is the same at all others. */
     ask(&r, KD_INTEGRAL_SPECTRUM,
         "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"frequency_"
         "ghz\":230}}}");

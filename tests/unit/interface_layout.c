@@ -1,5 +1,5 @@
-/* What C writes is what the kernels read: offsets and types of the members of push constants and buffers in
- * the SPIR-V against offsetof. */
+/* Layouts agree between C and kernels: offsets and types of the members of push constants and buffers in the SPIR-V
+ * against offsetof. */
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 
@@ -26,8 +26,8 @@
 
 #include <cmocka.h>
 
-/* SPIR-V 1.5 specification, sections 2.3 and 3: a header of five words, then instructions whose first word
- * holds their length and opcode; text is bytes from the low end of each word. */
+/* SPIR-V 1.5 specification, sections 2.3 and 3: a header of five words, then instructions whose first word has their
+ * length and opcode; text is stored from the low end of each word. */
 enum {
     OP_NAME = 5,
     OP_MEMBER_NAME = 6,
@@ -59,7 +59,7 @@ static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, 
     return NULL;
 }
 
-/* As it lies in a buffer: a struct that variables have as well is there a second time, without offsets. */
+/* The struct as laid out in a buffer; one that variables use as well exists a second time, without offsets. */
 static uint32_t struct_called(const struct spirv *s, const char *name)
 {
     size_t at = 5;
@@ -113,7 +113,7 @@ struct field {
     uint32_t opcode;
 };
 
-/* Every field of C at its place in the kernel; `more` members of the kernel are not in the list. */
+/* Every field of C is at its place in the kernel; `more` members of the kernel are not in the list. */
 static void same(const struct spirv *s, const char *block, const struct field *fields, size_t n, int more)
 {
     uint32_t id = struct_called(s, block);
@@ -269,8 +269,8 @@ static void particles_kernel(void **state)
     assert_int_equal(sizeof(struct kd_guide), 4 * COUNT(guide_fields));
 }
 
-/* The blocks of all emitters: their members, and where the blocks themselves lie. A list in one, which ends in an
- * element of no name here, may be empty but for arrays; their elements are looked at by themselves. */
+/* The blocks of all emitters: their members, and the offsets of the blocks. A list in a block, which ends in an
+ * unnamed element, may have only arrays; their elements are checked separately. */
 #undef F
 #undef U
 #define F(name) { #name, offsetof(BLOCK, name), OP_TYPE_FLOAT },

@@ -1,5 +1,5 @@
-/* JPEG in strips: what libjpeg decodes is what it decodes of the same picture in one scan, and the bytes are the same
- * on any number of threads. */
+/* JPEG in strips: libjpeg decodes it like the same picture in one scan, and the bytes are the same for any number of
+ * threads. */
 #include "image/jpeg.h"
 #include "base/parallel.h"
 
@@ -26,7 +26,7 @@ static uint8_t *picture(uint32_t width, uint32_t height)
     return pixels;
 }
 
-/* libjpeg's errors end the program: the test fails. */
+/* libjpeg's errors end the program, so that the test fails. */
 static uint8_t *decode(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
 {
     struct jpeg_decompress_struct info;
@@ -45,12 +45,12 @@ static uint8_t *decode(const uint8_t *file, size_t size, uint32_t width, uint32_
         jpeg_read_scanlines(&info, &row, 1);
     }
     assert_true(jpeg_finish_decompress(&info));
-    assert_int_equal(errors.num_warnings, 0); /* each restart marker is where it must be, and no byte too many */
+    assert_int_equal(errors.num_warnings, 0); /* each restart marker is at its place, without surplus bytes */
     jpeg_destroy_decompress(&info);
     return pixels;
 }
 
-/* By libjpeg in one scan, with the settings that jpeg.h names. */
+/* By libjpeg in one scan, with the settings named in jpeg.h. */
 static uint8_t *expected(const uint8_t *pixels, uint32_t width, uint32_t height, unsigned quality)
 {
     struct jpeg_compress_struct info;
@@ -117,12 +117,12 @@ static void intervals_are_one_scan(void **state)
 {
     (void)state;
     check(640, 360, 75, 1);
-    check(1280, 720, 50, 1); /* its tables are of the whole picture */
+    check(1280, 720, 50, 1); /* its tables are those of the whole picture */
     check(1280, 720, 75, 4);
     check(1280, 720, 90, 4);
     check(1280, 721, 75, 4);
     check(1279, 833, 75, 5);   /* the last strip has one row */
-    check(1027, 2590, 75, 11); /* numbers of markers begin anew after 8 */
+    check(1027, 2590, 75, 11); /* marker numbers wrap around after 8 */
     check(17, 65000, 92, 5);
     check(65500, 70, 75, 5);
 }

@@ -1,4 +1,4 @@
-/* JSON documents: what they look like, and that none is half there. */
+/* JSON documents: their text, and that a document is never partial. */
 #include "base/json.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* The linker sends the module's own calls here (--wrap). */
+/* The linker redirects the module's own calls here (--wrap). */
 static int left = -1; /* allocations before one fails; -1: none does */
 void *__real_realloc(void *old, size_t size);
 void *__wrap_realloc(void *old, size_t size);
@@ -79,7 +79,7 @@ static void test_lines(void **state)
     kd_buffer_finish(&out);
 }
 
-/* Whichever allocation fails, what was in the buffer stays and nothing is added. */
+/* Whichever allocation fails, the buffer keeps its contents and nothing is added. */
 static void test_no_memory(void **state)
 {
     int failures = 0;

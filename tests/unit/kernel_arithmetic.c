@@ -1,7 +1,7 @@
-/* What a kernel may leave to the driver. Vulkan 1.2 lets it fuse, reorder and multiply out floating-point operations
- * unless they are decorated NoContraction, and lets it behave as if NaN and infinity did not exist (no kernel asks
- * for SignedZeroInfNanPreserve). No test by pictures shows that on a driver that does neither, so the SPIR-V is
- * read: as glslangValidator wrote it, with its functions, and as drivers have it, without (shaders/compile.py). */
+/* Freedom that a kernel leaves to the driver. Vulkan 1.2 lets it fuse, reorder and expand floating-point operations
+ * unless they are decorated NoContraction, and behave as if NaN and infinity did not exist (no kernel uses
+ * SignedZeroInfNanPreserve). A driver that does neither cannot show this in pictures, so the SPIR-V is inspected: as
+ * glslangValidator wrote it, with its functions, and as drivers get it, without (shaders/compile.py). */
 #include <stdint.h>
 
 #define KD_SPIRV_PLAIN
@@ -89,7 +89,7 @@ static bool is_precise(const struct spirv *s, uint32_t id)
     return false;
 }
 
-/* Sums, differences and products in functions whose name begins with this, and how many of them are precise. */
+/* Counts sums, differences and products in functions whose name begins with this, and how many of them are precise. */
 static void count(const struct spirv *s, const char *name, int *all, int *precise)
 {
     uint32_t id = 0;
@@ -111,8 +111,8 @@ static void count(const struct spirv *s, const char *name, int *all, int *precis
     }
 }
 
-/* Delta and what the barrier is judged by: every operation. Nystroem's steps: those that end in y and v, six at
- * least in each of the two orders. */
+/* Delta and the turning-point test: every operation. Nystroem steps: those that produce y and v, at least six in
+ * each of the two orders. */
 static void what_must_not_be_reordered(void **state)
 {
     (void)state;
@@ -133,10 +133,10 @@ static void what_must_not_be_reordered(void **state)
                          all);
             found += all > 0 && kernels[k].motion;
         }
-    assert_true(found >= 10); /* the names are still those */
+    assert_true(found >= 10); /* the names are still valid */
 }
 
-/* Decorations of all operations of these kinds. */
+/* Counts decorations of all operations of these kinds. */
 static int decorated(const struct spirv *s)
 {
     size_t at = 5;
@@ -146,7 +146,7 @@ static int decorated(const struct spirv *s)
     return n;
 }
 
-/* What is precise stays so where functions are written out at each call: there are as many such operations, or more. */
+/* Precise operations stay precise where functions are inlined: there are at least as many. */
 static void what_is_precise_stays_so(void **state)
 {
     (void)state;

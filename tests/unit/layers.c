@@ -1,5 +1,5 @@
-/* Layers by name: the words of image.layers and the table agree, what cannot be is refused where it is asked for,
- * and NPY has the numbers. */
+/* Layers by name: the words of image.layers agree with the table, invalid requests are refused with their field, and
+ * NPY has the numbers. */
 #include "scene_support.h"
 
 #include "image/npy.h"
@@ -185,7 +185,7 @@ static void what_cannot_be_is_refused(void **state)
     }
 }
 
-/* A format of pictures takes one, NPY all; a table of rows none, and its plan has none. */
+/* A picture format takes one layer, NPY all; a table of rows none, and its plan has none. */
 static void formats_take_what_they_hold(void **state)
 {
     (void)state;
@@ -206,7 +206,7 @@ static void formats_take_what_they_hold(void **state)
     assert_true(plan.n_layers == 0 && plan.picture && !plan.radiance);
 }
 
-/* What is off is not in a plan; what is on, in bytes and quantities. */
+/* Layers that are not requested are not in the plan; requested ones are, in bytes and quantities. */
 static void plans_have_what_is_asked_for(void **state)
 {
     (void)state;
@@ -223,10 +223,10 @@ static void plans_have_what_is_asked_for(void **state)
     assert_int_equal(more.host_bytes - plan.host_bytes, 3 * 4 * 1280 * 720);
     struct kd_scene empty = scene_of("{\"image\":{\"layers\":[\"r\"]},\"disk\":{\"model\":\"none\"}}");
     assert_int_equal(kd_plan_make(&empty, &c, &plan, NULL), KD_OK);
-    assert_int_equal(plan.orders, 3); /* a ray is followed though nothing shines */
+    assert_int_equal(plan.orders, 3); /* rays are traced although nothing shines */
 }
 
-/* A frame that was made by hand has records in the order of the words, each number where it belongs. */
+/* A synthetic frame gives records in the order of the words, each number at its place. */
 static void npy_has_the_numbers(void **state)
 {
     (void)state;
@@ -260,7 +260,7 @@ static void npy_has_the_numbers(void **state)
         assert_true(k == 4 ? isnan(record[4]) : record[4] == 200 + k);
     }
     kd_buffer_finish(&file);
-    scene.image.layers.at[0].number = 2; /* a layer that the frame has not */
+    scene.image.layers.at[0].number = 2; /* a layer that the frame does not have */
     assert_int_equal(kd_encode(&kd_format_npy, &picture, KD_EFFORT_KEEP, NULL, &file, &error), KD_EINVAL);
     kd_buffer_finish(&file);
     kd_frame_finish(&frame);

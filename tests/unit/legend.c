@@ -1,4 +1,4 @@
-/* Legends: which numbers stand at a bar, and what is drawn where. */
+/* Legends: the numbers at a bar, and their layout. */
 #include "image/font.h"
 #include "image/legend.h"
 
@@ -29,7 +29,7 @@ static void letters_have_shapes(void **state)
     }
     assert_false(kd_font_has('\n'));
     assert_false(kd_font_has((char)0xc3));
-    assert_true(kd_font_dot((char)0xc3, 0, 0)); /* a box */
+    assert_true(kd_font_dot((char)0xc3, 0, 0)); /* a box for an unknown character */
     assert_true(kd_font_dot('L', 0, 0) && !kd_font_dot('L', 4, 0) && kd_font_dot('L', 4, 6));
 }
 
@@ -58,12 +58,12 @@ static void numbers_are_round(void **state)
     check_labels(&(struct kd_map_scale) { 1e-3, 10, true }, 24, "0.001 0.01 0.1 1 10");
     check_labels(&(struct kd_map_scale) { 1.03, 1.05, true }, 18, "1.03 1.04 1.05");
     check_labels(&(struct kd_map_scale) { 4, 4, false }, 18, "4");
-    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* none, and at once: it is no scale */
+    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* none, and without delay: this is not a scale */
     check_labels(&(struct kd_map_scale) { -1, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { 1, INFINITY, true }, 18, "1");
 }
 
-/* Whatever the scale: two numbers or more, in their places, and none touches its neighbour. */
+/* For any scale: at least two numbers, at their places, without touching. */
 static void numbers_fit(void **state)
 {
     (void)state;
@@ -96,7 +96,7 @@ static struct kd_canvas canvas_of(uint32_t width, uint32_t height, int depth, in
 {
     size_t bytes = (size_t)3 * width * height * (depth == 16 ? 2 : 1);
     struct kd_canvas canvas = { malloc(bytes), width, height,
-                                depth }; /* of exact size, so that a sanitizer sees a pixel too far */
+                                depth }; /* exact size, so that a sanitizer detects an overrun */
     assert_non_null(canvas.pixels);
     memset(canvas.pixels, value, bytes);
     return canvas;
@@ -110,7 +110,7 @@ static int channel(const struct kd_canvas *canvas, uint32_t x, uint32_t y, int i
 
 static const struct kd_legend bar = { .title = "r (M)", .map = KD_MAP_SEQUENTIAL, .scale = { 2, 22, false } };
 
-/* Outside the corner the picture is as it was; 8 and 16 bits are the same to a step. */
+/* Outside the corner the picture is unchanged; 8 and 16 bits agree to a step. */
 static void a_legend_stays_in_its_corner(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void too_small_a_picture_has_none(void **state)
     }
 }
 
-/* A row through the bar has the colours of the map in their order, 2 pixels a dot. */
+/* A row through the bar has the colours of the map in order, 2 pixels a dot. */
 static void the_bar_is_the_map(void **state)
 {
     (void)state;
@@ -181,7 +181,7 @@ static void classes_have_boxes(void **state)
     free(canvas.pixels);
 }
 
-/* Two titles that differ in their last letter alone are two pictures: the panel is as wide as its title. */
+/* Two titles that differ only in their last letter give different pictures: the panel is as wide as its title. */
 static void a_long_title_is_whole(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Lines of the log: one each whatever a message holds, as text and as JSON. */
+/* Log lines: one for each event whatever a message contains, as text and as JSON. */
 #include "base/log.h"
 #include "base/utf8.h"
 
@@ -27,7 +27,7 @@ static void begin(void)
     dup2(fileno(file), STDERR_FILENO);
 }
 
-/* What has been written since `begin`: one line, whose end is cut off. */
+/* The text written since `begin`: one line, without its end. */
 static const char *written(void)
 {
     dup2(before, STDERR_FILENO);

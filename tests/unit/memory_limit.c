@@ -1,5 +1,4 @@
-/* How much memory a process may take, from made-up /proc and /sys: what those of real machines and containers look
- * like. */
+/* Memory limits of a process, from simulated /proc and /sys as on real machines and in containers. */
 #include "base/memory_limit.h"
 
 #include <setjmp.h>
@@ -100,14 +99,14 @@ static void version_2(void **state)
     put("/sys/fs/cgroup/a/b/memory.stat",
         "anon 5\nfile 9\nworkingset_inactive_file 1\ninactive_file 536870912\nactive_file 3\n");
     assert_int_equal(limit().left, 1536 * MIB);
-    put("/sys/fs/cgroup/a/memory.max", "1073741824\n"); /* a group above may be the tighter one */
+    put("/sys/fs/cgroup/a/memory.max", "1073741824\n"); /* a parent group may have the tighter limit */
     put("/sys/fs/cgroup/a/memory.current", "943718400\n");
     assert_int_equal(limit().left, 124 * MIB);
-    put("/sys/fs/cgroup/a/memory.current", "1073745920\n"); /* over it: nothing is left */
+    put("/sys/fs/cgroup/a/memory.current", "1073745920\n"); /* exceeded: nothing is left */
     assert_int_equal(limit().left, 0);
 }
 
-/* In a container with a namespace of its own the group is "/", and its files lie where the mount is. */
+/* In a container with its own namespace the group is "/", and its files are at the mount point. */
 static void the_root_of_a_namespace(void **state)
 {
     (void)state;
@@ -131,8 +130,7 @@ static void version_1(void **state)
     assert_string_equal(limit().by, "the memory.limit_in_bytes of a control group");
 }
 
-/* Docker without a namespace for groups: the mount shows the container's group alone, the path names the host's way
- * to it. */
+/* Docker without a cgroup namespace: the mount shows only the container's group, while the path is the host's. */
 static void a_mount_of_a_part(void **state)
 {
     (void)state;
@@ -146,8 +144,8 @@ static void a_mount_of_a_part(void **state)
     assert_int_equal(limit().left, 512 * MIB);
     machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n",
             "4:memory:/docker/c0ffee00\n");
-    assert_int_equal(limit().left, 1024 * MIB); /* another group of whose name this one's is the beginning */
-    machine(V2, "0::/../../user.slice\n");      /* outside of the namespace */
+    assert_int_equal(limit().left, 1024 * MIB); /* another group, whose name begins with this one's */
+    machine(V2, "0::/../../user.slice\n");      /* outside the namespace */
     put("/sys/fs/cgroup/memory.max", "805306368\n");
     assert_int_equal(limit().left, 768 * MIB);
 }

@@ -1,4 +1,4 @@
-/* Whose memory a picture may take: of devices that are the host, and of those with memory of their own. */
+/* Memory that a picture may take, on devices that share the host's memory and on those with their own. */
 #include "render/device/memory_share.h"
 
 #include "render/accuracy/table.h"
@@ -33,15 +33,16 @@ static void a_device_that_is_the_host(void **state)
     (void)state;
     struct kd_capacity c = device(18 * GIB, true);
     kd_memory_narrow(&c, &container, 0);
-    assert_true(c.memory_bytes <= GIB && c.memory_bytes > GIB * 9 / 10); /* with half as much aside, three quarters */
+    /* with half as much on the host, three quarters */
+    assert_true(c.memory_bytes <= GIB && c.memory_bytes > GIB * 9 / 10);
     assert_string_equal(c.memory_by, "the memory.max of a control group");
-    c = device(GIB / 2, true); /* of which there is less than of the host's */
+    c = device(GIB / 2, true); /* less than the host's */
     kd_memory_narrow(&c, &container, 0);
     assert_int_equal(c.memory_bytes, GIB / 2);
     assert_null(c.memory_by);
 }
 
-/* What the last picture holds is for the next one, but only as far as it was ever written to. */
+/* Memory held by the last picture is available to the next, but only as far as it was ever written. */
 static void what_is_held_counts_once(void **state)
 {
     (void)state;
@@ -91,7 +92,7 @@ static void plans_keep_to_it(void **state)
     assert_non_null(strstr(error.message, "GiB of host memory"));
 }
 
-/* Pixels on the host are part of what a device that is the host may take. */
+/* Pixels on the host count for a device that is the host. */
 static void frames_count(void **state)
 {
     (void)state;
@@ -102,7 +103,7 @@ static void frames_count(void **state)
     kd_scene_defaults(&scene);
     scene.image.width = scene.image.height = 4096;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
-    c.memory_bytes = plan.device_bytes - 1; /* the lens map by the band */
+    c.memory_bytes = plan.device_bytes - 1; /* the lens map in bands */
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
     c.memory_bytes = plan.device_bytes;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);

@@ -1,4 +1,4 @@
-/* NPY headers: what NumPy writes, what we write, and everything that must be refused. */
+/* NPY headers: those of NumPy, our own, and everything that must be refused. */
 #include "image/npy.h"
 
 #include <setjmp.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* A file: version, header text padded to `length` (0: as it is), then zeros. */
+/* A file: version, header text padded to `length` (0: unpadded), then zeros. */
 struct file {
     uint8_t *data;
     size_t size;
@@ -20,7 +20,7 @@ static struct file file_of(int version, const char *text, size_t zeros)
 {
     size_t n = strlen(text), start = version == 1 ? 10 : 12;
     struct file file = { .size = start + n + zeros };
-    file.data = calloc(1, file.size); /* of exact size, so that a sanitizer sees a byte too far */
+    file.data = calloc(1, file.size); /* exact size, so that a sanitizer detects an overrun */
     assert_non_null(file.data);
     memcpy(file.data, "\x93NUMPY", 6);
     file.data[6] = (uint8_t)version;
@@ -146,7 +146,7 @@ static void refused(void **state)
     }
 }
 
-/* Every file cut short or with any byte of its start changed ends in an answer, not in a crash. */
+/* Every truncated file, or one with any byte of its start changed, gives a result and no crash. */
 static void damaged(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void damaged(void **state)
     free(file.data);
 }
 
-/* The first is byte for byte what numpy.save writes. */
+/* The first equals numpy.save's byte for byte. */
 static void written(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void written(void **state)
     kd_buffer_finish(&out);
 }
 
-/* Texts as numpy.array("...") and numpy.frombuffer write them. */
+/* Texts as written by numpy.array("...") and numpy.frombuffer. */
 static void texts(void **state)
 {
     (void)state;

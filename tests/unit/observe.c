@@ -1,5 +1,5 @@
-/* Observations: numbers of ehtim 1.3.2 for a ring of its own beside M87* as it was observed (data/eht), both files of
- * one observation, and files that are damaged. */
+/* Tests of observations: chi^2 against numbers by ehtim 1.3.2, for a model ring, of M87* as it was observed
+ * (data/eht), from both files of one observation; and damaged files. */
 #include "observe/comparison.h"
 
 #include <math.h>
@@ -39,7 +39,8 @@ static struct kd_observation read_observation(const char *name)
     return o;
 }
 
-/* A ring, brighter in the south, of 0.8 Jy: the double sum over pixels that are triangles. */
+/* The visibilities of a ring of 0.8 Jy that is brighter in the south. The picture is taken as piecewise linear (a
+ * triangular pulse for each pixel), and the transform is a direct double sum over the pixels. */
 static void transform(const struct kd_comparison *c, double (*out)[2])
 {
     double light[N][N], sum = 0;
@@ -84,9 +85,10 @@ static const struct {
       { 5065.686103305162, 3.978760837143336, 11.242809018326296 } },
 };
 
-/* uvfits to 1e-6, of which 2e-8 is measured: ehtim has weights and means of hands in single precision. The CSV has
- * amplitudes to 1e-8 Jy and phases to 1e-4 degrees: chi^2 to 1e-3, and of log closure amplitudes that are not cut to
- * 0.2: where an amplitude is as large as its error, sqrt(|V|^2 - sigma^2) is of what was rounded. */
+/* UVFITS: 1e-6; 2e-8 was measured, because ehtim keeps weights, and means of the parallel hands, in single
+ * precision. The CSV has amplitudes to 1e-8 Jy and phases to 1e-4 degrees: 1e-3 for chi^2, and 0.2 for that of log
+ * closure amplitudes without a cut: where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2)
+ * consists of rounding error. */
 static void test_chi2_is_that_of_ehtim(void **state)
 {
     (void)state;
@@ -140,7 +142,7 @@ static void test_both_files_say_the_same(void **state)
     kd_observation_finish(&b);
 }
 
-/* A model that is the data, scaled: the scale that fits is found, and chi^2 is 0 without debiasing. */
+/* If the model is the data times a factor, that scale is found and, without debiasing, chi^2 is 0. */
 static void test_the_flux_that_fits(void **state)
 {
     (void)state;
@@ -211,7 +213,7 @@ static uint8_t *card(uint8_t *data, size_t size, const char *key)
     return NULL;
 }
 
-/* What a card of the primary header, or of the table of stations, is made to be. */
+/* A change of one card in the primary header or in the header of the station table. */
 static void test_uvfits_that_is_refused(void **state)
 {
     (void)state;
@@ -256,7 +258,7 @@ static void test_uvfits_that_is_refused(void **state)
     free(data);
 }
 
-/* The length of a table follows from NAXIS and BITPIX too, which may deny that it has the rows that NAXIS2 tells. */
+/* The length of a table follows from NAXIS and BITPIX as well, which may contradict the number of rows in NAXIS2. */
 static void test_a_table_that_is_shorter_than_its_rows(void **state)
 {
     (void)state;
@@ -280,7 +282,8 @@ static void test_a_table_that_is_shorter_than_its_rows(void **state)
     free(data);
 }
 
-/* Cut anywhere it is an error, or what the end was not needed for; nothing lies outside (under the sanitizers). */
+/* A file that is cut anywhere is an error, unless the part cut off was not needed; nothing beyond the end is read
+ * (the sanitizers watch). */
 static void test_files_that_are_cut(void **state)
 {
     (void)state;
@@ -305,7 +308,7 @@ static void test_files_that_are_cut(void **state)
     }
 }
 
-/* Bytes that are changed at random. */
+/* Bytes changed at random. */
 static void test_files_that_are_damaged(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Requests for orbits, read and refused, and what following them gives. */
+/* Tests of requests for orbits: how they are read and refused, and the results of following the orbits. */
 #include "orbit/feed.h"
 #include "physics/spacetime/kerr.h"
 
@@ -14,7 +14,7 @@
 
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
-/* The copy is of exact size, so that a sanitizer sees a byte too far. */
+/* The copy has exactly that size, so that a sanitizer notices a byte read beyond the end. */
 static enum kd_status read_exact(const char *text, size_t length, struct kd_orbit_request *request,
                                  struct kd_error *error)
 {
@@ -117,7 +117,7 @@ static void every_cut(void **state)
     }
 }
 
-/* Followed to its end in pieces of `steps`; returns the samples. */
+/* Follows the orbit to its end, in pieces of `steps` steps; returns the samples. */
 static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct kd_orbit_request *request,
                                       struct kd_orbit_run *run)
 {
@@ -134,7 +134,7 @@ static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct k
     return samples;
 }
 
-/* To the bit, but for the bytes between members, which are anything. */
+/* Equal to the bit, except for padding, whose content is undefined. */
 static void assert_same_samples(const struct kd_orbit_sample *a, const struct kd_orbit_sample *b, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -167,7 +167,8 @@ static void pieces_change_nothing(void **state)
     }
 }
 
-/* Periods of what has none: to its end, as without a duration; of what is bound they are periods all the same. */
+/* A duration in periods with "or_end": an orbit that has no periods is followed to its end, as without a duration;
+ * for a bound one periods count as usual. */
 static void to_its_end_instead(void **state)
 {
     (void)state;
@@ -200,12 +201,13 @@ static void to_its_end_instead(void **state)
         follow("{\"samples\":3,\"orbit\":{\"p\":8,\"e\":0.5},\"duration\":{\"periods\":2,\"or_end\":true}}", UINT64_MAX,
                &request, &run);
     assert_float_equal(samples[0].place.r, 16. / 3, 1e-6);            /* the periapsis */
-    assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6); /* a period, and another */
+    assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6); /* after one period and after two */
     kd_orbit_request_finish(&request);
     free(samples);
 }
 
-/* The tolerance is that of a period: ten of them, and t beside r, within a hundred. */
+/* The tolerance is per period: within ten times it after ten periods, and t, compared with r, within a hundred
+ * times. */
 static void methods_agree(void **state)
 {
     (void)state;
@@ -271,7 +273,7 @@ static void ends(void **state)
         { "{\"orbit\":{\"position\":{\"r\":10,\"theta_deg\":0}},\"spin\":0.9}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9,\"e\":0}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9999999999999991,\"e\":0}}", KD_ORBIT_PLUNGE,
-          KD_END_DURATION }, /* sets out, but its instability grows by e in some 1e7 turns */
+          KD_END_DURATION }, /* starts as a circle, but its instability grows by a factor of e in some 1e7 turns */
         { "{\"orbit\":{\"p\":6,\"e\":0}}", KD_ORBIT_BOUND, KD_END_DURATION },
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
@@ -295,8 +297,8 @@ static void ends(void **state)
     }
 }
 
-/* From rest at r0 to the horizon of Schwarzschild's hole: the cycloid, tau = sqrt(r0^3/8) (eta + sin eta), r = r0 (1
- * + cos eta)/2 (Misner, Thorne & Wheeler 1973, eq. 25.28). */
+/* A fall from rest at r0 to the horizon of Schwarzschild's hole is a cycloid: tau = sqrt(r0^3/8) (eta + sin eta), r
+ * = r0 (1 + cos eta)/2 (Misner, Thorne & Wheeler 1973, eq. 25.28). */
 static void a_stone_falls(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Bodies that come to whirl at an unstable circle, for E about 1 and on both sides of the circle's L: what is
- * answered must be right within the error that is stated, or refused. The oracle is quadrature in 30 digits:
+/* Tests of bodies that whirl round an unstable circular orbit, for E about 1 and L on both sides of the circle's:
+ * the answer must be right within the error that it states, or be refused. Reference: quadrature with 30 digits,
  * tests/oracle/whirl_reference.py. */
 #include "orbit/run.h"
 #include "whirl_reference.h"
@@ -120,8 +120,8 @@ static void next_to_the_whirl_itself(void **state)
             fail_msg("%s: %s, drift of E %.2g", answered[i], error.message, a.drift);
 }
 
-/* With E = 1 infinity is a turning point, and a long step near it goes out and back. t from the middle to r_max is
- * that of radial fall but for lower orders: quadrature gives 942840164.003769 (both ways, L = 6). */
+/* With E = 1 infinity is a turning point, and a long step near it could go out and come back. To leading order t
+ * from the middle to r_max is that of a radial fall; quadrature gives 942840164.003769 (in both directions, L = 6). */
 static void lets_go_before_infinity(void **state)
 {
     (void)state;
@@ -135,9 +135,9 @@ static void lets_go_before_infinity(void **state)
         fail_msg("t %.15g, Mino time %.15g, r %.15g, stated %.2g", a.t, a.mino, a.r, a.stated);
 }
 
-/* Where r_max is far, the first search of the end takes steps that the whirl does not forgive: these fell through
- * it. Values by the quadrature of tests/oracle/whirl_reference.py from r_max and back; the nodes crowd towards
- * infinity as well. */
+/* If r_max is far away, the first search for the end takes steps that are too long for the whirl: with these values
+ * the body once fell through the circle instead of whirling. Expected values by the quadrature of
+ * tests/oracle/whirl_reference.py, from r_max and back, with nodes that crowd towards infinity as well. */
 static void ends_where_r_max_is_far(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void ends_where_r_max_is_far(void **state)
     print_message("r_max far away: the worst error is %.2g\n", worst);
 }
 
-/* The sentence has to show in what the value differs from the whirl's own. */
+/* The message must show enough digits to tell the given value from that of the whirl. */
 static void refusal_shows_every_digit(void **state)
 {
     (void)state;

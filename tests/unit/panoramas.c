@@ -1,4 +1,5 @@
-/* Panoramas on the host: which are made ahead of who asks for them, and what that costs those that are asked for. */
+/* Tests of panoramas on the host: which ones are made ahead of requests, and that this does not take memory from
+ * those that were requested. */
 #include "image/png.h"
 #include "render/device/panoramas.h"
 #include "render/sky/milky_way_file.h"
@@ -15,7 +16,7 @@
 
 #include <cmocka.h>
 
-/* Assets are all the same picture; one that is named "none" is not there. */
+/* A store of assets that all hold the same picture; the one named "none" does not exist. */
 struct shelf {
     struct kd_buffer file;
     atomic_int taken;
@@ -59,7 +60,7 @@ static struct kd_scene scene_of(const char *image)
     return scene;
 }
 
-/* How often the asset was taken to have its panorama. */
+/* Gets the panorama of an image; returns how often the asset was read for that. */
 static int fetch(struct kd_panoramas *all, const char *image, enum kd_status want)
 {
     const struct kd_scene scene = scene_of(image);
@@ -83,13 +84,14 @@ static void is_there_when_it_is_asked_for(void **state)
     kd_panoramas_init(&all, &assets, NULL, NULL);
     ahead(&all, "a");
     assert_int_equal(fetch(&all, "a", KD_OK), 0);
-    ahead(&all, "a"); /* is no more than there already */
+    ahead(&all, "a"); /* does nothing: it is there already */
     assert_int_equal(fetch(&all, "a", KD_OK), 0);
     assert_int_equal(fetch(&all, "b", KD_OK), 1);
     kd_panoramas_finish(&all);
 }
 
-/* It takes no place of what somebody has had, and gives its own to who wants one. */
+/* A panorama made ahead takes only a free place, never that of a requested one, and its own place is given to one
+ * that is requested. */
 static void has_a_free_place_only(void **state)
 {
     struct kd_panoramas all;
@@ -111,7 +113,8 @@ static void has_a_free_place_only(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* Nobody is told of one that could not be had but who asks for it, as it is then. */
+/* A failure to make a panorama ahead is not reported; the next request for it tries again and gets the result of
+ * that. */
 static void what_fails_is_tried_again(void **state)
 {
     struct kd_panoramas all;
@@ -122,7 +125,7 @@ static void what_fails_is_tried_again(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* The words of the Milky Way of a seed, by a process that keeps one at this path. */
+/* The texels of the Milky Way with this seed, as made by a process that keeps its file at this path. */
 static uint32_t *milky_way(const char *path, int32_t seed)
 {
     const size_t bytes = kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof(uint32_t);
@@ -149,11 +152,12 @@ static void put(const char *path, long at, uint8_t byte)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Says where in a file the first word of a texel is. */
+/* The position in the file of the first word of a texel. */
 static long place(uint32_t row, uint32_t column) { return 32 + 4 * ((long)row * KD_MILKY_WAY_WIDTH + column); }
 
-/* A Milky Way that was kept is the one that was made, to the bit; one that is of another seed, damaged, cut short or
- * made otherwise is made anew, and then it is that which is kept. */
+/* A Milky Way read from the kept file equals the one that was made, to the bit. If the file is of another seed,
+ * damaged, cut short, or has other values than the program computes, the Milky Way is made anew and the file
+ * replaced. */
 static void what_is_kept_is_what_was_made(void **state)
 {
     (void)state;
@@ -168,16 +172,16 @@ static void what_is_kept_is_what_was_made(void **state)
     assert_memory_equal(again, made, bytes);
     assert_false(kd_milky_way_recall(path, 2, kept));
 
-    put(path, place(300, 7), 0xa5); /* damage where no row is compared */
+    put(path, place(300, 7), 0xa5); /* damage in a row that is not compared with a computed one */
     assert_false(kd_milky_way_recall(path, 1, kept));
     memcpy(kept, made, bytes);
-    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^= 1; /* sound, and of other mathematics */
+    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^= 1; /* an intact file whose values were computed differently */
     kd_milky_way_keep(path, 1, kept);
     assert_false(kd_milky_way_recall(path, 1, kept));
     free(again);
     again = milky_way(path, 1);
     assert_memory_equal(again, made, bytes);
-    assert_true(kd_milky_way_recall(path, 1, kept)); /* the good one is in its place */
+    assert_true(kd_milky_way_recall(path, 1, kept)); /* the good file has replaced it */
 
     assert_int_equal(truncate(path, place(1000, 0)), 0);
     assert_false(kd_milky_way_recall(path, 1, kept));
@@ -189,7 +193,7 @@ static void what_is_kept_is_what_was_made(void **state)
     free(made);
 }
 
-/* A folder that cannot be written costs nothing but time. */
+/* If the folder cannot be written, nothing is lost except time. */
 static void nowhere_to_keep_it(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* kd_parallel does each item once, whatever their number, and from within itself too. */
+/* Tests of kd_parallel: each item is done exactly once, whatever the number of items, also in nested calls. */
 #include "base/cores.h"
 #include "base/parallel.h"
 
@@ -63,7 +63,7 @@ static void test_idle_each_once(void **state)
     kd_parallel_threads = 0;
 }
 
-/* Items that end when another has begun: as many threads run at once as were asked for. */
+/* Each item ends only when another has begun: shows that as many threads run at once as were asked for. */
 static atomic_uint begun;
 
 static void meet(void *user, size_t item)

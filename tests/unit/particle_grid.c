@@ -1,4 +1,5 @@
-/* The guiding radii of particles are fine enough for the rows of their grid, however particles are spread. */
+/* Tests that the guiding radii of particles are dense enough for the rows of their grid, however the particles are
+ * distributed. */
 #include "render/emit/particles.h"
 
 #include "physics/spacetime/kerr.h"
@@ -13,7 +14,8 @@
 
 #include <cmocka.h>
 
-/* What n radii of equal shares leave on each row of the grid, by distance as the kernel shares them out. */
+/* The share that n equally weighted radii put on each row of the grid, divided between neighbouring rows by distance
+ * as the kernel does it. */
 static void spread(const struct kd_scene *scene, const struct kd_particle_grid *grid, uint32_t n, double *out)
 {
     double isco = kd_kerr_isco(kd_scene_hole(scene)), inner = isinf(scene->disk.inner) ? isco : scene->disk.inner;
@@ -30,8 +32,8 @@ static void spread(const struct kd_scene *scene, const struct kd_particle_grid *
     }
 }
 
-/* Against a quarter of a million of radii, to the Poisson error of a row of 10 000 particles, the longest there is.
- * (With 4096 radii there are rows without any, of ten million particles: rings of light.) */
+/* Compared with 250 000 radii, to the Poisson error of a row of 10 000 particles, the longest row there is. (With
+ * 4096 radii some rows stay empty even with ten million particles, which shows as rings of light.) */
 static void no_row_shows_single_radii(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is
- * measured by. So do the emitters that have one. */
+/* Tests that the table of passes is consistent: every pass occurs in some plan, and every figure of cost is measured
+ * by some pass. The same for the emitters that have a figure. */
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
 #include "render/frame/frame.h"
@@ -34,7 +34,8 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
     return plan;
 }
 
-/* A scene for each pass and each figure: who adds one adds a scene that has it. */
+/* Scenes of which each pass and each figure has at least one: whoever adds a pass or a figure adds a scene that uses
+ * it. */
 static const char *const scenes[] = {
     "{}",
     "{\"image\": {\"samples\": \"auto\"}}",
@@ -58,13 +59,13 @@ static void names_are_names(void **state)
     (void)state;
     for (int i = 0; i < KD_PASS_COUNT; i++) {
         assert_true(*kd_passes[i].name && strlen(kd_passes[i].name) < sizeof((struct kd_timing *)0)->name);
-        assert_ptr_equal(kd_pass_find(kd_passes[i].name), &kd_passes[i]); /* once each */
+        assert_ptr_equal(kd_pass_find(kd_passes[i].name), &kd_passes[i]); /* names are unique */
         assert_non_null(kd_passes[i].invocations);
     }
     assert_null(kd_pass_find("total"));
 }
 
-/* Names that whoever reads GET /v1/device, or an older file of the cache, relies on. */
+/* Names that users of GET /v1/device, or older cache files, rely on: they must not change. */
 static void words_stay(void **state)
 {
     (void)state;
@@ -76,7 +77,7 @@ static void words_stay(void **state)
         assert_true(kd_figures[i].guess > 0);
 }
 
-/* Asked for by whoever makes the plan: an emitter's asked_accuracy is the same. */
+/* A plan with footprints, as whoever makes the plan may ask for; an emitter that needs them has the same effect. */
 static struct kd_plan with_footprints(const struct kd_capacity *c)
 {
     struct kd_scene scene;
@@ -117,7 +118,7 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
             fail_msg("no pass is measured for \"%s\"", kd_figures[i].word);
 }
 
-/* An emitter with buffers of its own has what fills them, and, if that is a pass, one of its name. */
+/* An emitter with buffers of its own has a way to fill them, and if that is a pass, one whose name exists. */
 static void emitters_are_prepared(void **state)
 {
     (void)state;
@@ -134,10 +135,12 @@ static void emitters_are_prepared(void **state)
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 5000;
     assert_int_equal(kd_emit_invocations(&scene, KD_EMITTER_particles), 5000);
-    assert_true(kd_emit_device_bytes(&scene) > 4 * 5000 / 5 * 2); /* five to a cell, two words of each cell */
+    /* five particles to a cell, two words for each cell */
+    assert_true(kd_emit_device_bytes(&scene) > 4 * 5000 / 5 * 2);
 }
 
-/* By hand, of the passes that a plan has by default: what is learned from a frame is what the next plan estimates. */
+/* Estimates of cost, computed by hand for the passes of a default plan: what is learned from one frame is the
+ * estimate for the next plan. */
 static void estimates_are_figures(void **state)
 {
     (void)state;
@@ -159,7 +162,7 @@ static void estimates_are_figures(void **state)
     assert_true(plan.trace_ns == 10);
 }
 
-/* A sky of stars has figures of its own, and nothing else is estimated or measured by them. */
+/* A sky of stars has figures of its own, which are not used for anything else. */
 static void stars_have_figures(void **state)
 {
     (void)state;
@@ -198,8 +201,8 @@ static uint64_t class_of(const char *json)
     return planned(json, &c).cost_class;
 }
 
-/* What is learned of a picture is what another of its class is estimated by, whatever its size and its side of the
- * hole, and no other. */
+/* What is learned from one picture is the estimate for others of its class, whatever their size and from which side
+ * the hole is seen, and for no other class. */
 static void estimates_are_of_a_class(void **state)
 {
     (void)state;
@@ -233,7 +236,7 @@ static void estimates_are_of_a_class(void **state)
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         assert_true(class_of(others[i]) != class_of(small) &&
                     !kd_cost_known(&c, class_of(others[i]), KD_PASS_TRANSFER));
-    for (uint64_t i = 1; i < KD_COST_CLASSES; i++) { /* as many others as there is room for beside it */
+    for (uint64_t i = 1; i < KD_COST_CLASSES; i++) { /* fills all the remaining classes */
         kd_cost_learn(&c, i, KD_PASS_POST, 5);
         kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 1300);
     }
@@ -254,8 +257,8 @@ static bool says(const char *json, const char *name)
     return found;
 }
 
-/* What 32 bits leave open is followed again where kernels make the lens map, and not where it is made of listed
- * rays. */
+/* Rays that 32-bit arithmetic cannot decide are traced again if kernels make the lens map, but not if it is made
+ * from listed rays. */
 static void arithmetic_is_told(void **state)
 {
     (void)state;

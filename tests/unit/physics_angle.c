@@ -1,4 +1,5 @@
-/* Cosines and sines of degrees against 40 digits (mpmath), next to the quarter turns above all. */
+/* Cosines and sines of angles in degrees against values of 40 digits (mpmath), especially near multiples of 90
+ * degrees. */
 #include "physics/math/angle.h"
 
 #include <float.h>

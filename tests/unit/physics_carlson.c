@@ -24,7 +24,7 @@ static void close_to(const char *what, double x, double y, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Some five steps of a few roundings each, all of positive terms: 2e-15. */
+/* Some five steps with a few roundings each, and all terms positive: 2e-15. */
 static void symmetric(void **state)
 {
     (void)state;
@@ -38,7 +38,7 @@ static void symmetric(void **state)
     }
 }
 
-/* sqrt(z) + conj and |z| of z = y + iv: 2 Re sqrt(z), without cancellation for either sign of y. */
+/* From z = y + iv: sqrt(z) + sqrt(conj z) = 2 Re sqrt(z), and |z|, without cancellation for either sign of y. */
 static struct kd_carlson_arg conjugate(double x, double y, double v)
 {
     double root = hypot(y, v);
@@ -105,7 +105,7 @@ static void legendre(void **state)
         close_to("E", phi, m, kd_elliptic_e(phi, m), legendre_reference[i].e, 1e-14);
         close_to("Pi", phi, m, kd_elliptic_pi(n, phi, m), legendre_reference[i].pi, 1e-14);
     }
-    /* Legendre's relation ties the complete ones together. */
+    /* Legendre's relation connects the complete integrals. */
     for (double m = 0.0625; m < 1; m += 0.0625) {
         double k = kd_elliptic_k(m), k1 = kd_elliptic_k(1 - m), e = kd_elliptic_e_complete(m),
                e1 = kd_elliptic_e_complete(1 - m);
@@ -113,8 +113,8 @@ static void legendre(void **state)
     }
 }
 
-/* F(am(u)|m) = u, down to 1 - m = 1e-15, where K is 19 and a slip of the modulus would show. Rounding of K
- * itself is K/u in u. */
+/* F(am(u)|m) = u, down to 1 - m = 1e-15, where K is 19 and a small error in the modulus would show. The rounding of
+ * K itself is worth K/u relative to u. */
 static void jacobi(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Colour of a black body against published chromaticities and efficacies, and against a second quadrature
- * whose Planck function is itself proved by Stefan and Boltzmann. */
+/* The colour of a black body against published chromaticities and efficacies, and against a second quadrature whose
+ * Planck function is itself tested by the Stefan-Boltzmann law. */
 #include "physics/disk/colour.h"
 
 #include <math.h>
@@ -61,7 +61,7 @@ static void published_chromaticities(void **state)
         { 5000, 0.3451, 0.3516, 3e-4 },
         { 6500, 0.3135, 0.3237, 3e-4 },
         { 10000, 0.2807, 0.2884, 3e-4 },
-        { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last: T to infinity */
+        { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last row: the limit of infinite T */
     };
     for (size_t i = 0; i < COUNT(table); i++) {
         struct xy c = chromaticity(kd_colour_blackbody(table[i].t));
@@ -70,8 +70,8 @@ static void published_chromaticities(void **state)
     }
 }
 
-/* Rational cubics of the Planckian locus (Kim et al., US patent 7024034): their own fit is within about 1e-3
- * in x and y. */
+/* Rational cubics that approximate the Planckian locus (Kim et al., US patent 7024034); their fit itself is good to
+ * about 1e-3 in x and y. */
 static void along_the_locus(void **state)
 {
     (void)state;
@@ -94,9 +94,9 @@ static double radiance(double wavelength, double temperature)
     return c1l / pow(wavelength, 5) / (exp(c2 / (wavelength * temperature)) - 1);
 }
 
-/* The functions interpolated linearly, the product with the radiance ten times as fine. The two sums differ
- * by the curvature over a step: the radiance changes by 5 % a step at 2000 K, and the two halves of x-bar and
- * of z-bar are narrow. */
+/* A second quadrature: the colour-matching functions interpolated linearly, their product with the radiance sampled
+ * ten times as finely. The two sums differ by the curvature within a step: the radiance changes by 5 % a step at
+ * 2000 K, and both peaks of x-bar and that of z-bar are narrow. */
 static struct kd_colour_xyz second_opinion(double temperature)
 {
     struct kd_colour_xyz c = { 0, 0, 0 };
@@ -123,7 +123,7 @@ static void stefan_and_boltzmann(void **state)
             total += radiance(exp(y), t) * exp(y) * log(1e7) / n;
         }
         double want = 5.670374419e-8 * pow(t, 4) / M_PI;
-        near("total radiance", t, total / want, 1, 1e-8); /* nine digits of the constants */
+        near("total radiance", t, total / want, 1, 1e-8); /* the constants have nine digits */
         struct kd_colour_xyz got = kd_colour_blackbody(t), fine = second_opinion(t);
         near("X", t, got.x / fine.x, 1, 3e-4);
         near("Y", t, got.y / fine.y, 1, 3e-4);
@@ -132,8 +132,8 @@ static void stefan_and_boltzmann(void **state)
     }
 }
 
-/* In print (683 lm/W times the fraction): 95 lm/W at the maximum, near 6600 K, and at 7000 K; 54.7 at 4000 K;
- * 15 at 2800 K. On both sides of the maximum it falls. The bounds are half of the last digit. */
+/* Published values (683 lm/W times the fraction): 95 lm/W at the maximum, near 6600 K, and at 7000 K; 54.7 at 4000
+ * K; 15 at 2800 K. It falls on both sides of the maximum. The bounds are half a unit of the last digit. */
 static void luminous_efficacy(void **state)
 {
     (void)state;
@@ -153,8 +153,8 @@ static void luminous_efficacy(void **state)
     near("efficacy", 2800, 683.002 * kd_colour_luminous_fraction(2800), 15, 0.5);
 }
 
-/* IEC 61966-2-1: the D65 white (x, y) = (0.3127, 0.3290) is (1, 1, 1), each primary one component alone. Four
- * decimals of the chromaticities in the standard leave 2e-4. */
+/* IEC 61966-2-1: white D65, (x, y) = (0.3127, 0.3290), is (1, 1, 1), and each primary has a single component. The
+ * standard gives chromaticities to four decimals, which leaves 2e-4. */
 static void the_matrix_of_srgb(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void the_matrix_of_srgb(void **state)
     }
 }
 
-/* Its coefficients as the standard prints them in 1999, in four decimals; XYZ of one component each. */
+/* The matrix as the standard of 1999 prints it, to four decimals: the XYZ of each component alone. */
 static void the_printed_matrix(void **state)
 {
     (void)state;
@@ -190,20 +190,20 @@ static void the_printed_matrix(void **state)
     }
 }
 
-/* Never outside the gamut, luminance 1, and redder the cooler. */
+/* The unit colour is never outside the gamut, has luminance 1, and is redder the cooler the body. */
 static void unit_colours(void **state)
 {
     (void)state;
     double last = 100;
     for (double t = 20; t < 1e10; t *= 1.01) {
         struct kd_colour_rgb c = kd_colour_blackbody_unit(t);
-        /* the rows of the two matrices are rounded to seven digits; a zero component may be a rounding below
-         * zero */
+        /* the rows of the two matrices are rounded to seven digits; a component that should be zero may be negative
+         * by a rounding */
         near("luminance", t, 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b, 1, 2e-7);
         if (!(c.r >= -1e-15 && c.g >= -1e-15 && c.b >= -1e-15))
             fail_msg("%g K: (%g, %g, %g) is outside the gamut", t, c.r, c.g, c.b);
-        /* below 890 K the light is all of the far red, whose chromaticity hardly changes, and the way into
-         * the gamut turns the order by less than 1e-3 a step */
+        /* below 890 K all the light is far red, whose chromaticity hardly changes, and the mapping into the gamut
+         * reverses the order by less than 1e-3 a step */
         if (!(c.r <= last * (t < 890 ? 1.001 : 1)))
             fail_msg("%g K: redder than the cooler body before it", t);
         last = c.r;
@@ -214,7 +214,7 @@ static void unit_colours(void **state)
     near("blue of the whitest", 6600, white.b, 1, 0.06);
 }
 
-/* Where the gamut does not interfere, the unit colour is the direct one. */
+/* Where the colour is inside the gamut, the unit colour is the colour itself. */
 static void unit_colours_inside_the_gamut(void **state)
 {
     (void)state;
@@ -227,7 +227,8 @@ static void unit_colours_inside_the_gamut(void **state)
     }
 }
 
-/* IEC 61966-2-1 undoes it by ((c + 0.055)/1.055)^2.4 and c/12.92; the two pieces meet to the standard's own digits. */
+/* IEC 61966-2-1 gives the inverse of the encoding as ((c + 0.055)/1.055)^2.4 and c/12.92; the two pieces meet to
+ * within the standard's own digits. */
 static void encoding(void **state)
 {
     (void)state;

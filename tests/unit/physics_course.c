@@ -1,5 +1,5 @@
-/* The course of a ray, place by place, against the Hamiltonian integrated in Kerr-Schild coordinates: another
- * method, other coordinates, no common formula. What lies between crossings is judged by rays that set out from
+/* The course of a ray, place by place, against the Hamiltonian integrated in Kerr-Schild coordinates: another method
+ * and other coordinates, without a formula in common. Places between crossings are checked by rays that start from
  * there. */
 #include "physics/null/null_course.h"
 
@@ -53,15 +53,15 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
                              const struct kd_null_place *q)
 {
     const double s = sqrt((1 - p->u) * (1 + p->u)), t = sqrt((1 - q->u) * (1 + q->u));
-    if (s < 0.05 || t < 0.05 || fabs(ray->spin) > 0.01) /* frame dragging turns places as well */
+    if (s < 0.05 || t < 0.05 || fabs(ray->spin) > 0.01) /* otherwise frame dragging turns places as well */
         return;
     const double apart = acos(fmin(1, p->u * q->u + s * t * cos(p->phi - q->phi)));
     if (apart > 0.035)
         say(ray, "angle between neighbours at order", p->order, apart, 0.03, 0.005);
 }
 
-/* The path's crossings are those of the oracle, whose own errors grow on the way as ours do: by the condition
- * number, of which the closed form's estimates hold ten times DBL_EPSILON. */
+/* The path's crossings must be those of the reference integration. Errors of both grow along the way by the
+ * condition number, which the estimates of the closed form contain, times about ten DBL_EPSILON. */
 static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
 {
     static struct kd_null_place places[MOST];
@@ -94,10 +94,10 @@ static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
             say(ray, "phi of crossing", n, p->phi, oracle.phi[n], phi);
         if (!(fabs(p->delay - oracle.delay[n]) <= delay))
             say(ray, "delay of crossing", n, p->delay, oracle.delay[n], delay);
-        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* turns count, too */
+        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* the number of turns counts, too */
             say(ray, "turns of crossing", n, p->phi, closed.crossing[n].phi, phi);
     }
-    int there = 0; /* crossings further out than the path goes, or closer to the horizon, are not on it */
+    int there = 0; /* crossings farther out than the path goes, or closer to the horizon, are not part of it */
     for (int n = 0; n < oracle.crossings; n++)
         there += oracle.r[n] < 0.999 * far && oracle.r[n] > 1.001 * (horizon(ray->spin) + near);
     if (met < there)
@@ -115,8 +115,8 @@ static void from_infinity(void **state)
     }
 }
 
-/* The photon with the labels of `ray` at its radius; false if there is none, or where the oracle's start is worth
- * little. */
+/* The photon of `ray` at the ray's radius; false if there is none, or if the start of the reference integration is
+ * inaccurate there. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
     const double a = ray->spin, u = ray->cos_theta, r = ray->radius, lambda = -ray->alpha * sqrt((1 - u) * (1 + u));
@@ -155,8 +155,8 @@ static void from_nearby(void **state)
     assert_true(compared > 1000);
 }
 
-/* Any place of a path lies on it: the ray that sets out from there with the same constants, by closed form, has the
- * same crossings ahead, and those the same azimuths and delays but for what has been covered. */
+/* Any place of a path lies on it: a ray in closed form that starts there with the same constants has the same
+ * crossings ahead, with the same azimuths and delays except for the part already covered. */
 static void between_crossings(void **state)
 {
     static struct kd_null_place places[MOST];
@@ -204,7 +204,7 @@ static void between_crossings(void **state)
     assert_true(judged > 300);
 }
 
-/* There is no such ray, or no room for it. */
+/* Errors: such a ray does not exist, or there is no room for its course. */
 static void without_a_course(void **state)
 {
     struct kd_null_place places[10];
@@ -232,7 +232,7 @@ static void without_a_course(void **state)
     assert_int_equal(course.n, 10);
 }
 
-/* The place of that crossing; NULL: it has none. */
+/* The place of that crossing; NULL if the course has none. */
 static const struct kd_null_place *crossing_of(const struct kd_null_course *course, const struct kd_null_place *places,
                                                int n)
 {
@@ -242,8 +242,8 @@ static const struct kd_null_place *crossing_of(const struct kd_null_course *cour
     return NULL;
 }
 
-/* Light that comes to who falls, within the horizon, with its energy at infinity above and below 0: crossings, fate
- * and direction by the oracle, whose coordinates know no horizon. */
+/* Light that reaches an infalling observer inside the horizon, with energy at infinity above and below 0: crossings,
+ * fate and direction against the reference integration, whose coordinates are regular at the horizon. */
 static void from_within(void **state)
 {
     static struct kd_null_place places[MOST], others[MOST];
@@ -273,7 +273,7 @@ static void from_within(void **state)
         const struct ks_path oracle = ks_follow(&at, p, ORDERS);
         const struct kd_null_course course =
             kd_null_course_ingoing(&ray, c[0] < 0, INFINITY, 1e-3 * horizon(a), places, MOST);
-        struct kd_null_ray moved = ray; /* by 1e-8: how much the ray amplifies */
+        struct kd_null_ray moved = ray; /* moved by 1e-8: measures how much the ray amplifies errors */
         moved.alpha *= 1 + 1e-8, moved.beta *= 1 + 1e-8;
         const struct kd_null_course beside =
             kd_null_course_ingoing(&moved, c[0] < 0, INFINITY, 1e-3 * horizon(a), others, MOST);
@@ -295,8 +295,8 @@ static void from_within(void **state)
                          allowed = 1e-8 + fabs(other->r / q->r - 1) + fabs(other->phi - q->phi);
             if (!(fabs(q->r / r - 1) <= allowed))
                 say(&ray, "r of crossing", q->crossing, q->r, r, allowed * r);
-            if (r <
-                1.02 * horizon(a)) /* no Boyer-Lindquist azimuth within, and one that turns ever faster next to it */
+            /* inside the horizon Boyer-Lindquist azimuth does not exist, and next to it grows without bound */
+            if (r < 1.02 * horizon(a))
                 continue;
             const double twist = root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : 0,
                          phi = sign * q->phi + twist;
@@ -319,8 +319,8 @@ static void from_within(void **state)
     assert_true(met > 150 && escaped > 100 && captured > 50 && below > 20);
 }
 
-/* Outside the horizon ingoing azimuth and time are those of the closed form and the integrals of a/Delta and
- * 2r/Delta. */
+/* Outside the horizon the ingoing azimuth and time follow from those of the closed form and the integrals of a/Delta
+ * and 2r/Delta. */
 static void ingoing_time(void **state)
 {
     static struct kd_null_place places[MOST];

@@ -1,6 +1,6 @@
-/* Critical curve, spherical photon orbits and local frames: against 60-digit searches for the ray that just
- * does not turn (tests/oracle/critical_reference.py), published values, and closed-form rays on either side
- * of the curve. */
+/* Critical curve, spherical photon orbits and local frames against searches with 60 digits for the ray that just
+ * does not turn (tests/oracle/critical_reference.py), against published values, and against closed-form rays on both
+ * sides of the curve. */
 #include "physics/null/critical.h"
 
 #include "physics/null/null_geodesic.h"
@@ -64,8 +64,8 @@ static void against_the_oracle(void **state)
 static const double spins[] = { 0, 1e-12, 1e-6, 0.1, 0.5, 0.9, 0.998, 0.999999, 1 - 1e-12 };
 static const double cosines[] = { 1, 1 - 1e-15, 0.9563, 0.5, 0.1736, 1e-8, 0, -0.5, -1 };
 
-/* a = 0: a circle of sqrt(27) about the middle, gamma = pi, half an orbit in 3 sqrt(3) pi. From the pole: a
- * circle whose radius at a = 1 is 2 + 2 sqrt(2), of orbits at 1 + sqrt(2) (Gralla & Lupsasca 2020,
+/* a = 0: a circle of radius sqrt(27) about the middle, gamma = pi, half an orbit in a time of 3 sqrt(3) pi. Seen
+ * from the pole: a circle, whose radius at a = 1 is 2 + 2 sqrt(2), of orbits at 1 + sqrt(2) (Gralla & Lupsasca 2020,
  * arXiv:1910.12873). From the equator: from -2 to 7 at a = 1, and 2 sqrt(27) high at any spin. */
 static void published_shapes(void **state)
 {
@@ -80,7 +80,7 @@ static void published_shapes(void **state)
             near(fabs(x.delta), M_PI, 2e-15, "delta", 0, k);
             near(x.tau, root27 * M_PI, 1e-14, "tau", 0, k);
         }
-    double e = 1e-12; /* 1 - a: everything at the pole is smooth there */
+    double e = 1e-12; /* 1 - a; seen from the pole everything is smooth in it */
     struct kd_critical pole = curve_of(1 - e, 1, INFINITY, KD_OBSERVER_STATIC);
     struct kd_critical_point p = kd_critical_at(&pole, 1);
     near(p.rho, 2 + 2 * sqrt(2), 2 * e, "rho over the pole", 1, 1);
@@ -114,7 +114,8 @@ static void equatorial_orbits_keep_time(void **state)
     }
 }
 
-/* By radius or by place; the conditions of a double root, R = R' = 0, in the textbook's form. */
+/* Orbits given by their radius or by their place on the curve satisfy the conditions of a double root, R = R' = 0,
+ * in the textbook's form. */
 static void orbits_are_double_roots(void **state)
 {
     (void)state;
@@ -137,7 +138,8 @@ static void orbits_are_double_roots(void **state)
     assert_true(isnan(kd_shell_orbit_of_radius(kd_hole(0.5), 4.1).lambda));
 }
 
-/* A mirror for the spin, one for the equator, and no jump through a = 0, the axis or the equator. */
+/* The curve is mirrored when the spin or the side of the equator changes sign, and does not jump at a = 0, at the
+ * axis or at the equator. */
 static void symmetric_and_continuous(void **state)
 {
     (void)state;
@@ -188,8 +190,8 @@ static void the_edge_of_the_shadow(void **state)
             }
 }
 
-/* Synge 1966: an observer at rest at r sees the hole under sin(angle) = sqrt(27 (1 - 2/r))/r, more than a
- * right angle inside r = 3; the solid angle is that of a cap. */
+/* Synge 1966: for an observer at rest at r the hole's disk has the angular radius sin(angle) = sqrt(27 (1 - 2/r))/r,
+ * more than a right angle inside r = 3; the solid angle is that of a spherical cap. */
 static void synges_angle(void **state)
 {
     (void)state;
@@ -208,7 +210,8 @@ static void synges_angle(void **state)
         }
 }
 
-/* Directions just outside the edge leave, just inside fall in; at every distance, also looking outwards. */
+/* Light from directions just outside the edge leaves, just inside it falls in; for observers at any distance, also
+ * where the edge is behind them. */
 static void the_edge_from_nearby(void **state)
 {
     (void)state;
@@ -229,7 +232,7 @@ static void the_edge_from_nearby(void **state)
                 double right = x * cos(c.centre) + cos(rho) * sin(c.centre);
                 double inwards = cos(rho) * cos(c.centre) - x * sin(c.centre);
                 struct kd_covector photon = kd_tetrad_covector(&c.tetrad, (double[]) { 1, inwards, up, -right });
-                if (photon.energy <= 0.05) /* no labels, in the ergosphere */
+                if (photon.energy <= 0.05) /* in the ergosphere: the ray has no alpha and beta */
                     continue;
                 struct kd_null_ray ray = { .spin = a,
                                            .radius = r,
@@ -261,14 +264,14 @@ static void from_far_away(void **state)
     near(m.height * r, n.height, 1e-5, "height", 0.9, r);
 }
 
-/* Area and mean radius by another rule: polygons through Bardeen's parameter, extrapolated. And Johannsen &
- * Psaltis' A of a displaced circle is 0. */
+/* Area and mean radius by another rule: polygons with points at equal steps of Bardeen's parameter, extrapolated.
+ * And Johannsen & Psaltis' asymmetry A of a displaced circle is 0. */
 static double polygon(double a, double u, int n)
 {
     double s = sqrt(1 - u * u), low = kd_kerr_photon_orbit(kd_hole(a)), high = kd_kerr_photon_orbit(kd_hole(-a)),
            area = 0;
     double alpha0 = 0, beta0 = 0;
-    for (int k = 0; k <= n; k++) { /* i = 90 degrees: all orbits are seen */
+    for (int k = 0; k <= n; k++) { /* i = 90 degrees: all spherical orbits are on the curve */
         double r = 0.5 * (low + high) - 0.5 * (high - low) * cos(M_PI * k / n);
         double lambda = (r * r * (3 - r) - a * a * (r + 1)) / (a * (r - 1));
         double eta = r * r * r * (4 * a * a - r * (r - 3) * (r - 3)) / (a * a * (r - 1) * (r - 1));
@@ -315,7 +318,7 @@ static void bad_input(void **state)
     assert_int_equal(kd_critical_of(&held).status, KD_CRITICAL_NO_OBSERVER);
 }
 
-/* The points for drawing lie on the curve, from end to end. */
+/* The points for drawing lie on the curve and reach from one end to the other. */
 static void drawn(void **state)
 {
     (void)state;

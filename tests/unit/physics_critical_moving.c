@@ -1,6 +1,6 @@
-/* The critical curve of observers within the horizon, and of those that move in latitude: light a microradian on
- * either side of it, followed back in Kerr-Schild coordinates from frames that are made there, comes from the sky on
- * the one side and from the hole on the other. */
+/* The critical curve of observers inside the horizon and of those that move in latitude. Light a microradian to
+ * either side of the curve is traced back in Kerr-Schild coordinates, from frames computed in these coordinates: it
+ * comes from the sky on one side and from the hole on the other. */
 #include "kerr_schild.h"
 #include "physics/null/critical.h"
 
@@ -77,7 +77,8 @@ static void the_edge_is_where_it_is_seen(void **state)
             direction(&curve, angle, m);
             direction(&curve, angle - 1e-4, before);
             direction(&curve, angle + 1e-4, after);
-            for (int j = 0; j < 3; j++) { /* the tangent, counterclockwise, times the direction: away from the dark */
+            /* the tangent, counterclockwise, cross the direction: points away from the dark side */
+            for (int j = 0; j < 3; j++) {
                 const int a = (j + 1) % 3, b = (j + 2) % 3;
                 across[j] = (after[a] - before[a]) * m[b] - (after[b] - before[b]) * m[a];
                 length += across[j] * across[j];

@@ -1,5 +1,5 @@
-/* Bending of light against quadrature from the metric (tests/oracle/deflection_reference.py), numbers in print, and
- * its own limits. */
+/* Bending of light against quadrature from the metric (tests/oracle/deflection_reference.py), published numbers, and
+ * its limits of weak and strong fields. */
 #include "physics/math/quadrature.h"
 #include "physics/null/deflection.h"
 #include "physics/spacetime/kerr.h"
@@ -38,8 +38,8 @@ static void critical(void **state)
     close_to("critical", -1, 0, kd_deflection_critical(kd_hole(-most)), 7, 1e-14);
 }
 
-/* The errors that the header promises. The closest approach is a root that is double on the critical ray: there it
- * moves with the square root. */
+/* The errors are within what the header promises. The closest approach is a root that becomes double on the critical
+ * ray: near it it moves with the square root. */
 static void angles(void **state)
 {
     (void)state;
@@ -52,8 +52,8 @@ static void angles(void **state)
     }
 }
 
-/* Where light turns V = 1/b, by the effective potential of Bardeen, Press & Teukolsky, which knows no roots of R;
- * and for a = 0 the middle root of r^3 - b^2 r + 2 b^2 = 0 by Vieta's formula. */
+/* Light turns where V = 1/b, with the effective potential of Bardeen, Press & Teukolsky, which does not use the
+ * roots of R; for a = 0 also the middle root of r^3 - b^2 r + 2 b^2 = 0 by Vieta's formula. */
 static void farthest(void **state)
 {
     (void)state;
@@ -61,7 +61,8 @@ static void farthest(void **state)
         for (double x = 0.01; x < 1e4; x *= 7) {
             double critical = kd_deflection_critical(kd_hole(a)), b = critical * (1 + x),
                    r = kd_deflection_farthest(kd_hole(a), b);
-            if (kd_potential(kd_hole(a), 1, 0, kd_hole(a)->outer) > 1 / b) { /* the hill begins above it */
+            /* already at the horizon the potential is above 1/b: no turning point */
+            if (kd_potential(kd_hole(a), 1, 0, kd_hole(a)->outer) > 1 / b) {
                 assert_true(isnan(r));
                 continue;
             }
@@ -84,7 +85,8 @@ static void the_sun(void **state)
     close_to("the sun", 0, b, kd_deflection(kd_hole(0), b) / arcsec, 1.7512, 1e-4);
 }
 
-/* The two ways to compute meet at b = 20; the angle falls with b, and rises with the hole turning against the light. */
+/* The two ways of computing the angle agree where they meet, at b = 20; the angle falls with b, and is larger for a
+ * hole that rotates against the light. */
 static void smooth_and_monotone(void **state)
 {
     (void)state;
@@ -103,8 +105,8 @@ static void smooth_and_monotone(void **state)
     }
 }
 
-/* What the weak field leaves out is of the next order, with the coefficients of Iyer & Hioki 2009:
- * (128/3 - 10 pi a + 4 a^2)/b^3. */
+/* The error of the weak-field formula is of the next order, with the coefficients of Iyer & Hioki 2009: (128/3 - 10
+ * pi a + 4 a^2)/b^3. */
 static void weak_field(void **state)
 {
     (void)state;
@@ -117,7 +119,8 @@ static void weak_field(void **state)
         }
 }
 
-/* Bozza 2002 in print: rate 1, offset -0.40023 at a = 0. Elsewhere the limit has to come closer as delta ln(delta). */
+/* Bozza 2002 gives a rate of 1 and an offset of -0.40023 at a = 0. At other spins the error of the limit must fall
+ * as delta ln(delta). */
 static void strong_limit(void **state)
 {
     (void)state;
@@ -130,7 +133,7 @@ static void strong_limit(void **state)
             double delta = pow(10, x),
                    exact = kd_deflection(kd_hole(a), kd_deflection_critical(kd_hole(a)) * (1 + delta));
             double off = fabs(exact - (s.offset - s.rate * log(delta)));
-            /* the coefficient grows towards the extremal hole, where photon orbit and horizon meet */
+            /* the coefficient grows towards the extremal hole, where the photon orbit meets the horizon */
             if (!(off < 3 * s.rate * s.rate * s.rate * delta * fabs(log(delta)) + 1e-14 / delta * s.rate))
                 fail_msg("a = %g, delta = %g: off by %g", a, delta, off);
         }
@@ -147,7 +150,7 @@ static void outside_the_domain(void **state)
     assert_true(isnan(kd_deflection(kd_hole(0.5), -30)));
 }
 
-/* x^p y^q: Euler's beta function. A singularity of any integrable kind, at either end. */
+/* x^p y^q, whose integral is Euler's beta function: an integrable singularity at either end. */
 static double power(double x, double y, const void *context)
 {
     const double *p = context;

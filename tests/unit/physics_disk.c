@@ -1,5 +1,5 @@
-/* The thin disk against quadrature of its defining integral (tests/oracle/disk_reference.py), energy
- * conservation, and the redshift against a contraction with the metric. */
+/* The thin disk against quadrature of the integral that defines its flux (tests/oracle/disk_reference.py), against
+ * energy conservation, and the redshift against a contraction with the metric. */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 
@@ -22,7 +22,7 @@ static void close_to(const char *what, double a, double r, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* The bound of the header; the nearest radius here is 0.001 r_isco outside the ISCO. */
+/* The bound is that of the header; the smallest radius here is 0.001 r_isco outside the ISCO. */
 static void flux_is_the_integral(void **state)
 {
     (void)state;
@@ -50,9 +50,9 @@ static double luminosity(function flux, function weight, double a)
 
 static double one(const struct kd_hole *hole, double r) { return (void)hole, (void)r, 1; }
 
-/* What both faces radiate, E times the energy in the gas's frame, is what the gas loses on its way in: 1 -
- * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within
- * 0.1 of the ISCO. The Newtonian disk, by the virial theorem, releases 1/(2 r_in). */
+/* The energy radiated by both faces, E times the energy in the gas's frame, is what the gas loses on its way in: 1 -
+ * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within 0.1 of
+ * the ISCO. The Newtonian disk, by the virial theorem, releases 1/(2 r_in). */
 static void luminosity_is_the_efficiency(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void nothing_inside_the_isco(void **state)
     }
 }
 
-/* Far away both fall as 3/(8 pi r^3) (1 - C/sqrt(r)), C below 5. */
+/* Far away both fluxes fall as 3/(8 pi r^3) (1 - C/sqrt(r)), with C below 5. */
 static void far_away_it_is_newtonian(void **state)
 {
     (void)state;
@@ -93,8 +93,8 @@ static void far_away_it_is_newtonian(void **state)
     }
 }
 
-/* The table's radius is where the slope of the flux vanishes, by differences in 30 digits. Newtonian: a maximum to
- * the digits that values have next to one. */
+/* The radius of the peak in the table is where the slope of the flux vanishes, by differences with 30 digits. For
+ * the Newtonian disk: a maximum, as far as rounded values nearby can show it. */
 static void peak_of_the_flux(void **state)
 {
     (void)state;
@@ -120,8 +120,8 @@ static void redshift_without_spin(void **state)
                      1e-14);
 }
 
-/* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega where the r-derivative of
- * u.g.u vanishes, u^t from u.g.u = -1, all in the plane. */
+/* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega is where the r-derivative of u.g.u
+ * vanishes, u^t follows from u.g.u = -1, all in the equatorial plane. */
 static double redshift_by_contraction(double a, double r, double lambda)
 {
     double tt = -1 + 2 / r, tp = -2 * a / r, pp = r * r + a * a + 2 * a * a / r;
@@ -131,8 +131,8 @@ static double redshift_by_contraction(double a, double r, double lambda)
     return 1 / (ut * (1 - omega * lambda));
 }
 
-/* The contraction itself cancels towards the photon orbit: at a = 0.998 to about 1e-15 over 0.02 of the
- * terms. */
+/* The contraction itself loses digits by cancellation towards the photon orbit: at a = 0.998 to about 1e-15 over
+ * 0.02 of the terms. */
 static void redshift_with_spin(void **state)
 {
     (void)state;
@@ -167,8 +167,8 @@ static void redshift_of_plunging_gas(void **state)
     assert_true(tried > 5000);
 }
 
-/* Continuous with the circular orbits; towards the horizon zero for what leaves outwards, regular for what
- * leaves inwards. */
+/* The redshift of plunging gas continues that of circular orbits; towards the horizon it goes to zero for light that
+ * leaves outwards and stays regular for light that leaves inwards. */
 static void plunging_at_both_ends(void **state)
 {
     (void)state;
@@ -187,8 +187,8 @@ static void plunging_at_both_ends(void **state)
     }
 }
 
-/* Same physics worked in grams and with Newton's G, known to 2.2e-5; T goes as M^(-1/4). The fourth root of
- * the flux adds nothing. */
+/* The same physics computed in grams and with Newton's G, which is known to 2.2e-5; T goes as M^(-1/4). The fourth
+ * root of the flux adds no error. */
 static void temperature_in_kelvin(void **state)
 {
     (void)state;

@@ -24,8 +24,8 @@ static void within(const char *what, double a, double x, double got, double want
                  fabs(got - want), bound);
 }
 
-/* A few ulp; kappa has a zero at the ISCO, a sixteenth of which away its square has lost a factor of ten or, at
- * 1 - a = 1e-12, where r - 1 is 1e-4 and r known to 1e-16, of 1e4. */
+/* A few ulp. kappa^2 has a zero at the ISCO: a sixteenth of the radius away from it a factor of ten is lost or, at 1
+ * - a = 1e-12, where r - 1 is 1e-4 and r known to 1e-16, a factor of 1e4. */
 static void frequencies(void **state)
 {
     (void)state;
@@ -46,9 +46,9 @@ static void frequencies(void **state)
                1e-14 * pow(r, -1.5));
 }
 
-/* Along geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the shear.
- * From periastron r = r0 (1 - e cos kappa t), so that phi is behind by shear r0 e sin(kappa t)/kappa. To first order
- * in e over the distance to the ISCO. */
+/* Against geodesics of small eccentricity by elliptic functions: the azimuth runs ahead of its mean by the shear.
+ * The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e sin(kappa t)/kappa.
+ * This holds to first order in e over the distance to the ISCO. */
 static void shear(void **state)
 {
     (void)state;
@@ -68,7 +68,7 @@ static void shear(void **state)
                 within("swing of phi", a, r, at.phi - f.phi * at.t, swing * sin(f.r * at.t), 1e-4 * fabs(swing));
             }
         }
-    for (double a = 0; a < 0.9985; a += 0.002) /* the whole range of disks */
+    for (double a = 0; a < 0.9985; a += 0.002) /* the whole range of spins of disks */
         assert_true(kd_epicyclic_radial(kd_hole(a), kd_kerr_isco(kd_hole(a))) == 0);
 }
 
@@ -77,8 +77,8 @@ static void potentials(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(potential_reference); i++) {
         const struct potential_reference *p = &potential_reference[i];
-        /* Where a L < 0 two terms cancel: their size counts. Next to the horizon sqrt(r - r+) is known to 1e-16 of
-         * r+. */
+        /* Where a L < 0 two terms cancel, so their size counts. Next to the horizon sqrt(r - r+) is known to 1e-16
+         * of r+. */
         double near = 1e-15 / (p->r - kd_hole(p->a)->outer),
                drag = fabs(kd_kerr_dragging(kd_hole(p->a), p->r, 0) * p->l);
         double loss = 2e-15 + fmin(near, 1e-9);
@@ -89,7 +89,8 @@ static void potentials(void **state)
     }
 }
 
-/* V is flat at its extrema, so that their radii are good to the conditioning of L(r) alone: 1e-13 but near the ISCO. */
+/* V is flat at its extrema, so the error of their radii is that of the condition of L(r) alone: 1e-13 except near
+ * the ISCO. */
 static void turning_points(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The hole as a value, and the metric, against the same formulas in long double. */
+/* The struct of a hole's constants, and the metric, against the same formulas in long double. */
 #include "physics/spacetime/hole.h"
 
 #include <float.h>
@@ -39,7 +39,7 @@ static void horizons(void **state)
     assert_true(isnan(kd_hole_of(1.5).outer) && isnan(kd_hole_of(-1.5).inner));
 }
 
-/* Delta is a product of two differences: r - r+ has the rounding of r+, half an ulp or one, over r - r+. Sigma, A and
+/* Delta is a product of two differences: r - r+ has the error of r+, half an ulp or one, over r - r+. Sigma, A and
  * omega are sums that do not cancel. */
 static void metric(void **state)
 {

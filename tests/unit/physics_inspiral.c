@@ -1,5 +1,5 @@
-/* Peters's inspiral against the quadrupole formula itself, summed over an orbit, against quadrature
- * (tests/oracle/inspiral_reference.py) and against pulsars in print. */
+/* Peters's inspiral against the quadrupole formula itself summed over an orbit, against quadrature
+ * (tests/oracle/inspiral_reference.py) and against published data of pulsars. */
 #include "physics/waves/inspiral.h"
 
 #include "inspiral_reference.h"
@@ -23,9 +23,9 @@ static void close_to(const char *what, double a, double e, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Third derivatives of the ellipse's quadrupole moments by differences of its 40 nearest points would be noisy: the
- * equation of motion x'' = -x/r^3 gives them exactly, d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i
- * x_j, and d2(x_i x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are taken out. */
+/* Third derivatives of the quadrupole moments by differences of 40 points on the ellipse would be noisy; the
+ * equation of motion x'' = -x/r^3 gives them exactly: d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i
+ * x_j, and d2(x_i x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are subtracted. */
 struct loss { double energy, momentum; /* d/dt, for eta = 1 */ };
 
 static struct loss radiated(double a, double e)
@@ -57,7 +57,7 @@ static struct loss radiated(double a, double e)
     return sum;
 }
 
-/* E = -eta/(2a), L = eta sqrt(a (1 - e^2)): both rates follow from the losses. */
+/* E = -eta/(2a), L = eta sqrt(a (1 - e^2)): the rates of a and e follow from the losses. */
 static void rates(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void rates(void **state)
         close_to("dP/dt", a, e, kd_inspiral_period_rate(eta, a, e), 3 * M_PI * sqrt(a) * da, 1e-12);
     }
     close_to("enhancement", 1, 0.617131, kd_inspiral_enhancement(0.617131), 11.857,
-             1e-4); /* Hulse and Taylor's pulsar: 11.86 */
+             1e-4); /* Hulse and Taylor's pulsar: the enhancement by eccentricity is 11.86 */
 }
 
 static void time_by_quadrature(void **state)
@@ -86,8 +86,8 @@ static void time_by_quadrature(void **state)
     }
 }
 
-/* Peters 1964: a circle lasts a^4/(4 beta); for e -> 1 the ratio to it is 768/425 (1 - e^2)^(7/2), and the
- * next term sqrt(1 - e^2) less. */
+/* Peters 1964: a circle lasts a^4/(4 beta); for e -> 1 the ratio to it is 768/425 (1 - e^2)^(7/2), and the next term
+ * is smaller by sqrt(1 - e^2). */
 static void limits(void **state)
 {
     (void)state;
@@ -100,7 +100,7 @@ static void limits(void **state)
     }
 }
 
-/* Along a(e) the time falls as the rates say: differences of second order. */
+/* Along a(e) the time left falls at the rate that da/dt gives: by differences of second order. */
 static void axis_and_time_agree(void **state)
 {
     (void)state;
@@ -137,9 +137,9 @@ static void pulsars(void **state)
     }
 }
 
-/* f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3), and round numbers: 4.4 kHz for the last stable orbit of one solar mass, 134
- * Hz a second of 1.21 solar masses before the end (Maggiore 4.20), 2.8 % more than the wave of a circle at the same
- * time has by Kepler. */
+/* f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3), and known numbers: 4.4 kHz for the last stable orbit of one solar mass; 134
+ * Hz one second before the end for 1.21 solar masses (Maggiore 4.20), which is 2.8 % more than Kepler's law gives
+ * for the wave of a circle at that time. */
 static void chirp(void **state)
 {
     (void)state;
@@ -151,8 +151,8 @@ static void chirp(void **state)
             close_to("df/dt", tau, 0, slope, want, 1e-5);
             double a = pow(M_PI * f, -2.0 / 3);
             close_to("tau", a, 0, kd_inspiral_time(eta, a, 0), tau, 1e-13);
-            /* Isaacson's flux, 2 (pi f h)^2/(32 pi) each for h+ and hx face-on, (1 + c^2)^2/4 + c^2 averages to 4/5
-             * of 2 */
+            /* Isaacson's flux, 2 (pi f h)^2/(32 pi) each for h+ and hx face-on; over all directions (1 + c^2)^2/4 +
+             * c^2 averages to 4/5, of a face-on value of 2 */
             double strain = kd_inspiral_strain(eta, f, 1e9),
                    flux = pow(2 * M_PI * f * strain, 2) / (32 * M_PI) * 2 * 0.4;
             close_to("power", a, 0, flux * 4 * M_PI * 1e18, kd_inspiral_power(eta, a, 0), 1e-12);

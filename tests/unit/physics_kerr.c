@@ -1,5 +1,5 @@
-/* Circular orbits of Kerr against numbers worked out from the metric alone (tests/oracle/kerr_reference.py),
- * and against what must hold at any spin. */
+/* Circular orbits of Kerr against numbers computed from the metric alone (tests/oracle/kerr_reference.py), and
+ * against properties that hold at any spin. */
 #include "physics/spacetime/kerr.h"
 
 #include "kerr_reference.h"
@@ -21,7 +21,7 @@ static void close_to(const char *what, double a, double r, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the others are one or two elementary
+/* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the other radii are one or two elementary
  * functions of a, well conditioned in a and 1 - a: a few ulp, 1e-14. */
 static void special_radii(void **state)
 {
@@ -35,9 +35,9 @@ static void special_radii(void **state)
     }
 }
 
-/* E and L are flat at the ISCO, so that its own rounding costs nothing and 1e-12 holds up to 1 - a = 1e-12,
- * where r - 1 is 1.6e-4 and half the digits of a plain 1 - 3/r + 2a r^-3/2 are gone. 1 - E loses a factor of
- * 26 at a = -1. */
+/* E and L are flat at the ISCO, so the rounding of its radius costs nothing, and 1e-12 holds up to 1 - a = 1e-12,
+ * where r - 1 is 1.6e-4 and a plain 1 - 3/r + 2a r^-3/2 would lose half of the digits. 1 - E loses a factor of 26 at
+ * a = -1. */
 static void the_isco_orbit(void **state)
 {
     (void)state;
@@ -51,9 +51,8 @@ static void the_isco_orbit(void **state)
     }
 }
 
-/* Between the photon orbit and the ISCO, just outside it, near and far: the radii of the table are doubles,
- * exact. Halfway to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5 and the rounding of sqrt(r) alone is
- * worth 1e-12. */
+/* Between the photon orbit and the ISCO, just outside it, near and far: the radii in the table are exact doubles.
+ * Halfway to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5, and the rounding of sqrt(r) alone is worth 1e-12. */
 static void any_orbit(void **state)
 {
     (void)state;
@@ -66,9 +65,8 @@ static void any_orbit(void **state)
     }
 }
 
-/* Round numbers in print: Bardeen, Press & Teukolsky 1972, section II (a = 0: 2, 3, 4, 6; |a| = 1: 1, 4, 3 +
- * 2 sqrt 2, 9; binding energies 5.72 %, 3.77 %), Thorne 1974 (a = 0.998: efficiency 0.321 for the ISCO
- * at 1.237). */
+/* Published round numbers: Bardeen, Press & Teukolsky 1972, section II (a = 0: 2, 3, 4, 6; |a| = 1: 1, 4, 3 + 2 sqrt
+ * 2, 9; binding energies 5.72 %, 3.77 %), Thorne 1974 (a = 0.998: efficiency 0.321 for the ISCO at 1.237). */
 static void numbers_in_print(void **state)
 {
     (void)state;
@@ -83,13 +81,13 @@ static void numbers_in_print(void **state)
     close_to("photon orbit", retrograde, 0, kd_kerr_photon_orbit(kd_hole(retrograde)), 4, 1e-14);
     close_to("marginally bound", retrograde, 0, kd_kerr_marginally_bound(kd_hole(retrograde)), 3 + 2 * sqrt(2), 1e-14);
     close_to("efficiency", retrograde, 0, kd_kerr_efficiency(kd_hole(retrograde)), 1 - 5 / sqrt(27), 1e-13);
-    close_to("ISCO", 0.998, 0, kd_kerr_isco(kd_hole(0.998)), 1.237, 5e-4 / 1.237); /* three decimals in print */
+    close_to("ISCO", 0.998, 0, kd_kerr_isco(kd_hole(0.998)), 1.237, 5e-4 / 1.237); /* published to three decimals */
     close_to("efficiency", 0.998, 0, kd_kerr_efficiency(kd_hole(0.998)), 0.321, 5e-4 / 0.321);
 }
 
-/* E and L of circular orbits both have their minimum at the ISCO. Five hundredths aside the difference is a
- * hundred thousand ulp. The slope there: a symmetric difference of step h leaves h^2 of the third derivative.
- */
+/* E and L of circular orbits both have their minimum at the ISCO. At 5 % of the gap to either side they differ by a
+ * hundred thousand ulp. The slope there is a symmetric difference of step h, whose error is h^2 times the third
+ * derivative. */
 static void the_isco_is_the_minimum(void **state)
 {
     (void)state;
@@ -105,14 +103,15 @@ static void the_isco_is_the_minimum(void **state)
             double h = 1e-3 * gap,
                    slope = (functions[i](kd_hole(a), r + h) - functions[i](kd_hole(a), r - h)) / (2 * h);
             double bend = (left + right - 2 * at) / (step * step);
-            /* In units of bend * gap: by how much of the gap the minimum lies aside. */
+            /* In units of bend * gap: the offset of the minimum as a share of the gap. */
             if (!(fabs(slope) < 1e-5 * bend * gap))
                 fail_msg("a = %g: the slope of %s at the ISCO is %g", a, i ? "L" : "E", slope);
         }
     }
 }
 
-/* The ISCO by the quartic in its header, solved in powers of a: 6 - 4 sqrt(2/3) a - 7/18 a^2, less than a^3 off. */
+/* The ISCO from the quartic that its header gives, solved in powers of a: 6 - 4 sqrt(2/3) a - 7/18 a^2, with an
+ * error below a^3. */
 static void hardly_any_spin(void **state)
 {
     (void)state;
@@ -122,7 +121,7 @@ static void hardly_any_spin(void **state)
                      6 - sign * a * 4 * sqrt(2. / 3) - 7. / 18 * a * a, 1e-15);
 }
 
-/* 2000 spins crowding towards +-1: continuous, ordered, monotone. */
+/* 2000 spins, denser towards +-1: the radii are continuous, ordered and monotone. */
 static void order_of_the_radii(void **state)
 {
     (void)state;
@@ -173,7 +172,7 @@ static void frame_dragging_and_ergosphere(void **state)
             if (!(fabs(tt) < 1e-14))
                 fail_msg("a = %g, u = %g: g_tt = %g at the static limit", a, u, tt);
         }
-        /* on the horizon everything turns with a/(2 r+) */
+        /* on the horizon zero-angular-momentum observers rotate with a/(2 r+) */
         double horizon = kd_hole(a)->outer;
         close_to("dragging", a, horizon, kd_kerr_dragging(kd_hole(a), horizon, 0.3), a / (2 * horizon), 1e-14);
     }

@@ -1,5 +1,5 @@
-/* Lensing bands: against quadratures in 60 digits (tests/oracle/critical_reference.py), published intervals,
- * and rays traced in closed form; and the demagnification from order to order. */
+/* Lensing bands against quadratures with 60 digits (tests/oracle/critical_reference.py), published intervals, and
+ * rays traced in closed form; and the demagnification from order to order. */
 #include "physics/null/lensing.h"
 
 #include "physics/math/root.h"
@@ -34,7 +34,7 @@ static void against_the_oracle(void **state)
         double d = kd_lensing_edge(&c, &p, e->order, e->source);
         if (!(fabs(d / e->distance - 1) < 4e-14 + 1e-16 / sqrt(1 - e->spin)))
             fail_msg("row %zu: %.17g, not %.17g", i, d, e->distance);
-        /* and back: d ln r/d ln d is some 10 at most but at infinity and the horizon */
+        /* and back to the source; d ln r/d ln d is some 10 at most, except at infinity and at the horizon */
         double r = kd_lensing_source(&c, &p, e->order, d);
         if (e->source == 6 && !(fabs(r / 6 - 1) < 1e-12))
             fail_msg("row %zu: source at %.17g", i, r);
@@ -56,8 +56,8 @@ static void the_rings_of_gralla_holz_wald(void **state)
     }
 }
 
-/* The same edges seen by rays in closed form, as far in as alpha and beta can tell: just inside them the
- * source is nearer. */
+/* The same edges found by rays in closed form, as close to the critical curve as alpha and beta can resolve: just
+ * inside an edge the source is nearer. */
 static void rays_agree(void **state)
 {
     (void)state;
@@ -72,7 +72,7 @@ static void rays_agree(void **state)
             continue;
         double d = kd_lensing_edge(&c, &p, n, source);
         if (isnan(d)) {
-            if (n > 1 || fabs(u) > 0.3) /* beyond the centre */
+            if (n > 1 || fabs(u) > 0.3) /* the ray is on the other side of the centre */
                 fail_msg("a = %g, u = %g, angle %g, n = %d, source %g: no edge", a, u, angle, n, source);
             continue;
         }
@@ -80,7 +80,7 @@ static void rays_agree(void **state)
         ray.alpha = p.alpha + d * (p.alpha - c.centre), ray.beta = p.beta + d * p.beta;
         struct kd_null_path path = kd_null_trace(&ray);
         assert_true(path.crossings > n);
-        /* what is left of d in alpha and beta, times d ln r/d ln d */
+        /* rounding of d, because it is a difference of alpha and beta, times d ln r/d ln d */
         double r = path.crossing[n].r, allowed = 1e-12 + 100 * 1e-15 / fabs(d);
         if (!(fabs(r / source - 1) < allowed))
             fail_msg("a = %g, u = %g, angle %g, n = %d, source %g: d = %g sees %.15g, off by %.2g, allowed %.2g", a, u,
@@ -88,9 +88,9 @@ static void rays_agree(void **state)
     }
 }
 
-/* d falls by e^-gamma an order in the limit, at any source radius, and what is left of the difference by
- * about as much, or is of order d. To n = 30, where d is 1e-41 at a = 0 and all digits are there still. Near
- * a = 1 the limit is reached late. */
+/* From order to order d falls by a factor that tends to e^-gamma, at any source radius; the difference from that
+ * limit falls by about the same factor, or is of order d. Up to n = 30, where d is 1e-41 at a = 0 and still has all
+ * its digits. Near a = 1 the limit is reached late. */
 static void demagnification(void **state)
 {
     (void)state;

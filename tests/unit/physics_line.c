@@ -1,6 +1,6 @@
-/* Line profiles and spectra of disks against sums over rays of the image plane, transfer functions against rays
- * integrated in Kerr-Schild coordinates, lamps against rays of a lamp in flat space and against Schwarzschild's, and
- * the image of the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
+/* Line profiles and spectra of disks against sums over rays of the image plane; transfer functions and the image of
+ * the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h); lamps against rays in
+ * flat space and in Schwarzschild's metric. */
 #include "physics/disk/disk_image.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/lamppost.h"
@@ -34,11 +34,11 @@ static void within(const char *what, double a, double i, double got, double want
                  fabs(got - want), bound);
 }
 
-/* Light of a ring reaches the image plane where a ray that is integrated there starts in the ring, with that
- * redshift and off the normal by that angle: |p_z| of the oracle over the energy for the gas. Interpolation leaves
- * 3e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has that error of r and,
- * where light grazes the disk, twice that of beta. g knows the place by alpha alone, which the oracle gets too:
- * rounding is left. */
+/* Light of a ring reaches the image plane at the place from which a ray integrated backwards meets the ring, with
+ * that redshift and that angle to the normal: |p_z| of the reference over the energy in the gas's frame.
+ * Interpolation leaves 3e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has
+ * that error of r and, where light grazes the disk, twice that of beta. g depends on the place by alpha alone, which
+ * the reference is given too: only rounding is left. */
 static void test_rings_are_where_rays_lead(void **state)
 {
     static const double spins[] = { 0, 0.9, 0.998, -0.7 }, inclinations[] = { 10, 60, 75 }, radii[] = { 1.02, 2.5, 30 };
@@ -65,8 +65,8 @@ static void test_rings_are_where_rays_lead(void **state)
         }
 }
 
-/* The table's nodes lie where rays lead to their ring, though most of them come from one ray and a step that is not
- * looked at: within 5e-7 of r up to 80 degrees, 3e-6 at 85. Next to edge on they are within 2e-5. */
+/* The nodes of the table lie where rays meet their ring, although most are found from one ray and one step whose
+ * result is not checked: within 5e-7 of r up to 80 degrees, 3e-6 at 85. Next to edge on within 2e-5. */
 static void test_nodes(void **state)
 {
     static const double spins[] = { 0, 0.9, 0.998, 0.99999, -0.998 }, inclinations[] = { 0, 40, 72, 80, 85, 86.9 };
@@ -88,8 +88,8 @@ static void test_nodes(void **state)
         }
 }
 
-/* Between nodes too, next to edge on: places of a ring are within 2e-3 of r of those that are found by themselves. Of
- * these spins and inclinations no table was made while a line from the centre could meet a ring thrice. */
+/* Next to edge on, between nodes too, places of a ring are within 2e-3 of r of those that are found individually.
+ * For these spins and inclinations no table could be made when a line from the centre could meet a ring three times. */
 static void test_next_to_edge_on(void **state)
 {
     static const struct {
@@ -114,7 +114,7 @@ static void test_next_to_edge_on(void **state)
     }
 }
 
-/* From below as from above; nothing next to edge on. */
+/* From below the disk looks as from above; next to edge on there is no table. */
 static void test_inclinations(void **state)
 {
     static struct kd_disk_image other;
@@ -130,7 +130,7 @@ static void test_inclinations(void **state)
 
 enum { EDGES = 60 };
 
-/* The sum over rays, each followed by itself: polar, even in ln rho, squeezed as the disk is. */
+/* The sum over rays, each traced individually, on a polar grid, even in ln rho and squeezed as the disk's image is. */
 static void sum_over_rays(double a, double i, double outer, const double *edges, double *in)
 {
     const int across = 500, around = 400;
@@ -139,7 +139,7 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
     memset(in, 0, EDGES * sizeof *in);
     for (int k = 0; k < across; k++)
         for (int j = 0; j < around; j++) {
-            /* Each direction begins elsewhere, so that no edge of the disk runs along the grid. */
+            /* Each direction begins at another offset, so that no edge of the disk runs along the grid. */
             double rho = exp(first + (k + fmod(0.6180339887498949 * j, 1)) * step), chi = 2 * M_PI * (j + 0.5) / around;
             struct kd_null_ray ray = {
                 .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1
@@ -158,8 +158,8 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
         in[e] /= all;
 }
 
-/* A sum that may err as much as is asked for, and not many times less: within that of the rays' sum, its total
- * within a fifth of a part in a thousand of the closest one's. */
+/* A sum whose permitted error is set: it is within that error of the sum over rays, and not many times more accurate
+ * (then it would waste work); its total is within 0.2 parts in a thousand of that of the most accurate one. */
 static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in,
                       double total)
 {
@@ -178,8 +178,8 @@ static void tolerated(double a, double i, const struct kd_line_params *closest, 
     within("total", a, i, profile.total / total, 1, 2e-4);
 }
 
-/* 200 000 rays: the sum itself is off by up to 5e-4, which 36 times as many rays bring to 1e-4. The profile's
- * estimate of its error has to hold, and be below the 0.3 % that is asked for. */
+/* 200 000 rays: this sum itself is off by up to 5e-4; with 36 times as many rays by 1e-4. The profile's estimate of
+ * its error must hold, and be below the 0.3 % that is asked for. */
 static void test_cumulative_share(void **state)
 {
     static const struct { double a, i; } cases[] = { { 0, 30 }, { 0.5, 60 }, { 0.998, 30 }, { 0.998, 80 } };
@@ -209,8 +209,8 @@ static void test_cumulative_share(void **state)
     }
 }
 
-/* Beside triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light falls
- * steeply: what is told is more than the error, within what is asked for, and not ten times too much. */
+/* Against triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light falls
+ * steeply: the stated error is larger than the actual one, within what is asked for, and not ten times too large. */
 static void test_told_error(void **state)
 {
     static const struct {
@@ -252,7 +252,7 @@ static void test_told_error(void **state)
     }
 }
 
-/* Bins that are cut in two, and edges beyond the line, change nothing. */
+/* Splitting bins, or adding edges beyond the line, changes nothing. */
 static void test_bins_add_up(void **state)
 {
     double coarse[41], fine[81], few[40], many[80];
@@ -275,8 +275,8 @@ static void test_bins_add_up(void **state)
         within("bin", 0.9, fine[2 * e], many[2 * e] + many[2 * e + 1], few[e], 1e-12);
 }
 
-/* The laws of limb darkening and emissivity, and energies for photons, face on, where all that a ring sends has one
- * energy. */
+/* The laws of limb darkening and emissivity, and the conversion to photons, seen face on, where all the light of a
+ * ring has one energy. */
 static void test_face_on(void **state)
 {
     double edges[] = { 0.1, 0.6, 0.7, 0.8, 0.9, 0.99 }, share[5];
@@ -287,7 +287,7 @@ static void test_face_on(void **state)
         struct kd_line_profile profile;
         struct kd_error error;
         assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
-        /* g = sqrt(1 - 3/r), b of the ring by its ray: rings of equal width in r, of area pi d(b^2) */
+        /* g = sqrt(1 - 3/r), b of the ring by its ray: rings of equal width in r, with an area of pi d(b^2) */
         double in[5] = { 0 }, all = 0, b2 = 0;
         for (int k = 0; k <= 4000; k++) {
             double r = 6 * pow(200. / 6, k / 4000.), low = 0, high = 2 * r;
@@ -311,8 +311,8 @@ static void test_face_on(void **state)
     within("even", 0, 0, kd_line_limb(KD_LIMB_ISOTROPIC, 0.5), 1, 0);
 }
 
-/* A ray of Schwarzschild from r = h on the axis at delta, integrated in its plane: u'' + u = 3u^2, u = 1/r, over a
- * quarter turn by Runge and Kutta. */
+/* A ray of Schwarzschild from r = h on the axis at the angle delta, integrated in its plane: u'' + u = 3u^2, u =
+ * 1/r, over a quarter turn by Runge and Kutta's method. */
 static double quarter_turn(double h, double delta)
 {
     enum { STEPS = 4000 };
@@ -330,11 +330,11 @@ static void test_lamp(void **state)
 {
     struct kd_lamppost lamp;
     (void)state;
-    /* Flat: far above a far ring. The deflection of light, some 4/b, is what is left. */
+    /* Flat space: far above a far ring. What is left is the deflection of light, some 4/b. */
     assert_true(kd_lamppost_init(&lamp, kd_hole(0), 2000, 2, 1000, 10000));
     for (double r = 1200; r < 9000; r *= 1.7)
         within("flat", 0, r, kd_lamppost_at(&lamp, r) / (2000 / (4 * M_PI * pow(r * r + 4e6, 1.5))), 1, 0.01);
-    /* Schwarzschild: the slope of r by differences, and the sum over rings of what they get is what was sent there. */
+    /* Schwarzschild: the slope of r by differences; and what all rings receive adds up to what was sent to them. */
     for (double h = 3; h < 50; h *= 2.3) {
         assert_true(kd_lamppost_init(&lamp, kd_hole(0), h, 1.7, 6, 1000));
         for (double delta = 0.7; delta < 1.5; delta += 0.2) {
@@ -348,11 +348,12 @@ static void test_lamp(void **state)
             within("lamp", h, delta, kd_lamppost_at(&lamp, r) / want, 1, 1e-4);
         }
     }
-    /* Kerr: photons of all rings, by the hole's time, are those of the angles between the rings at the ends. */
+    /* Kerr: the number of photons that all rings receive, by the hole's time, is that sent between the angles of the
+     * first and the last ring. */
     static const double spins[] = { 0.9, 0.998, -0.5 };
     for (size_t s = 0; s < COUNT(spins); s++) {
         double a = spins[s], h = 4, isco = kd_kerr_isco(kd_hole(a)), sum = 0, low = 0, high = M_PI, outer = 500;
-        assert_true(kd_lamppost_init(&lamp, kd_hole(a), h, 0, isco, outer)); /* photon index 0: no g */
+        assert_true(kd_lamppost_init(&lamp, kd_hole(a), h, 0, isco, outer)); /* photon index 0: no factor of g */
         for (int k = 0; k < 4000; k++) {
             double r = isco * pow(outer / isco, (k + 0.5) / 4000);
             sum += kd_lamppost_at(&lamp, r) * 4 * M_PI * r * kd_kerr_ut(kd_hole(a), r) * r * log(outer / isco) / 4000;
@@ -380,7 +381,8 @@ static struct start start_of(double a, double u, double alpha, double beta)
     return (struct start) { path.r[0], kd_disk_redshift(kd_hole(a), path.r[0], path.momentum[0]) };
 }
 
-/* d(g, r)/d(alpha, beta) by the oracle's rays; its 1e-11 over the step is 1e-8, and the step's square leaves 1e-6. */
+/* The Jacobian d(g, r)/d(alpha, beta) by rays of the reference; their error of 1e-11 over the step is 1e-8, and the
+ * square of the step leaves 1e-6. */
 static double slopes_of(double a, double u, double alpha, double beta)
 {
     const double h = 2e-3;
@@ -402,8 +404,8 @@ static void test_transfer_function(void **state)
         struct kd_transfer_ring ring;
         assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         assert_true(kd_transfer_ring_of(&image, r, &ring));
-        /* At its ends g does not change along the ring, so that its slope is that of r, but for a factor; the ends
-         * are those of the oracle's rays. */
+        /* At its ends g does not change along the ring, so that the Jacobian is the slope of r times a factor; the
+         * ends are taken from rays of the reference. */
         for (int end = 0; end < 2; end++) {
             alpha = ring.alpha[end], beta = ring.beta[end];
             within("end", a, i, start_of(a, u, alpha, beta).g, end ? ring.g_max : ring.g_min, 1e-8);
@@ -430,8 +432,8 @@ static void test_transfer_function(void **state)
     assert_false(kd_transfer_ring_of(&image, 10, &ring));
 }
 
-/* Page & Thorne's eq. 12 by itself: -Omega'/(4 pi r (E - Omega L)^2) Int (E - Omega L) L' dr from the ISCO, with E,
- * L and Omega of Bardeen, Press & Teukolsky, by trapezia. */
+/* Page & Thorne's eq. 12 computed separately: -Omega'/(4 pi r (E - Omega L)^2) Int (E - Omega L) L' dr from the
+ * ISCO, with E, L and Omega of Bardeen, Press & Teukolsky, by the trapezoidal rule. */
 enum { TABLE = 40000 };
 static double table_r[TABLE + 1], table_flux[TABLE + 1];
 

@@ -1,5 +1,5 @@
-/* Null geodesics in closed form against Taylor series to 20 digits (tests/oracle/null_reference.py): every
- * case of roots, start and degeneracy, and rays 1e-10 from the critical curve. */
+/* Null geodesics in closed form against Taylor series with 20 digits (tests/oracle/null_reference.py): every case of
+ * roots, start and degeneracy, and rays 1e-10 from the critical curve. */
 #include "physics/null/null_geodesic.h"
 
 #include "null_reference.h"
@@ -26,7 +26,8 @@ static struct kd_null_ray ray_of(const struct null_reference *e)
                                   .orders = 4 };
 }
 
-/* Rays that meet the axis may pass it on either side: whole turns then mean nothing. Others are counted. */
+/* Rays that meet the axis may pass it on either side, so that their number of turns is undefined. For others it
+ * counts. */
 static double azimuth_off(const struct kd_null_ray *ray, double got, double want)
 {
     return ray->alpha == 0 ? fabs(remainder(got - want, 2 * M_PI)) : fabs(got - want);
@@ -63,9 +64,9 @@ static void crossings(void **state)
     }
 }
 
-/* The estimates are no excuses: the errors of direct images are a few roundings, those of the next order up
- * to a hundred times more (half a turn near the photon sphere multiplies by up to e^pi), and the estimates in
- * proportion. */
+/* The error estimates must not be so large that anything passes: errors of direct images are a few roundings, those
+ * of the next order up to a hundred times more (half a turn near the photon sphere multiplies by up to e^pi), and
+ * the estimates grow in proportion. */
 static void accuracy(void **state)
 {
     (void)state;
@@ -98,7 +99,7 @@ static void fast_is_the_same(void **state)
     }
 }
 
-/* What must hold exactly: the mirror image in the equator, and the hole turned over. */
+/* Symmetries that must hold exactly: mirroring at the equator, and turning the hole upside down. */
 static void mirrors(void **state)
 {
     (void)state;
@@ -119,8 +120,8 @@ static void mirrors(void **state)
     }
 }
 
-/* No jump at a = 0, on the axis, at beta = 0 or in the plane: the answers differ by the slope times the
- * disturbance. 1e-13 is far below any tolerance and some 500 roundings; slopes here are below 100. */
+/* No jump at a = 0, on the axis, at beta = 0 or in the equatorial plane: the answers differ by the slope times the
+ * change. A change of 1e-13 is far below any tolerance and some 500 roundings; slopes here are below 100. */
 static void continuity(void **state)
 {
     (void)state;
@@ -155,7 +156,8 @@ static void continuity(void **state)
     within(0, 0, "r below beta = 0", fabs(kd_null_trace(&down).crossing[0].r / r - 1), 1e-12);
 }
 
-/* Through the axis: alpha -> 0 from both sides gives pi more or less, and alpha = 0 exactly one of them. */
+/* Across the axis: alpha -> 0 from the two sides gives azimuths that differ by pi to either side, and alpha = 0
+ * exactly one of them. */
 static void the_axis(void **state)
 {
     (void)state;
@@ -169,9 +171,9 @@ static void the_axis(void **state)
     within(0, 0, "phi on the axis", fmin(fabs(on - left), fabs(on - right)), 1e-8);
 }
 
-/* A ray that leaves and comes back to the observer's radius splits into two: the delays and azimuths of an
- * outward start continue those of the inward one. Crossing seen from far, less what it takes to get to the
- * observer nearby. */
+/* A ray that leaves and comes back to the observer's radius is split in two: delays and azimuths of the outward
+ * start continue those of the inward one. A crossing seen from far away equals that seen from nearby plus the way
+ * between the observers. */
 static void observers_along_a_ray(void **state)
 {
     (void)state;
@@ -180,7 +182,7 @@ static void observers_along_a_ray(void **state)
     far.radius = 1e7;
     struct kd_null_path q = kd_null_trace(&far);
     assert_true(p.crossings == q.crossings && p.crossings > 0);
-    for (int n = 0; n < p.crossings; n++) { /* what is left of the way beyond 1e7 is b^2/2r */
+    for (int n = 0; n < p.crossings; n++) { /* the part of the way beyond 1e7 that is left out is b^2/2r */
         within(0, n, "r from 1e7", fabs(p.crossing[n].r / q.crossing[n].r - 1), 2e-5);
         within(0, n, "delay from 1e7", fabs(q.crossing[n].delay - 1e7 - 2 * log(1e7) - p.crossing[n].delay), 1e-4);
     }
@@ -201,7 +203,7 @@ static void degenerate_input(void **state)
         assert_int_equal(p.status, KD_NULL_BAD_INPUT);
         assert_true(p.crossings == 0 && isnan(p.sky_u));
     }
-    struct kd_null_ray beyond = good; /* b = 50 does not come within 10 */
+    struct kd_null_ray beyond = good; /* with b = 50 light does not come within 10 */
     beyond.alpha = 50;
     assert_int_equal(kd_null_trace(&beyond).status, KD_NULL_NO_RAY);
     struct kd_null_ray plane = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = 7, .orders = 3 };
@@ -209,7 +211,7 @@ static void degenerate_input(void **state)
     assert_int_equal(kd_null_trace(&plane).crossings, 0);
 }
 
-/* The principal null congruence and rays of no impact parameter: nothing divides by zero. */
+/* The principal null congruence and rays with impact parameter 0: no division by zero. */
 static void principal_rays(void **state)
 {
     (void)state;
@@ -218,8 +220,8 @@ static void principal_rays(void **state)
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0 && p.sky_u == 0.5 && fabs(p.sky_phi) == 0);
     centre.outward = false;
     assert_int_equal(kd_null_trace(&centre).fate, KD_NULL_CAPTURED);
-    /* lambda = a sin^2, eta = -(a cos^2)^2: theta constant, dphi/dr = a/Delta outwards, against phi on the
-     * way back */
+    /* lambda = a sin^2, eta = -(a cos^2)^2: theta constant, dphi/dr = a/Delta outwards, subtracted because the ray
+     * is followed backwards */
     double a = 0.9, s = sqrt(0.75), plus = 1 + sqrt(1 - a * a), minus = 1 - sqrt(1 - a * a);
     struct kd_null_ray principal = {
         .spin = a, .radius = 10, .cos_theta = 0.5, .alpha = -a * s, .orders = 3, .outward = true
@@ -228,7 +230,7 @@ static void principal_rays(void **state)
     double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0);
     within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
-           1e-7); /* a double root of U: rounding of alpha under a root */
+           1e-7); /* a double root of U: the rounding of alpha under a square root */
     within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
     struct kd_null_ray axis = { .spin = a, .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
     p = kd_null_trace(&axis);
@@ -241,8 +243,8 @@ static void principal_rays(void **state)
     within(0, 0, "phi in the plane", fabs(p.sky_phi + turn), 1e-14);
 }
 
-/* All 32 orders near the critical curve: each half turn the same time later, until the errors have grown to
- * the distance from the photon sphere; nothing but finite numbers, estimates that grow. */
+/* All 32 orders near the critical curve: each half turn takes the same time, until errors have grown to the distance
+ * from the photon sphere; all numbers are finite, and the estimates grow. */
 static void many_orders(void **state)
 {
     (void)state;
@@ -257,13 +259,13 @@ static void many_orders(void **state)
         within(0, n, "half a turn", fabs(fabs(p.crossing[n].phi - p.crossing[n - 1].phi) - M_PI), 1e-12);
         assert_true(isnan(p.crossing[n].error_r) == 0 && p.crossing[n].error_r > 0);
     }
-    for (int n = 2; n < 5; n++) /* 3 M per radian: pi sqrt(27) */
+    for (int n = 2; n < 5; n++) /* 3 sqrt(3) per radian: pi sqrt(27) for half a turn */
         within(0, n, "delay of half a turn", fabs(p.crossing[n].delay - p.crossing[n - 1].delay - M_PI * sqrt(27)),
                0.1);
     assert_true(p.crossing[4].error_r > 100 * p.crossing[2].error_r);
 }
 
-/* The scale at which the direction (x, y) of the image meets the critical curve, to the last bit. */
+/* The scale at which the direction (x, y) of the image plane meets the critical curve, to the last bit. */
 static double critical_scale(struct kd_null_ray ray, double x, double y)
 {
     double low = 1, high = 20;
@@ -275,8 +277,8 @@ static double critical_scale(struct kd_null_ray ray, double x, double y)
     return high;
 }
 
-/* Rays a few roundings apart agree to within their estimates, also where they linger at the photon sphere and
- * where they reach the horizon: places at which a rounded r moves phi and t by thousands of roundings. */
+/* Rays a few roundings apart agree to within their estimates, also where they linger at the photon sphere and where
+ * they reach the horizon: there a rounding of r changes phi and t by thousands of roundings. */
 static void neighbours(void **state)
 {
     (void)state;
@@ -302,7 +304,7 @@ static void neighbours(void **state)
     }
 }
 
-/* On the critical curve to the last bits a ray is still traced, and says that its fate is a guess. */
+/* A ray on the critical curve to the last bits is still traced, and marked as one whose fate is uncertain. */
 static void exactly_critical(void **state)
 {
     (void)state;

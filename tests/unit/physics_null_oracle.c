@@ -1,5 +1,5 @@
-/* Random null geodesics in closed form against the Hamiltonian integrated in Kerr-Schild coordinates: another
- * method, other coordinates, no common formula. */
+/* Random null geodesics in closed form against the Hamiltonian integrated in Kerr-Schild coordinates: another method
+ * and other coordinates, without a formula in common. */
 #include "physics/null/null_geodesic.h"
 
 #include "kerr_schild.h"
@@ -50,9 +50,9 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
              got, want, fabs(got - want), allowed);
 }
 
-/* The oracle holds 1e-12 a step in a coordinate of 1e6 at first, some 1e-11 on arrival, and its errors grow
- * on the way as ours do: by the condition number, which the estimates contain some ten times in units of
- * DBL_EPSILON. `start` is what its own start is worth. Returns whether there was anything to compare. */
+/* The reference has an error of 1e-12 a step in a coordinate that is 1e6 at first, some 1e-11 on arrival. Errors of
+ * both grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON. `start`
+ * is the error of the reference's start. Returns whether there was anything to compare. */
 static void compare(const struct kd_null_ray *ray, struct ks_photon photon, double start)
 {
     struct kd_null_path p = kd_null_trace(ray);
@@ -76,7 +76,7 @@ static void compare(const struct kd_null_ray *ray, struct ks_photon photon, doub
     }
     if (k.fate != KS_ESCAPED)
         return;
-    /* The oracle stops at 1e8, b/1e8 short of infinity. */
+    /* The reference stops at 1e8, where the direction differs by b/1e8 from that at infinity. */
     double sky = 3e-8 * (10 + hypot(ray->alpha, ray->beta)) + factor * p.sky_error;
     double sine = sqrt(fmax(1 - p.sky_u * p.sky_u, 0));
     if (!(fabs(p.sky_u - k.u) <= sky))
@@ -95,9 +95,9 @@ static void from_infinity(void **state)
     }
 }
 
-/* The photon with the labels of `ray` at its radius: p_r = +-sqrt(R)/Delta, p_theta = beta; false if there is
- * none. Not on the axis, where the oracle's start is meant for large radii; and not at the horizon, where it
- * loses 1/Delta to the change of coordinates. */
+/* The photon of `ray` at the ray's radius: p_r = +-sqrt(R)/Delta, p_theta = beta; false if there is none. Not on the
+ * axis, where the reference's start is made for large radii; and not at the horizon, where the change of coordinates
+ * loses a factor 1/Delta. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
     double a = ray->spin, u = ray->cos_theta, r = ray->radius, s = sqrt((1 - u) * (1 + u)), lambda = -ray->alpha * s;

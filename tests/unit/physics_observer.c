@@ -1,6 +1,6 @@
-/* Every row of the table of observers against a metric that is written down here, in the form of its line element
- * (Boyer & Lindquist 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision; constants of
- * motion against the oracle's own frames. */
+/* Every kind of observer against a metric that is written here in the form of its line element (Boyer & Lindquist
+ * 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision; constants of motion against frames
+ * computed in Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/kerr.h"
@@ -24,7 +24,7 @@ typedef long double vector[4], matrix[4][4];
 static void metric(const struct kd_vantage *at, matrix g)
 {
     long double a = at->spin, r = at->r, u = at->u, s = at->s, sigma = r * r + a * a * u * u;
-    /* not r^2 - 2r + a^2: near the horizon little is left of that; sqrtl keeps what the code's double has */
+    /* not r^2 - 2r + a^2, which cancels near the horizon; sqrtl so that the digits of the code's double are all used */
     long double root = sqrtl((1 - a) * (1 + a)), delta = (r - 1 - root) * (r - 1 + root);
     vector time = { [T] = 1, [PHI] = -a * s * s }, turn = { [T] = -a, [PHI] = r * r + a * a };
     for (int i = 0; i < 4; i++)
@@ -34,7 +34,7 @@ static void metric(const struct kd_vantage *at, matrix g)
     g[THETA][THETA] += sigma;
 }
 
-/* x of g x = p. */
+/* Solves g x = p for x. */
 static void raise_index(matrix g, const vector p, vector x)
 {
     long double m[4][5];
@@ -64,7 +64,7 @@ static void raise_index(matrix g, const vector p, vector x)
 
 static long double dot(const vector p, const vector x) { return p[0] * x[0] + p[1] * x[1] + p[2] * x[2] + p[3] * x[3]; }
 
-/* Components of Boyer-Lindquist coordinates with the index down. */
+/* Covariant components in Boyer-Lindquist coordinates. */
 static void lower(const struct kd_vantage *at, const struct kd_covector *p, vector out)
 {
     long double root = sqrtl((1 - (long double)at->spin) * (1 + (long double)at->spin));
@@ -78,7 +78,7 @@ static const double spins[] = { 0, 1e-9, 0.3, -0.7, 0.9, -0.998, 0.999999 },
                     angles[] = { 1e-6, 0.01, 0.4, 1.1, M_PI / 2, 2, 3.1 },
                     heights[] = { 1e-7, 1e-3, 0.02, 0.3, 1, 3, 20, 1e3, 1e6 };
 
-/* Motions of every kind. L is made small where the axis is near, and fall_from is given as a share of the radius. */
+/* Motions of every kind. L is scaled down near the axis, and fall_from is given as a multiple of the radius. */
 static const struct kd_observer_motion motions[] = {
     { .observer = KD_OBSERVER_STATIC },
     { .observer = KD_OBSERVER_ZAMO },
@@ -92,7 +92,7 @@ static const struct kd_observer_motion motions[] = {
     { .observer = KD_OBSERVER_VELOCITY, .velocity = { -0.9, 0, 0.3 } },
 };
 
-/* Places just outside where the observer exists, and up to a million times as far. */
+/* Calls `each` for places just outside the limit of where the observer can be, and up to a million times as far. */
 typedef void check(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame);
 static void everywhere(check *each)
 {
@@ -104,11 +104,11 @@ static void everywhere(check *each)
         struct kd_observer_motion m = motions[k];
         struct kd_vantage at = { .spin = a, .u = cos(theta), .s = sin(theta) };
         at.r = fmax(kd_observers[m.observer].outside(kd_hole(a), at.u), kd_hole(a)->outer) *
-               (1 + height); /* these coordinates end there */
+               (1 + height); /* the coordinates are singular on the axis */
         m.fall_momentum *= at.s;
         m.fall_from *= at.r;
         assert_true(kd_observer_exists(m.observer, &at));
-        if (kd_observer_check(&m, &at, &bound)) { /* by its constants it turns further out, or in */
+        if (kd_observer_check(&m, &at, &bound)) { /* with its constants the body turns back before it gets here */
             assert_true(m.observer == KD_OBSERVER_INFALL && m.fall_momentum != 0);
             continue;
         }
@@ -120,8 +120,8 @@ static void everywhere(check *each)
         assert_true(seen[k] > (int)(COUNT(spins) * COUNT(angles) * COUNT(heights)) / 2);
 }
 
-/* Rounding of Delta or of g_tt, which vanish at the edge, is that of r, or of cos(theta) as far as it moves the
- * edge, over the distance to there. */
+/* The relative rounding of Delta or g_tt, which vanish at the edge: that of r, or of cos(theta) as far as it moves
+ * the edge, over the distance to the edge. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double edge = fmax(kd_observers[m->observer].outside(kd_hole(at->spin), at->u), kd_hole(at->spin)->outer),
@@ -139,7 +139,7 @@ static void near(double is, double wanted, double bound, const char *what, const
                  kd_observers[m->observer].word, at->spin, at->r, at->u);
 }
 
-/* The derivative of the metric by r, by differences. */
+/* The derivative of the metric with respect to r, by differences. */
 static void slope(const struct kd_vantage *at, matrix out)
 {
     matrix g[4];
@@ -154,7 +154,7 @@ static void slope(const struct kd_vantage *at, matrix out)
             out[i][j] = (g[0][i][j] - 8 * g[1][i][j] + 8 * g[2][i][j] - g[3][i][j]) / (12 * h);
 }
 
-/* The force on what neither rises nor leaves its latitude, 1/2 u^i u^j d_r g_ij, over its size. */
+/* The radial force on a body that neither rises nor leaves its latitude, 1/2 u^i u^j d_r g_ij, relative to its size. */
 static double force(const struct kd_vantage *at, const vector up)
 {
     matrix d;
@@ -166,8 +166,8 @@ static double force(const struct kd_vantage *at, const vector up)
     return (double)(sum / size);
 }
 
-/* E of what is at rest at r but for its angular momentum: the root of g^tt E^2 - 2 g^tphi E L + g^phiphi L^2 = -1 by
- * the inverse metric. */
+/* The energy of a body at r with that angular momentum and without other motion: the root of g^tt E^2 - 2 g^tphi E L
+ * + g^phiphi L^2 = -1, by the inverse metric. */
 static double energy_at_rest(const struct kd_vantage *at, double momentum)
 {
     matrix g;
@@ -211,7 +211,7 @@ static void free_fall(const struct kd_observer_motion *m, const struct kd_vantag
         near(energy, sqrt(1 - 2 / from.r), 1e-14, "E of Schwarzschild", m, at);
 }
 
-/* As one of zero angular momentum measures it. */
+/* The velocity as an observer of zero angular momentum measures it. */
 static void velocity(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector up)
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
@@ -248,7 +248,7 @@ static void what_it_is_called_after(const struct kd_observer_motion *m, const st
     }
 }
 
-/* For what falls p^r and E - Omega_H L all but cancel in these coordinates. */
+/* For an infalling body: p^r and E - Omega_H L nearly cancel in these coordinates. */
 static double cancelled(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector p, const vector x)
 {
     long double size = 0;
@@ -277,7 +277,7 @@ static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_v
                  : i    ? 1
                         : -1,
                  rounding(m, at) + cancelled(m, at, down[i], up[j]), "product", m, at);
-    /* Towards the future, and outwards, away from the north pole, along the rotation: what is carried along by a
+    /* Time towards the future; the others outwards, away from the north pole and along the rotation, carried by a
      * boost. */
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     const struct kd_tetrad rest = kd_observer_tetrad(&zamo, at);
@@ -308,25 +308,26 @@ static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const
     double u[4] = { 0 }, x[4] = { 1, m->velocity[0], m->velocity[1], m->velocity[2] };
     double gamma = 1 / sqrt(1 - (x[1] * x[1] + x[2] * x[2] + x[3] * x[3]));
     if (m->observer == KD_OBSERVER_INFALL)
-        ks_inwards(&at, 1, frame->t.energy, m->fall_momentum, 0, u); /* E is judged elsewhere */
+        ks_inwards(&at, 1, frame->t.energy, m->fall_momentum, 0, u); /* E is tested elsewhere */
     for (int i = 0; i < 4 && m->observer == KD_OBSERVER_VELOCITY; i++)
         for (int k = 0; k < 4; k++)
             u[k] += gamma * x[i] * base.e[i][k];
     if (m->observer == KD_OBSERVER_ZAMO)
         return base;
     if (m->observer != KD_OBSERVER_INFALL &&
-        m->observer != KD_OBSERVER_VELOCITY) { /* in circles: E and L are judged elsewhere, and p^r = 0 */
+        m->observer != KD_OBSERVER_VELOCITY) { /* on circular orbits: E and L are tested elsewhere, and p^r = 0 */
         double delta = at.r * at.r - 2 * at.r + at.a * at.a;
         u[0] = -frame->t.energy, u[3] = frame->t.momentum * v->s, u[1] = -(2 * at.r * u[0] + at.a * u[3]) / delta;
     }
     return ks_boost(&at, &base, u);
 }
 
-/* It makes its frames by Gram and Schmidt and covariant boosts. */
+/* The reference makes its frames by Gram and Schmidt's method and covariant boosts. */
 static void constants_at(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
 {
     double bound = 100 * rounding(m, at) * (1 + 1 / at->s);
-    if (bound > 1e-4 || at->s < 1e-3 || m->observer == KD_OBSERVER_STATIC) /* whose legs are no boosted ones */
+    /* the axes of a static frame are not those of a boosted one */
+    if (bound > 1e-4 || at->s < 1e-3 || m->observer == KD_OBSERVER_STATIC)
         return;
     const struct ks_place place = { at->spin, at->r, atan2(at->s, at->u) };
     const struct ks_frame oracle = frame_by_oracle(m, at, frame);
@@ -344,7 +345,7 @@ static void constants_at(const struct kd_observer_motion *m, const struct kd_van
     }
 }
 
-/* The first oracle has frames at rest, in Boyer-Lindquist coordinates. */
+/* The first reference has frames at rest, in Boyer-Lindquist coordinates. */
 static void at_rest_at(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
 {
     double theta = atan2(at->s, at->u), bound = 40 * rounding(m, at) * (1 + 1 / at->s);
@@ -369,7 +370,7 @@ static void constants(void **state)
     everywhere(constants_at);
 }
 
-/* This is the speed of the observer past one of zero angular momentum. */
+/* The Lorentz factor, squared, of the observer as one of zero angular momentum sees it. */
 static double square_gamma(const struct kd_observer_motion *m, const struct kd_vantage *at,
                            const struct kd_tetrad *frame)
 {
@@ -380,7 +381,8 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
     return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - kd_hole(at->spin)->outer)) : 1;
 }
 
-/* Components are given back, and a photon is seen where it comes from; a frame that mixes everything is one too. */
+/* Components survive the way into the frame and back, and a photon is seen in the direction it comes from; also for
+ * a frame whose axes are mixed by rotations. */
 static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
                               const struct kd_tetrad *frame)
 {
@@ -388,7 +390,7 @@ static void back_and_forth_at(const struct kd_observer_motion *m, const struct k
     const double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     const struct kd_tetrad moving =
         kd_tetrad_boosted(frame, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
-    /* The answer's conditioning: E and L of a frame next to an edge are all but proportional. */
+    /* The condition of the answer: E and L of a frame next to an edge are nearly proportional. */
     double bound = 300 * 2.2e-16 * (1 + frame->phi.momentum / fabs(at->r * frame->t.energy)) *
                    (1 + at->r / fabs(frame->phi.momentum));
     bound *= 4 * square_gamma(m, at, frame);
@@ -415,7 +417,7 @@ static void back_and_forth(void **state)
     everywhere(back_and_forth_at);
 }
 
-/* What goes on outwards is null: by the metric. */
+/* The outgoing photon is null by the metric. */
 static void outgoing_at(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
 {
     (void)m, (void)frame;

@@ -1,5 +1,5 @@
-/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is
- * known of them. / */
+/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against known
+ * properties. */
 #include "physics/orbit/orbit_lanes.h"
 #include "physics/spacetime/kerr.h"
 
@@ -38,7 +38,7 @@ static struct kd_orbit_bound bound_of(const struct kd_orbit *orbit)
     return kd_orbit_bound_of(orbit, &start);
 }
 
-/* How much closer to the separatrix than to 0 an orbit is magnifies rounding of its constants. */
+/* An orbit closer to the separatrix than to 0 magnifies the rounding of its constants by this factor. */
 static double condition(const struct orbit_reference *e)
 {
     return 1 + e->p / (e->p - kd_orbit_separatrix(kd_hole(e->spin), e->e, e->x));
@@ -67,7 +67,7 @@ static void frequencies_are_the_averages(void **state)
         struct kd_orbit_bound b = bound_of(&o);
         struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&b);
         double bound = 1e-14 * condition(e);
-        if (e->e == 0 && e->p < 6.01) /* so near the ISCO, Upsilon_r is the root of a difference of 1e-4 */
+        if (e->e == 0 && e->p < 6.01) /* so near the ISCO Upsilon_r is the root of a difference of 1e-4 */
             bound = 1e-12;
         close_to(i, "Upsilon_r", f.mino_r, e->mino_r, 2 * bound * e->mino_r);
         close_to(i, "Upsilon_theta", f.mino_theta, e->mino_theta, bound * e->mino_theta);
@@ -97,7 +97,7 @@ static void places_are_the_quadratures(void **state)
     }
 }
 
-/* Both methods, in so many steps that rounding and the rounding of the constants are what remains. */
+/* Both methods, with so many steps that only rounding, including that of the constants, remains. */
 static void paths_are_the_quadratures(void **state)
 {
     (void)state;
@@ -116,7 +116,7 @@ static void paths_are_the_quadratures(void **state)
         }
 }
 
-/* Falls through 0.99 of the way to the horizon, and flights outwards. */
+/* Falls through 0.99 of the distance to the horizon, and flights outwards. */
 static void falls_are_the_quadratures(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void falls_are_the_quadratures(void **state)
                 kd_orbit_path_step(&path, h);
             path = kd_orbit_path_to_radius(&path, 20 * h, 1 / e->to);
             struct kd_orbit_place at = kd_orbit_path_place(&path);
-            /* r given in double is that many roundings of the time to get there */
+            /* the rounding of r, a double, corresponds to so much of the time to get there */
             close_to(i, "Mino time", at.mino, e->mino, 1e-12);
             close_to(i, "r", at.r, e->to, 1e-13 * e->to);
             close_to(i, "proper time", at.proper, e->proper, 2e-11 * e->proper);
@@ -169,7 +169,7 @@ static struct line energy_drift(enum kd_orbit_method method, int steps, int orbi
     return line;
 }
 
-/* 1e-13 over a thousand orbits, and of that less than a hundredth is growth. */
+/* The drift is 1e-13 over a thousand orbits, of which less than a hundredth is growth. */
 static void yoshida_does_not_drift(void **state)
 {
     (void)state;
@@ -180,10 +180,10 @@ static void yoshida_does_not_drift(void **state)
                   yoshida.worst, yoshida.slope, nystroem.worst, nystroem.slope);
     assert_true(yoshida.worst <= 1e-13);
     assert_true(fabs(yoshida.slope) * 1000 <= 1e-15);
-    assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst); /* the fit sees growth where there is some */
+    assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst); /* shows that the fit finds growth where there is some */
 }
 
-/* All first integrals, off the plane and on its way through the axis; the order by halving the step. */
+/* All first integrals stay constant, off the plane and across the axis; the order by halving the step. */
 static void first_integrals_stay(void **state)
 {
     (void)state;
@@ -209,7 +209,8 @@ static void first_integrals_stay(void **state)
     }
 }
 
-/* C. Will 2014, Living Rev. Relativity 17, 4, table 5: 42.98'' per century; elements of Mercury's orbit as there. */
+/* C. Will 2014, Living Rev. Relativity 17, 4, table 5: 42.98'' per century; elements of Mercury's orbit as given
+ * there. */
 static void mercury_advances(void **state)
 {
     (void)state;
@@ -253,12 +254,12 @@ static void circles_at_the_edge(void **state)
             kd_orbit_path_init(&path, &o, &start, (enum kd_orbit_method)method);
             for (int k = 0; k < 1000 * 32; k++)
                 kd_orbit_path_step(&path, 2 * M_PI / o.momentum / 32);
-            assert_true(path.place[KD_PATH_W].value == o.w_high); /* not by one bit */
+            assert_true(path.place[KD_PATH_W].value == o.w_high); /* equal to the bit */
         }
         struct kd_orbit inside = shape(a, nextafter(isco, 0), 0, 1);
         assert_int_equal(inside.fate, KD_ORBIT_PLUNGE);
-        assert_true(kd_orbit_start(&inside, NAN, true).w > inside.w_high); /* let go inwards */
-        /* which takes the longer the nearer to the ISCO: followed from 2 % inside */
+        assert_true(kd_orbit_start(&inside, NAN, true).w > inside.w_high); /* starts inwards */
+        /* the nearer to the ISCO the longer this takes: followed from 2 % inside */
         struct kd_orbit well_inside = shape(a, 0.98 * isco, 0, 1);
         struct kd_orbit_state start = kd_orbit_start(&well_inside, NAN, true);
         struct kd_orbit_path path;
@@ -268,11 +269,11 @@ static void circles_at_the_edge(void **state)
         for (; k < 100 * 64 && path.place[KD_PATH_W].value < horizon; k++)
             kd_orbit_path_step(&path, 2 * M_PI / o.momentum / 64);
         assert_true(path.place[KD_PATH_W].value >= horizon);
-        assert_true(k > 64); /* it stayed for a while */
+        assert_true(k > 64); /* it stayed near the circle for a while */
     }
 }
 
-/* From E, L and Q back to the turning points; just inside them the same constants give another motion. */
+/* From E, L and Q back to the turning points; just inside them the same constants give another kind of motion. */
 static void constants_and_back(void **state)
 {
     (void)state;
@@ -283,7 +284,7 @@ static void constants_and_back(void **state)
         if (kd_orbit_from_constants(kd_hole(e->spin), o.energy, o.momentum, o.carter, NAN, &back, &error))
             fail_msg("row %zu: %s", i, error.message);
         assert_int_equal(back.fate, KD_ORBIT_BOUND);
-        /* E near 1 has lost digits of 1 - E^2, a narrow range of r has lost half of them */
+        /* E near 1 has lost digits of 1 - E^2, and a narrow range of r has lost half of them */
         double bound = 1e-14 / o.binding * condition(e) / fmax(e->e, 1e-7);
         close_to(i, "periastron", back.w_high, o.w_high, bound * o.w_high);
         close_to(i, "apastron", back.w_low, o.w_low, bound * o.w_low);
@@ -297,7 +298,7 @@ static void constants_and_back(void **state)
     }
 }
 
-/* The velocity that an observer sees, by contraction with the metric; and the norm. */
+/* The velocity that an observer measures, by contraction with the metric; and the norm. */
 static void states_are_what_is_seen(void **state)
 {
     (void)state;
@@ -337,7 +338,7 @@ static void states_are_what_is_seen(void **state)
     }
 }
 
-/* A bound orbit given by where it is: integrated and closed agree from any phase of it. */
+/* A bound orbit given by a place and a velocity: numerical integration and closed form agree from any phase. */
 static void from_any_phase(void **state)
 {
     (void)state;
@@ -362,8 +363,8 @@ static void from_any_phase(void **state)
     }
 }
 
-/* The azimuth without its pole, against the sum of L/(1 - u^2) itself: E > 1 too, and motions that stay on one side
- * of the equator. / */
+/* The azimuth computed without its pole at the axis, against the plain sum of L/(1 - u^2): also for E > 1 and for
+ * motions that stay on one side of the equator. */
 static void azimuth_has_no_pole(void **state)
 {
     (void)state;
@@ -418,7 +419,8 @@ static void see(void *user, int lane)
     seen->w[lane] = seen->lanes->path[lane]->place[KD_PATH_W].value;
 }
 
-/* To the last bit, each by its own number of steps of its own length, and told of every periastron. */
+/* Equal to the last bit, each lane with its own number of steps of its own length, and each reports every
+ * periastron. */
 static void lanes_are_paths(void **state)
 {
     (void)state;
@@ -470,8 +472,8 @@ static void lanes_are_paths(void **state)
     }
 }
 
-/* p = 6 + 2e about Schwarzschild's hole (C. Cutler, D. Kennefick & E. Poisson 1994, Phys. Rev. D 50, 3816), r_isco
- * for circles, 2 r_mb for parabolas. */
+/* The separatrix is p = 6 + 2e for Schwarzschild's hole (C. Cutler, D. Kennefick & E. Poisson 1994, Phys. Rev. D 50,
+ * 3816), r_isco for circles, 2 r_mb for parabolas. */
 static void separatrix(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Places as they are seen: in the equatorial plane of a hole that spins against rays in closed form, which cross it
- * there; off the plane, of a hole that does not spin, against the same rays in a plane turned to be the equator's. */
+/* Images of places: those in the equatorial plane of a spinning hole against rays in closed form, which cross it
+ * there; those off the plane, for a hole without spin, against the same rays in a plane rotated to be the equator's. */
 #include "physics/null/null_geodesic.h"
 #include "physics/null/place_image.h"
 
@@ -22,7 +22,7 @@ static struct kd_place_view view_of(double a, double r, double i_deg)
 
 static double turn(double phi) { return remainder(phi, 2 * M_PI); }
 
-/* Some crossing of the ray is the place. Returns its order. */
+/* Checks that some crossing of the ray is the place. Returns its order. */
 static int crosses(const struct kd_place_view *view, const struct kd_place_image *image, double r, double phi)
 {
     const struct kd_vantage *v = &view->frame.at;
@@ -68,8 +68,9 @@ static void test_the_plane_of_a_hole_that_spins(void **state)
     }
 }
 
-/* A hole without spin has no equator: what is theta, phi from an observer in the plane is at the angle psi from the
- * line to it, in a plane through it, and is seen at (right, up) = b (cos, sin) of where that plane lies. */
+/* A hole without spin has no preferred equator: a place at (theta, phi) from an observer in the plane is at an angle
+ * psi from the line to the observer, in some plane through that line, and is seen at (right, up) = b (cos, sin) of
+ * that plane's position angle. */
 static void test_off_the_plane_without_spin(void **state)
 {
     (void)state;
@@ -79,12 +80,12 @@ static void test_off_the_plane_without_spin(void **state)
         const double n[3] = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
         struct kd_place_image here, there;
         assert_true(kd_place_image_seen(&view, r, cos(theta), phi, NULL, true, &here));
-        /* The place in a plane that is tilted by 60 degrees, which is this observer's equator: psi is kept, the
-         * ray's b too. */
+        /* The place in a plane tilted by 60 degrees, which is this observer's equator: psi stays, and so does the
+         * ray's b. */
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
         assert_true(fabs(turn(atan2(here.beta, here.alpha) - side)) < 1e-6);
-        /* Of the equator seen at 60 degrees, the place at that angle from the line of sight: cos(psi) = sin(60)
+        /* In the equator seen at 60 degrees, the place at that angle from the line of sight: cos(psi) = sin(60)
          * cos(phi'). */
         const double c = cos(psi) / sin(60 * RADIAN);
         if (fabs(c) > 1)

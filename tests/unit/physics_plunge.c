@@ -1,5 +1,5 @@
 /* The plunge from the ISCO: closed forms against quadratures from the metric (tests/oracle/plunge_reference.py),
- * print, and what is conserved. */
+ * published formulas, and conserved quantities. */
 #include "physics/orbit/plunge.h"
 
 #include "physics/spacetime/kerr.h"
@@ -26,7 +26,7 @@ static double within(const char *what, double a, double r, double got, double wa
     return off;
 }
 
-/* Near a = 1 the ISCO and the horizons draw together: what is left of their distances has fewer digits. */
+/* Near a = 1 the ISCO and the horizons draw together, so that their distances have fewer digits. */
 static void from_the_metric(void **state)
 {
     (void)state;
@@ -53,7 +53,7 @@ static void from_the_metric(void **state)
             printf("%s %.2g%s", what[k], worst[fast][k], k < 4 ? ", " : fast ? " at a = 0.9999\n" : ";  ");
 }
 
-/* Without spin r = 6/(1 + 12/phi^2) (Mummery & Balbus 2022), phi < 0 until the singularity. */
+/* Without spin r = 6/(1 + 12/phi^2) (Mummery & Balbus 2022), phi < 0, down to the singularity. */
 static void without_spin(void **state)
 {
     (void)state;
@@ -64,7 +64,7 @@ static void without_spin(void **state)
     }
 }
 
-/* The slopes of t and phi, by differences, are those of a body with u.u = -1 that keeps the ISCO's E and L. */
+/* The slopes of t and phi, by differences, are those of a body with u.u = -1 and the ISCO's E and L. */
 static void conserved(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void conserved(void **state)
         for (double x = 0.02; x < 0.99; x += 0.02) {
             double r = isco - x * gap, h = 1e-3 * gap * fmin(x, 1 - x), ur = kd_plunge_velocity(&plunge, r).ur, ut = 0,
                    up = 0;
-            for (int k = -2; k <= 2; k++) { /* fourth order */
+            for (int k = -2; k <= 2; k++) { /* a difference of fourth order */
                 static const double weights[] = { 1 / 12.0, -2 / 3.0, 0, 2 / 3.0, -1 / 12.0 };
                 struct kd_plunge_event e = kd_plunge_at(&plunge, r + k * h);
                 ut += weights[k + 2] * e.t / h * ur;
@@ -91,7 +91,7 @@ static void conserved(void **state)
     }
 }
 
-/* Next to the ISCO it turns as the circle does. */
+/* Next to the ISCO it turns as fast as the circular orbit. */
 static void leaves_the_circle(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Quasi-normal modes against Teukolsky's equation solved in another way (tests/oracle/qnm_reference.py), against
- * numbers in print, and against what must hold for any of them. */
+/* Quasi-normal modes against Teukolsky's equation solved by another method (tests/oracle/qnm_reference.py), against
+ * published numbers, and against properties of all modes. */
 #include "physics/spacetime/hole.h"
 #include "physics/waves/qnm.h"
 #include "physics/waves/ringdown.h"
@@ -32,7 +32,7 @@ static void close_to(const char *what, int l, int m, int n, double a, double com
                  creal(got), cimag(got), creal(want), cimag(want));
 }
 
-/* 1e-13 up to a = 0.99 and 1e-12 beyond are what the header promises. */
+/* The header promises 1e-13 up to a = 0.99 and 1e-12 beyond. */
 static void another_method(void **state)
 {
     (void)state;
@@ -84,8 +84,8 @@ static void leaver_kerr(void **state)
     }
 }
 
-/* More digits: Berti's public tables (s2l2.dat, 2M = 1) at a = 0, and the example in the manual of Stein's qnm (2019,
- * J. Open Source Softw. 4, 1683). */
+/* More digits: Berti's public tables (s2l2.dat, 2M = 1) at a = 0, and the example in the manual of Stein's qnm
+ * (2019, J. Open Source Softw. 4, 1683). */
 static void public_tables(void **state)
 {
     (void)state;
@@ -99,8 +99,8 @@ static void public_tables(void **state)
     close_to("omega", 2, 2, 0, 0.68, found(2, 2, 0, 0.68).omega, 0.5239751042900845 - 0.08151262363119974 * I, 1e-13);
 }
 
-/* Everywhere in the domain there is one curve for each mode, without a jump on to a neighbour: a walk in fine steps,
- * which has no room to go astray, passes every place that is found on its own; and a walk back returns. Most
+/* In the whole domain each mode is one curve, without a jump to a neighbouring one: a walk in steps so fine that it
+ * cannot change curves passes every value that is found individually, and a walk back returns to the start. Most
  * neighbours are 1e-2 away. */
 static void one_branch(void **state)
 {
@@ -123,8 +123,8 @@ static void one_branch(void **state)
             }
 }
 
-/* Hod 2008, Phys. Rev. D 78, 084035: for l = m the modes tend to omega = m Omega_H - i 2 pi T (n + 1/2), with
- * 2 pi T = sqrt(1 - a^2)/(2 r+). What is left is of the order of 1 - r+. */
+/* Hod 2008, Phys. Rev. D 78, 084035: for l = m the modes tend to omega = m Omega_H - i 2 pi T (n + 1/2), with 2 pi T
+ * = sqrt(1 - a^2)/(2 r+). The difference is of the order of 1 - r+. */
 static void nearly_extremal(void **state)
 {
     (void)state;
@@ -152,8 +152,8 @@ static void symmetry_and_domain(void **state)
     }
 }
 
-/* The errors that the header states, within a tenth; and of Berti, Cardoso & Will their own for n = 0: 1.85 and 0.88
- * %. */
+/* The errors of the fits are those that the header states, within a tenth; for n = 0 Berti, Cardoso & Will state
+ * 1.85 and 0.88 %. */
 static void fits(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void fits(void **state)
     }
 }
 
-/* The wave solves h'' - 2 Im h' + |omega|^2 h = 0: differences of fourth order leave h^4. */
+/* The wave solves h'' - 2 Im h' + |omega|^2 h = 0; differences of fourth order have an error of h^4. */
 static void damped_oscillation(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The lensed image of a ring, and embedded planes: against quadratures (tests/oracle/ring_reference.py) and, with
+/* The lensed image of a ring, and embedded planes, against quadratures (tests/oracle/ring_reference.py) and, with
  * spin, against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/embedding.h"
@@ -38,7 +38,7 @@ static struct kd_ring_image_point image_of(double a, double i_deg, double r, dou
     return point;
 }
 
-/* Where the image is, the ray's constants are: 1e-12, and g with them. */
+/* The constants of the ray are determined by the place of the image: 1e-12, and so is g. */
 static void without_spin(void **state)
 {
     (void)state;
@@ -54,8 +54,9 @@ static void without_spin(void **state)
     }
 }
 
-/* The oracle's ray of the image meets the plane where the ring is. Its own start is worth 1e-9 (r = 1e6 stands for
- * infinity, with the first terms beyond); an error of alpha is magnified on the way, by 25 or so each half turn. */
+/* The reference's ray from the image meets the plane where the ring is. Its own start has an error of 1e-9 (r = 1e6
+ * stands for infinity, with the first terms of the series beyond); an error of alpha is magnified on the way by
+ * about 25 each half turn. */
 static void with_spin(void **state)
 {
     static const double cases[][4] = {
@@ -77,8 +78,8 @@ static void with_spin(void **state)
         }
 }
 
-/* Every point of every ring has its images, an odd number of them, as across a caustic two are born or vanish.
- * Several occur at high inclination alone, of order 0 nearly edge-on. */
+/* Every point of every ring has images, an odd number of them, because two appear or vanish together at a caustic.
+ * Several of one order occur only at high inclination, of order 0 only nearly edge-on. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 0.01, 20, 60, 80, 89 };
@@ -105,7 +106,7 @@ static void everywhere(void **state)
     assert_true(several > 0);
 }
 
-/* The height and the distance are as good as r - r+ is: at 1 - a = 1e-12 that is 1e-16 of 1, over a spread of 1e-6. */
+/* Height and distance are as accurate as r - r+: at 1 - a = 1e-12 that is 1e-16 of 1, over a range of 1e-6. */
 static void embedding(void **state)
 {
     (void)state;

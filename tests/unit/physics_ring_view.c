@@ -1,5 +1,5 @@
-/* Rings as they are seen from within them, from next to the hole and from beyond the horizon: against rays
- * integrated in ingoing Kerr-Schild coordinates, in frames made in these (tests/oracle/kerr_schild.h). */
+/* Rings seen by observers inside them, next to the hole and beyond the horizon, against rays integrated in ingoing
+ * Kerr-Schild coordinates, from frames computed in these coordinates (tests/oracle/kerr_schild.h). */
 #include "physics/null/ring_view.h"
 #include "physics/spacetime/kerr.h"
 
@@ -28,7 +28,7 @@ static struct kd_vantage vantage(double a, double i_deg, double r)
     return (struct kd_vantage) { a, r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
 }
 
-/* The oracle's own frame of an observer. */
+/* The frame of an observer, by the reference. */
 static struct ks_frame oracle_frame(const struct kd_observer_motion *m, const struct kd_vantage *v)
 {
     const struct ks_place at = { v->spin, v->r, atan2(v->s, v->u) };
@@ -40,8 +40,8 @@ static struct ks_frame oracle_frame(const struct kd_observer_motion *m, const st
     return ks_boost(&at, &rain, u);
 }
 
-/* Light that is seen there comes from the ring. magnified: an error of its direction grows so much on its way, by 25
- * or so each half turn, and by what light that lingers at the horizon does. */
+/* Checks that light seen in that direction comes from the ring. magnified: the factor by which an error of its
+ * direction grows on the way, about 25 each half turn, and for light that lingers at the horizon more. */
 static void comes_from(const struct kd_observer_motion *m, const struct kd_vantage *v, double r, int order, double chi,
                        double magnified)
 {
@@ -86,7 +86,7 @@ static void from_free_fall(void **state)
                 }
 }
 
-/* One that does not fall, from outside the horizon, whose azimuths and times the oracle knows, too. */
+/* Observers that do not fall, outside the horizon, where the reference has azimuths and times too. */
 static void from_nearby(void **state)
 {
     static const double cases[][5] = {
@@ -119,8 +119,8 @@ static void from_nearby(void **state)
         }
 }
 
-/* No ring outside the horizon is missed by one who falls, wherever. What there is no azimuth or time for is not
- * told. */
+/* An infalling observer sees every ring outside the horizon, from anywhere. Where azimuth or time do not exist they
+ * are not given. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 60, 89, 130 };

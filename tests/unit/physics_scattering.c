@@ -1,4 +1,4 @@
-/* Light from an atmosphere of electrons against Chandrasekhar's table, and against the flux that comes out of it. */
+/* Light from an electron-scattering atmosphere against Chandrasekhar's table, and against the flux that leaves it. */
 #include "physics/disk/scattering.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ static void as_printed(void **state)
     }
 }
 
-/* What comes out is what went in: twice the integral of I mu is F. */
+/* The flux that leaves is the flux that entered: twice the integral of I mu is F. */
 static void flux_comes_out(void **state)
 {
     (void)state;

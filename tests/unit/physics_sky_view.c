@@ -1,5 +1,5 @@
-/* What observers see of the sky, against frames and rays in Kerr-Schild coordinates: which directions are dark, how
- * light of the others is shifted, the least and the largest shift, and how large the dark disk is. */
+/* The sky that observers see, against frames and rays in Kerr-Schild coordinates: which directions are dark, the
+ * shift of light from the others, its smallest and largest value, and the size of the dark disk. */
 #include "kerr_schild.h"
 #include "physics/null/sky_view.h"
 #include "physics/spacetime/kerr.h"
@@ -16,7 +16,7 @@
 #define HORIZON 1.4358898943540673 /* of a = 0.9 */
 #define FALL .fall_from = INFINITY, .fall_energy = INFINITY
 
-/* energy and momentum: of what falls or goes round, by Bardeen, Press & Teukolsky or by hand. */
+/* energy and momentum of infalling or orbiting observers, by Bardeen, Press & Teukolsky or computed by hand. */
 static const struct seer {
     const char *name;
     double spin, inclination, r;
@@ -72,7 +72,7 @@ static struct ks_frame frame_of(const struct seer *s)
     double u[4] = { 0 };
     if (s->energy > 0)
         ks_inwards(&at, 1, s->energy, s->momentum, 0, u);
-    else if (s->motion.observer == KD_OBSERVER_STATIC) { /* that of d/dt, by the line element */
+    else if (s->motion.observer == KD_OBSERVER_STATIC) { /* the observer of velocity along d/dt, by the line element */
         double c = cos(at.theta), f = 2 * s->r / (s->r * s->r + s->spin * s->spin * c * c), lapse = sqrt(1 - f);
         u[0] = -lapse, u[1] = f / lapse, u[3] = -f * s->spin * sin(at.theta) * sin(at.theta) / lapse;
     } else
@@ -93,7 +93,7 @@ static struct kd_sky_view view_of(const struct seer *s)
     return view;
 }
 
-/* E of what is seen with energy 1 in the direction (right, up, inwards), and where it comes from. */
+/* E of light seen with energy 1 in the direction (right, up, inwards), and its origin. */
 static double oracle_energy(const struct seer *s, const struct ks_frame *f, const double k[3], enum ks_fate *fate)
 {
     const struct ks_place at = place_of(s);
@@ -104,7 +104,7 @@ static double oracle_energy(const struct seer *s, const struct ks_frame *f, cons
     return -p[0];
 }
 
-/* Even points on the sphere, turned about their axis by the golden angle. */
+/* Evenly distributed points on the sphere, each turned about the axis by the golden angle. */
 static void direction(int i, int n, double k[3])
 {
     double z = (2 * i + 1.0) / n - 1, s = sqrt(1 - z * z), phi = i * M_PI * (3 - sqrt(5));
@@ -139,8 +139,8 @@ static void directions(void **state)
     }
 }
 
-/* Directions of one g are a circle about the axis along which E changes most; where g is a part in 100 000 beyond an
- * extreme all of it is dark, or there is none, and where it is that much short of it some is seen. */
+/* Directions with one value of g form a circle about the axis along which E changes most. For g 1e-5 beyond an
+ * extreme value the whole circle is dark, or there is none; for g 1e-5 short of it some of it is seen. */
 static bool circle_is_seen(const struct seer *s, const struct ks_frame *f, double g, int directions)
 {
     static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
@@ -180,7 +180,8 @@ static void extremes(void **state)
         const struct ks_frame f = frame_of(&seers[i]);
         const struct kd_sky_view v = view_of(&seers[i]);
         const double step = 1e-5;
-        if (seers[i].motion.observer == KD_OBSERVER_STATIC) { /* sees all the sky alike, by its lapse */
+        /* sees the whole sky with the same shift, given by its lapse */
+        if (seers[i].motion.observer == KD_OBSERVER_STATIC) {
             double want = 1 / oracle_energy(&seers[i], &f, (double[]) { 0, 0, 1 }, NULL);
             assert_true(fabs(v.least / want - 1) < 1e-12 && fabs(v.greatest / want - 1) < 1e-12);
             continue;
@@ -195,8 +196,8 @@ static void extremes(void **state)
     }
 }
 
-/* The dark disk of rain in Schwarzschild: r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), a quadratic equation of the
- * tangent of half the angle; of one at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
+/* The dark disk for rain in Schwarzschild: r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), a quadratic equation for the
+ * tangent of half the angle; for an observer at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
 static void round_disks(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void round_disks(void **state)
         const struct seer rain = { "rain", 0, 40, r, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 };
         const struct seer rest = { "static", 0, 40, r, { .observer = KD_OBSERVER_STATIC }, 0, 0 };
         double got = 2 * asin(sqrt(view_of(&rain).dark / (4 * M_PI)));
-        /* sqrt(27) as it is rounded hides the difference of two angles next to the orbits of light. */
+        /* Next to the photon orbits the difference of two angles is limited by the rounding of sqrt(27). */
         assert_true(fabs(got / want - 1) < (r == 3 ? 1e-7 : 1e-10) || (r == 1e6 && fabs(got - want) < 1e-15));
         if (r > 2) {
             double sine = asin(fmin(1, sqrt(27 * (1 - 2 / r)) / r));
@@ -217,8 +218,8 @@ static void round_disks(void **state)
     }
 }
 
-/* The solid angle against the integral of its distance from a middle, where that is simple, and against counted
- * directions. */
+/* The solid angle against the integral over its boundary's distance from a centre, where that is simple, and against
+ * counted directions. */
 static void solid_angles(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tidal disruption against numbers in print and against what it says of itself. */
+/* Tidal disruption against published numbers and for consistency. */
 #include "physics/waves/tidal.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/math/quadrature.h"
@@ -37,7 +37,7 @@ static void in_print(void **state)
     close_to("beta", kd_tidal_penetration(t, kd_tidal_radius(t) / 2), 2, 1e-15);
 }
 
-/* t = t_fb/x^3 takes the tail to (0, 1). */
+/* The substitution t = t_fb/x^3 maps the tail to (0, 1). */
 static double arrival(double x, double y, const void *context)
 {
     const struct kd_tidal *t = context;
@@ -60,7 +60,8 @@ static void half_the_star(void **state)
     }
 }
 
-/* The spread is the hole's tide across the star at r_t: M/(r_t - R) - M/r_t to first order in R/r_t. */
+/* The spread is the difference of the hole's potential across the star at r_t: M/(r_t - R) - M/r_t to first order in
+ * R/r_t. */
 static void the_tide_across_the_star(void **state)
 {
     (void)state;
@@ -68,12 +69,12 @@ static void the_tide_across_the_star(void **state)
         struct kd_tidal t = { ratio, 1, 1e5 };
         double r = kd_tidal_radius(t);
         close_to("spread", kd_tidal_energy_spread(t), t.hole / (r - t.radius) - t.hole / r, 1.2 * t.radius / r + 1e-11);
-        /* and there the tide is the star's own gravity */
+        /* and at r_t the tide equals the star's own gravity */
         close_to("r_t", t.hole * t.radius / (r * r * r), t.mass / (t.radius * t.radius), 1e-14);
     }
 }
 
-/* At the largest mass r_t is at the orbit in question; spin helps, and a retrograde orbit harms. */
+/* At the largest mass r_t is at the orbit in question; prograde spin raises that mass, a retrograde orbit lowers it. */
 static void heaviest(void **state)
 {
     (void)state;

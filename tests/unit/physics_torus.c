@@ -1,5 +1,5 @@
-/* The torus of Fishbone & Moncrief against the equation of motion: the gas is held by its pressure, d ln h = g_ab,r
- * u^a u^b dr/2, integrated from the inner edge. */
+/* The torus of Fishbone & Moncrief against the equation of motion: pressure supports the gas, d ln h = g_ab,r u^a
+ * u^b dr/2, integrated from the inner edge. */
 #include "physics/disk/torus.h"
 #include "physics/spacetime/hole.h"
 
@@ -20,7 +20,7 @@ static void metric(double a, double r, double g[3])
     g[2] = r * r + a * a + 2 * a * a / r;
 }
 
-/* The angular velocity at which u^t u_phi is l, by bisection between those at which matter may go round. */
+/* The angular velocity at which u^t u_phi is l, by bisection between the limits for matter. */
 static double turns(const double g[3], double l, double *time)
 {
     const double omega = -g[1] / g[2], reach = sqrt(g[1] * g[1] - g[0] * g[2]) / g[2];
@@ -59,7 +59,7 @@ static void enthalpy_holds_the_gas(void **state)
                     slope(a, t.l, inner + (k + 1) * h));
         if (!(fabs(sum / t.log_most - 1) < 1e-6))
             fail_msg("a = %g, from %g to %g M: ln h = %.9g, integrated %.9g", a, inner, most, t.log_most, sum);
-        /* There it is largest: the gas needs no pressure. */
+        /* At the pressure maximum ln h is largest: the gas needs no pressure there. */
         assert_true(fabs(slope(a, t.l, most)) < 1e-6 && slope(a, t.l, 0.9 * most) > 0 && slope(a, t.l, 1.1 * most) < 0);
         assert_true(t.outer > most && fabs(kd_torus_log_enthalpy(&t, kd_hole(a), t.outer, 0)) < 1e-9);
         assert_true(t.height > 0.1 && t.height < 0.95);
@@ -68,7 +68,7 @@ static void enthalpy_holds_the_gas(void **state)
     assert_true(isinf(kd_torus_of(kd_hole(0.9375), 6, 40).outer));
 }
 
-/* ln h as a number in long double, with Delta by its factors. */
+/* ln h in long double, with Delta as a product of its factors. */
 static long double exact(long double a, long double l, long double r, long double u)
 {
     const long double root = sqrtl((1 - a) * (1 + a)), delta = (r - 1 - root) * (r - 1 + root), w = r * r + a * a,
@@ -78,8 +78,8 @@ static long double exact(long double a, long double l, long double r, long doubl
     return 0.5L * (log1pl(u2) - logl(lapse2)) - u2 - 2 * a * r / big * l;
 }
 
-/* ln h holds half the logarithm of Delta: beside the horizon its error is the rounding of r+ over r - r+, at any spin.
- * As r^2 - 2r + a^2, which cancels, it was 700 times that at a = 0.999999. */
+/* ln h contains half the logarithm of Delta: next to the horizon its error is the rounding of r+ over r - r+, at any
+ * spin. When Delta was computed as r^2 - 2r + a^2, which cancels, the error was 700 times that at a = 0.999999. */
 static void enthalpy_holds_beside_the_horizon(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Observers that go on by their own clock, against the equations of Hamilton in ingoing Kerr-Schild coordinates:
- * Runge and Kutta's method of fourth order, with derivatives of the metric by differences, through the horizon.
- * Nothing is separated, nothing integrated in r. */
+/* Observers that move on by their own clock, against Hamilton's equations in ingoing Kerr-Schild coordinates,
+ * integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the metric by
+ * differences. No separation of variables, and no integral over r. */
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/infall.h"
 #include "physics/spacetime/kerr.h"
@@ -25,7 +25,7 @@ static double norm(const struct body *b, double r, double theta, double p_r, dou
     return ks_product(&at, p, p);
 }
 
-/* Derivative by differences of fourth order. */
+/* A derivative by differences of fourth order. */
 static double slope(const struct body *b, const double *y, double dr, double dtheta)
 {
     double f[4];
@@ -82,8 +82,8 @@ static void near(const char *what, const struct fall *f, double proper_time, dou
         fail_msg("spin %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->r, proper_time, what, got, wanted);
 }
 
-/* The oracle is good to some 1e-10; next to r = 0 its steps are too long, which is why it stops where half of the
- * way to the end is left. */
+/* The reference is good to some 1e-10; next to r = 0 its steps are too long, so that it stops when half of the
+ * remaining way to the end is left. */
 static void what_falls_is_where_its_clock_says(void **state)
 {
     (void)state;
@@ -111,7 +111,7 @@ static void what_falls_is_where_its_clock_says(void **state)
             near("r", f, proper_time, got.r, y[R], 3e-9);
             near("time", f, proper_time, got.time, y[T], 1e-8);
             near("latitude", f, proper_time, place.theta, y[THETA], 1e-8);
-            if (f->theta_deg > 0) /* on the axis azimuth is a matter of the limit */
+            if (f->theta_deg > 0) /* on the axis the azimuth is defined only as a limit */
                 near("azimuth", f, proper_time, got.azimuth, y[PHI], 1e-8);
             assert_false(got.ended);
         }
@@ -119,7 +119,7 @@ static void what_falls_is_where_its_clock_says(void **state)
     }
 }
 
-/* On the axis azimuths of Kerr-Schild coordinates turn all the same: by the limit of small angles. */
+/* On the axis Kerr-Schild azimuths still change: the value is the limit of small angles. */
 static void azimuth_on_the_axis_is_the_limit(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static void rain_in_schwarzschild(void **state)
         const struct kd_worldline_place got = kd_worldline_after(&m, &at, whole - left);
         const double r = pow(3 / sqrt(2) * left, 2. / 3);
         const struct fall rain = { 0, 0, 20, 0, 0, 0 };
-        near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left); /* what is left is a difference */
+        near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left); /* the time left is a difference */
         near("time", &rain, whole - left, got.time, advanced(20) - advanced(r) - r + 20, 1e-11);
         near("azimuth", &rain, whole - left, got.azimuth, 0, 0);
         if (r > 2.001)
@@ -186,7 +186,8 @@ static void it_ends_where_a_camera_can_be_at_last(void **state)
     }
 }
 
-/* Those that stay at one radius: the metric says that a second is a second, and what is the matter with each. */
+/* Observers that stay at one radius: by the metric their proper time advances as it should; and each one's other
+ * properties. */
 static void others_stay_and_go_round(void **state)
 {
     (void)state;

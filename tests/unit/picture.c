@@ -1,4 +1,5 @@
-/* A picture can be rendered again from itself: the scene, and what was done with it, travel in the file. */
+/* Tests that a picture can be rendered again from its own file: the scene, and how it was processed, are stored in
+ * it. */
 #include "image/png.h"
 #include "render/output/png.h"
 
@@ -26,7 +27,8 @@ static void encode(const struct kd_scene *scene, const struct kd_plan *plan, str
     encode_as(scene, plan, NULL, file);
 }
 
-/* Who knows the hash, for it is in the answer's ETag, is not asked to make it again. */
+/* A caller that knows the scene's hash already (from the ETag of the answer) can pass it instead of having it
+ * computed again. */
 static void a_hash_that_is_known_is_taken(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What becomes of bodies: inspiral against Peters' closed form, mergers to rounding, debris that comes back, and
- * scenes that mean harm. */
+/* Events in the playground: inspiral against Peters' closed form, mergers to rounding, debris that comes back, and
+ * hostile scenes. */
 #include "playground_support.h"
 
 #include "physics/waves/inspiral.h"
@@ -8,9 +8,9 @@
 
 #include <stdio.h>
 
-/* Two equal bodies far from the hole spiral together; with the loss exaggerated A times from A^(2/5) times as far,
- * so that the relation of pull and loss is the same. P. C. Peters 1964, eq. 5.10, by physics/waves/inspiral.c: from d0
- * to d1 it takes T(d0) - T(d1). */
+/* Two equal bodies far from the hole spiral together; the loss is exaggerated A times, and the distance enlarged
+ * A^(2/5) times, so that the ratio of attraction and loss is the same. P. C. Peters 1964, eq. 5.10, by
+ * physics/waves/inspiral.c: from d0 to d1 it takes T(d0) - T(d1). */
 static void pairs_spiral_in_as_peters_says(void **state)
 {
     (void)state;
@@ -30,7 +30,7 @@ static void pairs_spiral_in_as_peters_says(void **state)
         const double expected =
             2 * (kd_inspiral_time(0.25, d0 / 2, 0) - kd_inspiral_time(0.25, d1 / 2, 0)) / amplification;
         double t = 0, d = d0;
-        /* The axis by the energy, which does not swing as the distance does: E = -m1 m2/(2 a). */
+        /* The semi-major axis from the energy, which does not oscillate as the distance does: E = -m1 m2/(2 a). */
         while (d > d1 && t < 2 * expected) {
             playground_advance(p, expected / 2000);
             t = p->t;
@@ -49,7 +49,8 @@ static void pairs_spiral_in_as_peters_says(void **state)
     }
 }
 
-/* The same of a light body and the hole, far out in its potential, where that is Newton's but for 2/r^2. */
+/* The same for a light body and the hole, far out in the hole's potential, which differs from Newton's by 2/r^2
+ * there. */
 static void spiral_in(double mass, double amplification)
 {
     struct kd_playground_params params = playground_quiet();
@@ -81,8 +82,8 @@ static void a_body_spirals_into_the_hole_as_peters_says(void **state)
     spiral_in(0.3, 3e4);
 }
 
-/* Near the hole the power is Peters', (32/5) m^2 (1 + m)/r^5 of a circle, and the pace is his times (r - 2)^3/(r^2
- * (r - 6)). */
+/* Near the hole the power is Peters', (32/5) m^2 (1 + m)/r^5 for a circle, and the rate of the inspiral is his times
+ * (r - 2)^3/(r^2 (r - 6)). */
 static void near_the_hole_it_is_his_power_and_another_pace(void **state)
 {
     (void)state;
@@ -96,7 +97,7 @@ static void near_the_hole_it_is_his_power_and_another_pace(void **state)
     playground_advance(p, 50);
     assert_true(fabs(p->spent.radiated / (p->t * 6.4 * m * strength / pow(r0, 5)) - 1) < 5e-3);
     double r = r0, expected = 0;
-    for (double x = r0 - 0.005; x > r1; x -= 0.01) /* dt/dr by his pace, 64/5 m (1 + m)/r^3, and the factor */
+    for (double x = r0 - 0.005; x > r1; x -= 0.01) /* dt/dr by his rate, 64/5 m (1 + m)/r^3, and the factor */
         expected += 0.01 * pow(x, 3) / (12.8 * strength) * x * x * (x - 6) / pow(x - 2, 3);
     while (r > r1 && p->t < 2 * expected) {
         playground_advance(p, expected / 1000);
@@ -108,7 +109,7 @@ static void near_the_hole_it_is_his_power_and_another_pace(void **state)
     kd_playground_destroy(p);
 }
 
-/* An eccentric pair: Peters' e(a), eq. 5.11. */
+/* An eccentric pair follows Peters' e(a), eq. 5.11. */
 static void an_eccentric_pair_grows_round_as_peters_says(void **state)
 {
     (void)state;
@@ -149,7 +150,7 @@ static void mergers_keep_mass_and_momentum(void **state)
         p, (struct kd_playground_body) { .mass = 3e-4, .radius = 0.5, .x = { 1e5, 5, 0.1 }, .v = { 0.01, -0.2, 0 } });
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-4, .radius = 0.3, .x = { 1e5, -5, 0 }, .v = { 0, 0.3, 0.01 } });
-    /* Too fast to be seen touching at the end of a step. */
+    /* Bodies so fast that they do not touch at the end of any step. */
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-5, .radius = 0.01, .x = { -1e5, -5, 0 }, .v = { 0, 0.99, 0 } });
     playground_put(
@@ -159,21 +160,21 @@ static void mergers_keep_mass_and_momentum(void **state)
     const struct kd_playground_totals after = kd_playground_totals(p);
     assert_int_equal(p->n, 2);
     assert_true(fabs(after.mass / before.mass - 1) < 4e-16);
-    /* The hole pulls meanwhile: 1e-10 a M. What it has done is known to its own rounding. */
+    /* Meanwhile the hole attracts them with 1e-10 a M; the effect is known to the rounding of itself. */
     for (int k = 0; k < 3; k++) {
         const double pulled = k ? 0 : -p->t * 1e-10 * (4e-4 - 3e-5);
         assert_true(fabs(after.momentum[k] - before.momentum[k] - pulled) < 2e-15);
     }
     assert_true(fabs(pow(p->bodies[0].radius, 3) - 0.125 - 0.027) < 1e-15);
     assert_int_equal(kd_playground_event_at(&p->events, 1)->kind, KD_PLAYGROUND_MERGER);
-    /* The books: what was lost is heat, half of mu v^2, and the pair's own potential; the step's error is a
+    /* The balance of energy: the loss is heat, half of mu v^2, and the pair's own potential; the step's error is a
      * thousandth of it. */
     assert_true(fabs(after.energy + p->spent.merged - before.energy) < 1e-3 * p->spent.merged);
     kd_playground_destroy(p);
 }
 
-/* The slope of the rate at which debris comes back, by least squares over the decade from twice the time of the
- * first piece; nothing in the counting knows Kepler's law. Half of the debris is bound. */
+/* The slope of the rate at which debris comes back, by least squares over the decade that begins at twice the time
+ * of the first piece; the counting does not use Kepler's law. Half of the debris is bound. */
 static void debris_comes_back_as_the_fifth_third_power(void **state)
 {
     (void)state;
@@ -209,8 +210,8 @@ static void debris_comes_back_as_the_fifth_third_power(void **state)
     kd_playground_destroy(p);
 }
 
-/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter is gone; and a star that turns
- * at depth d has lost what the fit says there. */
+/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter of the mass is lost; and a star
+ * whose depth at periastron is d has lost what the fit gives for d. */
 static void a_grazing_star_sheds_and_goes_on(void **state)
 {
     (void)state;
@@ -262,7 +263,7 @@ static void scenes_that_mean_harm_stay_finite(void **state)
             playground_put(p, (struct kd_playground_body) {
                                   .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon at c */
             playground_put(p, (struct kd_playground_body) {
-                                  .mass = m, .radius = 3, .x = { 2.06, 0, 0 } }); /* next to it, at rest */
+                                  .mass = m, .radius = 3, .x = { 2.06, 0, 0 } }); /* next to the hole, at rest */
             playground_put(p, (struct kd_playground_body) { .mass = 1e12, .x = { 0, 0, -1e6 } });
             playground_put(p, (struct kd_playground_body) { .mass = m, .radius = 1e6, .x = { 0, 500, 0 } });
             kd_playground_advance(p, 100, &progress);
@@ -274,8 +275,9 @@ static void scenes_that_mean_harm_stay_finite(void **state)
         }
 }
 
-/* All are taken in one sub-step, or shed in each: both cost a few passes over all pairs, not one for each body.
- * Gravity "kerr" with steps that would never end, and times that steps do not move, end with the budget. */
+/* All bodies are captured in one sub-step, or all shed in each: both must cost a few passes over all pairs, not one
+ * for each body. With gravity "kerr", steps that would never end, and times so large that a step does not change
+ * them, stop at the budget. */
 static void harm_is_bounded(void **state)
 {
     (void)state;
@@ -344,8 +346,8 @@ static void four_thousand_at_one_point(void **state)
     }
 }
 
-/* Debris far out moves as it would in one go, however short the strides are: in single precision it would stand
- * still, its velocity too. */
+/* Debris far out moves by the same distance however short the strides are: in single precision it, and its velocity,
+ * would not change at all. */
 static void far_debris_moves(void **state)
 {
     (void)state;
@@ -377,7 +379,7 @@ static void far_debris_moves(void **state)
         kd_debris_finish(&debris[i]);
 }
 
-/* What has become of the heaviest and widest bodies is read again. */
+/* A snapshot after mergers of the heaviest and widest bodies can be read again. */
 static void the_greatest_merge(void **state)
 {
     (void)state;
@@ -399,7 +401,7 @@ static void the_greatest_merge(void **state)
     kd_playground_destroy(q);
 }
 
-/* The least stars and the least radii that may be give no NaN, torn or not, and a snapshot of them goes on. */
+/* The smallest stars and radii allowed give no NaN, torn apart or not, and a snapshot of them can be continued. */
 static void the_least_stars(void **state)
 {
     (void)state;
@@ -430,8 +432,8 @@ static void the_least_stars(void **state)
     }
 }
 
-/* Of an open series, however long it gets: rows at equal distances from the begin, and the present behind them in
- * files. */
+/* A series without end, however long it gets, has rows at equal distances from the beginning, and in files the
+ * present as the last row. */
 static void series_of_no_end_are_even(void **state)
 {
     (void)state;

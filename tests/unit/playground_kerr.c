@@ -1,5 +1,5 @@
-/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit/orbit_bound.h), which is no
- * integration; and snapshots, which start again to the bit. */
+/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit/orbit_bound.h), which does
+ * not integrate in steps; and snapshots, which continue to the bit. */
 #include "playground_support.h"
 
 #include "physics/orbit/orbit_bound.h"
@@ -8,9 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A body that begins with the velocity v that an observer of zero angular momentum sees, for a hundred radial
- * periods: where it is at each of a thousand times is where the closed form has it when its time is that, found by
- * bisection. */
+/* A body starts with the velocity v measured by an observer of zero angular momentum, and moves for a hundred radial
+ * periods: its place at each of a thousand times is that of the closed form at the same time, found by bisection. */
 static void test_bodies_follow_the_closed_form(void **state)
 {
     (void)state;
@@ -64,7 +63,7 @@ static void test_bodies_follow_the_closed_form(void **state)
     }
 }
 
-/* The velocity that is told begins the same motion. */
+/* A start from the reported velocity gives the same motion. */
 static void the_velocity_told_begins_the_same_motion(void **state)
 {
     (void)state;
@@ -81,7 +80,7 @@ static void the_velocity_told_begins_the_same_motion(void **state)
     kd_playground_destroy(q);
 }
 
-/* One that falls in and one that flies away are told; speeds of c are none of a body. */
+/* Bodies that fall in or fly away are reported as such; no body has a speed of c. */
 static void who_leaves_is_told(void **state)
 {
     (void)state;
@@ -105,9 +104,9 @@ static void who_leaves_is_told(void **state)
     kd_playground_destroy(p);
 }
 
-/* Nobody who begins on a circle, or next to one, or at a turning point by rounding, is refused; and the middle of
- * the motion is where W has its maximum: that fixes how fast it goes round. W is even about the middle but for its
- * cubic part, a share of the width squared. */
+/* A body that starts on a circle, next to one, or at a turning point but for rounding, is never refused. And the
+ * middle of the motion is where W has its maximum, which fixes its rate of oscillation: W is even about the middle
+ * except for its cubic part, whose share is the width squared. */
 static void circles_are_no_refusals(void **state)
 {
     (void)state;
@@ -135,7 +134,7 @@ static void circles_are_no_refusals(void **state)
     assert_true(worst < 1e-11);
 }
 
-/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also at the very times at which steps end, 256 of
+/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also exactly at the times when steps end, 256 of
  * them a turn. */
 static void circles_go_round_evenly(void **state)
 {
@@ -150,9 +149,9 @@ static void circles_go_round_evenly(void **state)
     kd_playground_destroy(p);
 }
 
-/* Where the budget ends in a stride all bodies are where they were at its begin, at one time; and the next advances
- * bring them where one with all it takes does, to the bit, through a snapshot as well. A piece of an advance is no
- * more than so many steps, however long a stride is. */
+/* If the budget ends within a stride, all bodies are where they were at its beginning, at one common time; the next
+ * calls bring them, to the bit, to where a single call with enough budget does, also through a snapshot. One call
+ * takes at most so many steps, however long a stride is. */
 static void bodies_are_at_one_time(void **state)
 {
     (void)state;
@@ -170,7 +169,7 @@ static void bodies_are_at_one_time(void **state)
         kd_playground_advance(q, 2000 - q->t, &progress);
         assert_true(progress.slowed || q->t == 2000);
         assert_true(q->t > t || q->bodies[2].x[0] == x);
-        if (k % 50 == 0) { /* as one does that has all it takes up to this time */
+        if (k % 50 == 0) { /* compare with one that has all the budget it needs up to this time */
             struct kd_playground *whole = playground_read(text);
             playground_advance(whole, q->t);
             assert_true(whole->t == q->t && whole->n == 3 && q->n == 3);
@@ -186,8 +185,8 @@ static void bodies_are_at_one_time(void **state)
             kd_buffer_finish(&out);
         }
     }
-    struct kd_playground_run
-        run; /* a stride that is left in the middle, and then less of it asked for: that goes no farther */
+    /* a stride interrupted in the middle, after which a shorter time is asked for: it must not go farther than that */
+    struct kd_playground_run run;
     const double before = q->t;
     q->params.budget = 100000000;
     kd_playground_begin(q, 500, &run);
@@ -196,7 +195,7 @@ static void bodies_are_at_one_time(void **state)
     assert_true(!progress.slowed && progress.done <= progress.asked && q->t == before + 1e-3);
     playground_advance(p, q->t - p->t);
     assert_true(p->t == q->t);
-    for (int i = 0; i < 3; i++) { /* each is where it is alone */
+    for (int i = 0; i < 3; i++) { /* each body is where it is when it is alone */
         single[i] = playground_read("{\"gravity\":\"kerr\",\"spin\":0.9,\"h_max\":500,\"budget\":100000000}");
         struct kd_playground *begun = playground_read(text);
         playground_put(single[i], begun->bodies[i]);
@@ -216,7 +215,7 @@ static void bodies_are_at_one_time(void **state)
     kd_playground_destroy(q);
 }
 
-/* Time ends, and is told; a snapshot cannot say otherwise. */
+/* Time has a largest value, which is reported; a snapshot cannot exceed it. */
 static void time_has_an_end(void **state)
 {
     (void)state;
@@ -256,8 +255,8 @@ static struct kd_buffer snapshot(struct kd_playground *p)
     return out;
 }
 
-/* Snapshot, go on, snapshot; read the first, go on, snapshot: the same bytes. In the middle of shedding, of an
- * inspiral, of geodesics. */
+/* Take a snapshot, go on, take another; read the first, go on, take one: the same bytes as the second. In the middle
+ * of shedding, of an inspiral, of geodesics. */
 static void snapshots_start_again_to_the_bit(void **state)
 {
     (void)state;
@@ -298,7 +297,7 @@ static void snapshots_start_again_to_the_bit(void **state)
     }
 }
 
-/* A snapshot with one byte changed is refused, or is a playground that stays finite. */
+/* A snapshot with one byte changed is refused, or gives a playground that stays finite. */
 static void damaged_snapshots_do_no_harm(void **state)
 {
     (void)state;
@@ -364,8 +363,8 @@ static void documents_are_checked_and_changes_are_whole(void **state)
     assert_true(p->params.waves && kd_playground_find(p, 2)->mass == 0.5 && !kd_playground_find(p, 1));
     assert_string_equal(kd_playground_find(p, 7)->name, "new");
     kd_playground_destroy(p);
-    /* A star in its pass that is given another temperature goes on with it; the books of a snapshot know what was
-     * given. */
+    /* A star that is being torn at its periastron continues to be so when its temperature is changed; a snapshot
+     * records the energy added with new bodies. */
     p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":1000}");
     playground_advance(p, 2600);
     const double shed = p->bodies[0].shed;

@@ -1,5 +1,4 @@
-/* Bodies of the playground move as they must: against what is known of their orbits, which shares no equation with
- * the stepping. */
+/* Orbits of bodies of the playground against known results, which share no equation with the stepping. */
 #include "playground_support.h"
 
 static void add(struct kd_playground *p, double mass, double x, double y, double vx, double vy)
@@ -7,8 +6,8 @@ static void add(struct kd_playground *p, double mass, double x, double y, double
     playground_put(p, (struct kd_playground_body) { .mass = mass, .x = { x, y, 0 }, .v = { vx, vy, 0 } });
 }
 
-/* A bound ellipse round the hole and a bound pair, a thousand turns of each: the energy's error swings, and its mean
- * over the last tenth is that of the first within a hundredth of the swing. */
+/* A bound ellipse round the hole and a bound pair, a thousand turns of each: the error of the energy oscillates, and
+ * its mean over the last tenth equals that of the first within a hundredth of the amplitude. */
 static void energy_has_no_trend_over_a_thousand_orbits(void **state)
 {
     (void)state;
@@ -45,7 +44,7 @@ static void energy_has_no_trend_over_a_thousand_orbits(void **state)
 }
 
 /* B. Paczynski & P. Wiita 1980: the last stable orbit is at 6, the marginally bound one at 4. Pushed inwards by a
- * thousandth, a circle outside 6 swings, one inside plunges. */
+ * thousandth, a circle outside 6 oscillates and one inside plunges. */
 static void circles_stay_outside_six_and_plunge_inside(void **state)
 {
     (void)state;
@@ -73,8 +72,8 @@ static void circles_stay_outside_six_and_plunge_inside(void **state)
     }
 }
 
-/* From rest far away: with the angular momentum 4 of the marginally bound circle, times 1.001 it turns, times 0.999
- * it is taken. */
+/* From rest far away, with the angular momentum 4 of the marginally bound circle: with 1.001 times that it turns
+ * back, with 0.999 times that it falls in. */
 static void the_marginally_bound_orbit_is_at_four(void **state)
 {
     (void)state;
@@ -95,7 +94,7 @@ static void the_marginally_bound_orbit_is_at_four(void **state)
     }
 }
 
-/* However the time is cut into calls, and with a budget that stops them, the same comes out to the bit. */
+/* However the time is divided into calls, and with a budget that stops them, the result is the same to the bit. */
 static void calls_do_not_matter(void **state)
 {
     (void)state;

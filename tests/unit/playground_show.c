@@ -1,5 +1,5 @@
-/* What pictures are made of: bodies of a playground by the metric's coordinates, and its debris on a grid, which
- * holds as much as the pieces. */
+/* What pictures of a playground are made of: bodies in the metric's coordinates, and debris on a grid whose total is
+ * that of the pieces. */
 #include "playground_support.h"
 
 #include "playground/debris.h"
@@ -17,7 +17,8 @@ static struct kd_dynamic_bodies *shown(struct kd_playground *p)
     return crowd;
 }
 
-/* Places are the body's; the energy of what moves by Newton, u^2/2, is (gamma v)^2/2, and its direction stays. */
+/* Places are the body's; the energy of a body moving by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
+ * direction stays. */
 static void bodies(void **state)
 {
     (void)state;
@@ -111,7 +112,8 @@ static struct sums sums_of(const struct kd_dynamic_bodies_debris *d)
     return s;
 }
 
-/* Nothing is lost or made, whatever the shape: a stream across azimuth 0, a ring, a cloud, all of the plane. */
+/* The grid neither loses nor adds any debris, whatever the shape: a stream across azimuth 0, a ring, a cloud, all in
+ * the plane. */
 static void debris_is_all_there(void **state)
 {
     (void)state;
@@ -148,14 +150,14 @@ static void debris_is_all_there(void **state)
         assert_true((size_t)d->rows * d->columns <= KD_SHOW_NODES && d->rows >= 2 && d->columns >= 2);
         const double all = (double)(n - free_) / N;
         assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
-        if (shape != 1) /* there z is not 0, and the velocity along e_r not that along the plane */
+        if (shape != 1) /* in the cloud z is not 0, and the velocity along e_r not that along the plane */
             assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
         kd_dynamic_bodies_release(crowd);
     }
     free(pieces);
 }
 
-/* A single piece is where it is: the middle of its four nodes. */
+/* A single piece is at its place: the centroid of its four nodes. */
 static void a_piece_is_at_its_place(void **state)
 {
     (void)state;
@@ -178,7 +180,8 @@ static void a_piece_is_at_its_place(void **state)
     }
 }
 
-/* A torn star is all there, on as many pieces as there are; and how it is shown does not change how it moves. */
+/* A torn star is complete on the grid, whatever the number of pieces; and how it is shown does not change how it
+ * moves. */
 static void a_star_is_shown(void **state)
 {
     (void)state;
@@ -191,7 +194,7 @@ static void a_star_is_shown(void **state)
     looks.debris_temperature_k = 7000;
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     assert_true(p->rate == rate && rate > 0);
-    looks.debris_per_body = 500; /* of what is torn from now on: what there is is worth no more for that */
+    looks.debris_per_body = 500; /* applies to what is torn off from now on: the existing pieces keep their weight */
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     struct kd_dynamic_bodies *crowd = shown(p);
     const struct sums s = sums_of(&crowd->debris);
@@ -213,8 +216,8 @@ static double width_of(const struct kd_playground *p)
     return scene.camera.field_m;
 }
 
-/* A view is as wide as bodies are far out, and debris where there is more of it: nine pieces in ten are within half
- * of it. */
+/* The view is as wide as the distance of the bodies requires, or of the debris where there is more of that: nine in
+ * ten pieces are within half of it. */
 static void a_view_is_as_wide_as_what_there_is(void **state)
 {
     (void)state;
@@ -242,8 +245,8 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
     kd_playground_destroy(p);
 }
 
-/* What is torn off already keeps its worth, whatever bodies are to fall into from now on: here, and in a snapshot.
- * Of two stars each has its own. */
+/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies: here, and in a
+ * snapshot. With two stars each has its own. */
 static void a_piece_keeps_its_worth(void **state)
 {
     (void)state;
@@ -279,7 +282,7 @@ static void a_piece_keeps_its_worth(void **state)
     kd_playground_destroy(q);
 }
 
-/* Pieces that are nowhere are told, and leave no NaN. */
+/* Pieces without a valid place are counted as hidden, and leave no NaN. */
 static void nowhere(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What the tests of the playground share. */
+/* Helpers shared by the tests of the playground. */
 #ifndef PLAYGROUND_SUPPORT_H
 #define PLAYGROUND_SUPPORT_H
 
@@ -32,7 +32,7 @@ static inline struct kd_playground *playground_read(const char *text)
     return p;
 }
 
-/* No tides, no mergers, no debris, and as many sub-steps as it takes. */
+/* Parameters without tides, mergers and debris, and with as many sub-steps as it takes. */
 static inline struct kd_playground_params playground_quiet(void)
 {
     struct kd_playground_params params = kd_playground_defaults();

@@ -1,4 +1,5 @@
-/* The curve that plunging particles share, there and back: its table of radii against the closed form, at any spin. */
+/* Tests of the curve that plunging particles share: its table of radii, in both directions, against the closed form,
+ * at any spin. */
 #include "render/emit/plunging.h"
 
 #include "physics/spacetime/kerr.h"

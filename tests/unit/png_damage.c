@@ -1,5 +1,5 @@
-/* Files that are cut, altered or lie about themselves give KD_EINVAL and a sentence, never a crash or a leak
- * (the sanitizers watch for those). */
+/* PNG files that are cut, altered or inconsistent give KD_EINVAL and a message, never a crash or a leak (the
+ * sanitizers watch for those). */
 #include "image/png.h"
 
 #include <setjmp.h>
@@ -31,7 +31,7 @@ static void sample(struct kd_buffer *file, int depth)
     assert_int_equal(kd_png_encode(&params, file, NULL), KD_OK);
 }
 
-/* From a block of exactly that size, so that a read past the end is seen. */
+/* Decodes from a block of exactly that size, so that a read past the end is noticed. */
 static enum kd_status decode_exact(const uint8_t *data, size_t size)
 {
     uint8_t *copy = malloc(size ? size : 1);
@@ -67,7 +67,7 @@ static void every_cut_is_refused(void **state)
     }
 }
 
-/* Every chunk has a checksum, so one flipped bit anywhere behind the lengths must be noticed. */
+/* Every chunk has a checksum, so a flipped bit anywhere behind the lengths must be noticed. */
 static void every_flipped_bit_is_refused(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static void put32(uint8_t *p, uint32_t value)
         p[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-/* Make the checksums right again, so that damage reaches the parsers behind them. */
+/* Makes the checksums right again, so that damage reaches the parsers behind them. */
 static void seal(uint8_t *data, size_t size)
 {
     for (size_t at = 8; at + 12 <= size;) {
@@ -150,7 +150,7 @@ static void impossible_sides_are_refused(void **state)
     with_sides(32768, 32768, "too short"); /* 3 GiB of pixels from 400 bytes */
 }
 
-/* A chunk of `type` with this body, put before the first IDAT. */
+/* Decodes with a chunk of `type` with this body inserted before the first IDAT. */
 static enum kd_status with_chunk(const char *type, const void *body, uint32_t length)
 {
     struct kd_buffer file = { 0 }, out = { 0 };
@@ -189,11 +189,12 @@ static void text_is_limited(void **state)
     memset(body, 'x', HUGE_TEXT);
     memcpy(bomb, "key\0", 5);
     assert_int_equal(compress(bomb + 5, &packed, (const Bytef *)body, HUGE_TEXT), Z_OK);
-    assert_int_equal(with_chunk("zTXt", bomb, 5 + (uint32_t)packed), KD_EINVAL); /* and not unfolded */
+    assert_int_equal(with_chunk("zTXt", bomb, 5 + (uint32_t)packed), KD_EINVAL); /* and was not decompressed */
     free(body);
 }
 
-/* What libpng would pass over with a warning might be the scene: such a file is refused, not read without it. */
+/* A chunk that libpng would skip with a warning might be the one with the scene: such a file is refused, not read
+ * without it. */
 static void no_text_is_lost_in_silence(void **state)
 {
     (void)state;

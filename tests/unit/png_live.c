@@ -1,5 +1,5 @@
-/* Live frames, by every engine that was built in: pixel for pixel what libpng decodes; each chunk and checksum
- * judged by zlib. */
+/* Live frames by every engine that was built in: pixels compared with what libpng decodes; each chunk and checksum
+ * tested with zlib. */
 #include "base/parallel.h"
 #include "image/png.h"
 #include "image/png_live.h"
@@ -49,7 +49,7 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* What a file has in its IDAT chunks, one behind the other. */
+/* The contents of a file's IDAT chunks, concatenated. */
 struct stream {
     uint8_t *data;
     size_t size;
@@ -78,8 +78,8 @@ static void check_header(const uint8_t *data, uint32_t length, uint32_t width, u
 
 static size_t least_in_strips; /* filtered bytes of a frame, by the engine under test */
 
-/* The file is IHDR, sRGB, an IDAT for each strip, IEND and nothing else, each with its own CRC; zlib checks its own
- * sum, and nothing is left over. A frame below 1 MiB has one IDAT. */
+/* The file is IHDR, sRGB, an IDAT for each strip, IEND and nothing else, each with a valid CRC; zlib checks the sum
+ * of the stream, and no bytes are left over. A frame below 1 MiB has one IDAT. */
 static void check_strictly(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
 {
     struct stream stream = { malloc(size), 0 };
@@ -143,7 +143,7 @@ static struct kd_png_live *encoder(enum kd_deflate_engine engine)
     return live;
 }
 
-/* One encoder for all, so that what a large frame leaves behind would show in a small one. */
+/* One encoder for all frames, so that anything left over from a large frame would show in a small one. */
 static void pixels_survive(void **state)
 {
     (void)state;
@@ -166,7 +166,7 @@ static void pixels_survive(void **state)
     }
 }
 
-/* zlib makes the n bytes of the raw stream, and nothing is left. */
+/* zlib decompresses the n bytes of the raw stream, with nothing left over. */
 static void inflate_all(const struct kd_buffer *stream, const uint8_t *data, size_t n)
 {
     uint8_t *back = malloc(n + 1);
@@ -183,8 +183,8 @@ static void inflate_all(const struct kd_buffer *stream, const uint8_t *data, siz
     free(back);
 }
 
-/* Of every engine and level, pieces one behind the other are one stream, whatever kinds of blocks they end with, and
- * the sums of pieces are joined to that of all. */
+/* For every engine and level, concatenated pieces are one stream, whatever kinds of blocks they end with, and the
+ * sums of the pieces combine to that of the whole. */
 static void pieces_are_one_stream(void **state)
 {
     (void)state;
@@ -197,7 +197,7 @@ static void pieces_are_one_stream(void **state)
             struct kd_buffer out = { 0 };
             uint32_t sum = 1;
             if (kd_deflate_create(engine, level, &deflate, NULL))
-                continue; /* said above */
+                continue; /* tested above */
             for (uint32_t i = 0; i < ROOM; i++)
                 data[i] = (uint8_t)(kind == 0           ? 0
                                     : kind == 1         ? random_bits()
@@ -219,7 +219,8 @@ static void pieces_are_one_stream(void **state)
         }
 }
 
-/* Streams of any length, of bytes that end where no more may be read: assembler, which the sanitizers cannot watch. */
+/* Streams of every length, of input that ends at a page that must not be read: for the code in assembler, which the
+ * sanitizers cannot watch. */
 static void streams_of_every_length(void **state)
 {
     (void)state;
@@ -234,7 +235,7 @@ static void streams_of_every_length(void **state)
         for (uint32_t i = 0; i < ROOM; i++)
             memory[page + i] = (uint8_t)(random_bits() % (i % 5000 < 2500 ? 3 : 256));
         if (kd_deflate_create(engine, 1, &deflate, NULL))
-            continue; /* said above */
+            continue; /* tested above */
         for (size_t n = 0; n <= ROOM; n += n < SHORT ? 1 : 1 + random_bits() % 9000)
             for (int end = 0; end < 2; end++) {
                 const uint8_t *data = memory + page + (end ? ROOM - n : 0);

@@ -1,4 +1,4 @@
-/* Each allocation fails in turn: KD_ENOMEM, the output buffer as it was, nothing leaked. */
+/* Each allocation fails in turn: the result is KD_ENOMEM, the output buffer is unchanged, and nothing leaks. */
 #include "base/parallel.h"
 #include "image/png.h"
 #include "image/png_live.h"
@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <libdeflate.h>
 
-/* The linker sends the module's own calls here (--wrap); libpng allocates through the module. */
+/* The linker directs the module's own calls here (--wrap); libpng allocates through the module. */
 void *__real_malloc(size_t size);
 void *__real_realloc(void *old, size_t size);
 void *__real_calloc(size_t n, size_t size);
@@ -51,7 +51,7 @@ static void encoding(void **state)
     (void)state;
     int n = 0;
     libdeflate_set_memory_allocator(__wrap_malloc, free);
-    kd_parallel_threads = 1; /* the allocations come in an order */
+    kd_parallel_threads = 1; /* so that allocations occur in a fixed order */
     for (;; n++) {
         struct kd_buffer out = { 0 };
         struct kd_error error = { 0 };
@@ -104,7 +104,7 @@ static void decoding(void **state)
     assert_true(n > 5);
 }
 
-/* One encoder through two frames, the second larger; then a third, when nothing fails any more. */
+/* One encoder for two frames, the second larger; then for a third, when nothing fails any more. */
 static enum kd_status live_frames(enum kd_deflate_engine engine, struct kd_buffer *out, struct kd_error *error)
 {
     static uint8_t pixels[3 * 8 * SIDE * SIDE];
@@ -151,7 +151,7 @@ static void live_encoding(void **state)
                 assert_int_equal(status, KD_ENOMEM);
                 assert_true(error.message[0]);
             }
-            assert_true(status || n > 5); /* each allocation has had its turn */
+            assert_true(status || n > 5); /* each allocation has failed once */
             assert_memory_equal(out.data, "head", 4);
             kd_buffer_finish(&out);
         }

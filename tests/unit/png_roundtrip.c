@@ -1,5 +1,4 @@
-/* What kd_png_encode writes, kd_png_decode reads back; other colour types, written by libpng itself, come as
- * RGB. */
+/* kd_png_decode reads back what kd_png_encode writes; other colour types, written by libpng itself, come out as RGB. */
 #include "base/parallel.h"
 #include "image/png.h"
 
@@ -66,7 +65,7 @@ static void pixels_survive(void **state)
     round_trip(1, 32768, 16, 1);
 }
 
-/* Noise, ramps and flat parts of any depth. */
+/* Noise, ramps and flat parts, at either depth. */
 static void fill_picture(uint8_t *pixels, uint32_t width, uint32_t height, size_t step)
 {
     for (uint32_t y = 0; y < height; y++)
@@ -74,8 +73,8 @@ static void fill_picture(uint8_t *pixels, uint32_t width, uint32_t height, size_
             *pixels++ = (uint8_t)(y % 300 < 100 ? random_bits() >> 28 : y % 300 < 200 ? i * y >> 6 : 0);
 }
 
-/* A picture of several strips is the same file on any number of threads, and has its pixels; so have rows that are
- * strips of their own. */
+/* A picture of several strips is the same file on any number of threads, and has the right pixels; the same for rows
+ * so long that each is a strip. */
 static void strips_survive(uint32_t width, uint32_t height, int depth, int level)
 {
     static const unsigned threads[] = { 1, 2, 3, 7, 0 };
@@ -117,8 +116,8 @@ static void large_pictures_survive(void **state)
     strips_survive(23, 32768, 16, 5);
 }
 
-/* Rows that go on downwards, or by the mean of left and above, are small by the filter that says so alone: noise
- * takes all of its bytes by another. */
+/* Rows that continue downwards, or as the mean of left and above, are small only with the filter for that: with any
+ * other they take as many bytes as noise. */
 static void each_row_has_the_filter_that_suits_it(void **state)
 {
     (void)state;
@@ -181,7 +180,7 @@ static void text_survives(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A round trip cannot see bytes swapped both ways; an uncompressed file shows them. */
+/* A round trip cannot notice bytes swapped in both directions; an uncompressed file can. */
 static void sixteen_bits_are_big_endian(void **state)
 {
     (void)state;
@@ -193,7 +192,7 @@ static void sixteen_bits_are_big_endian(void **state)
     kd_buffer_finish(&file);
 }
 
-/* Same input, same bytes; and a buffer that held something keeps it, also when encoding fails. */
+/* Same input, same bytes; and a buffer's previous content stays, also when encoding fails. */
 static void appends_the_same_bytes(void **state)
 {
     (void)state;
@@ -258,8 +257,8 @@ static void bad_parameters_are_refused(void **state)
 #undef WITH
 }
 
-/* As much text as may be written is read back: in one piece, of either kind of chunk, and in as many as there may
- * be. */
+/* The largest permitted text is read back: in one chunk of either kind, and in the largest permitted number of
+ * chunks. */
 static void all_text_comes_back(void **state)
 {
     (void)state;
@@ -372,7 +371,7 @@ static void every_colour_type_is_read(void **state)
     }
 }
 
-/* Printed, not judged: the live view pays this for every frame. */
+/* Printed, not asserted: what the live view costs for every frame. */
 static void time_of_a_live_frame(void **state)
 {
     (void)state;

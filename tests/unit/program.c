@@ -1,4 +1,5 @@
-/* Programs that are run for us: how they end, with whom, what they say, and that they do nothing. */
+/* Tests of external programs that are run: how they end, along with their children, what they output, and how
+ * idleness is noticed. */
 #include "base/program.h"
 
 #include <fcntl.h>
@@ -26,7 +27,8 @@ static struct kd_program start(const char *script)
 
 static void doze(void) { nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL); }
 
-/* The process whose number is the last word of what it said ends: it is gone, or waits for its new parent to look. */
+/* Checks that the process whose number is the last word of the output has ended: it is gone, or a zombie that its
+ * new parent has not reaped yet. */
 static void expect_gone(const struct kd_program *p)
 {
     char path[64], state = 0;
@@ -47,7 +49,8 @@ static int end_of(struct kd_program *p)
     return code;
 }
 
-/* A child of it has its standard error and sleeps: that neither holds us nor lives on. */
+/* A child of the program keeps its standard error open and sleeps: this must neither hold us up nor may the child
+ * live on. */
 static void test_a_child_that_stays(void **state)
 {
     (void)state;
@@ -59,10 +62,11 @@ static void test_a_child_that_stays(void **state)
     expect_gone(&p);
     assert_true(p.told < 0 && p.in < 0 && !p.pid);
     int code;
-    assert_true(kd_program_over(&p, &code) && code == -1); /* asked again it ends nobody, least of all our own group */
+    /* a second call kills nothing, in particular not our own process group */
+    assert_true(kd_program_over(&p, &code) && code == -1);
 }
 
-/* A descriptor that a library left open, and that is not closed on exec, does not reach it. */
+/* A descriptor that a library left open, without close-on-exec, is not inherited by the program. */
 static void test_it_has_four_descriptors(void **state)
 {
     (void)state;
@@ -78,7 +82,7 @@ static void test_it_has_four_descriptors(void **state)
     assert_int_equal(end_of(&p), 0);
 }
 
-/* Of much that it says the beginning is kept, and the end. */
+/* Of long output the beginning and the end are kept. */
 static void test_a_long_story(void **state)
 {
     (void)state;
@@ -100,7 +104,7 @@ static void test_its_group_ends_with_it(void **state)
     expect_gone(&p);
 }
 
-/* Time passes in the numbers alone. */
+/* Time passes only in the numbers given to the functions. */
 static void test_one_that_does_nothing(void **state)
 {
     (void)state;
@@ -114,11 +118,11 @@ static void test_one_that_does_nothing(void **state)
     assert_true(kd_program_idle_ms(&p, true, now) == 0);
     for (int i = 1; i <= 40; i++)
         assert_true(kd_program_idle_ms(&p, false, now += 500) == 500 * i);
-    assert_true(kd_program_idle_ms(&p, false, now += 3600e3) == 21e3); /* the machine was held */
+    assert_true(kd_program_idle_ms(&p, false, now += 3600e3) == 21e3); /* the machine was suspended */
     assert_true(kd_program_idle_ms(&p, true, now += 500) == 0);
     kd_program_idle_ms(&p, false, now += 500);
     assert_int_equal(kd_program_write(&p, "go\n", 3), 3);
-    while (kd_program_idle_ms(&p, false, now) > 0) /* it uses a processor */
+    while (kd_program_idle_ms(&p, false, now) > 0) /* it uses the processor */
         doze();
     kd_program_end(&p);
 }

@@ -1,4 +1,5 @@
-/* What tells a thread that hangs from one that works, and from a process that was stopped for a while. */
+/* Tests of kd_pulse, which tells a thread that hangs from one that works and from a process that was stopped for a
+ * while. */
 #include "server/render/pulse.h"
 
 #include <setjmp.h>
@@ -9,11 +10,11 @@
 
 #include <cmocka.h>
 
-#define DEADLINE_MS 20u /* of a submission: so much passes while nobody looks at most */
+#define DEADLINE_MS 20u /* of a submission: the longest time that may pass between two looks */
 
 static void sleep_ms(double ms) { nanosleep(&(struct timespec) { .tv_nsec = (long)(1e6 * ms) }, NULL); }
 
-/* Looks every 2 ms for as long as it may take on a busy machine; seconds that it says at last. */
+/* Looks every 2 ms, for as long as a busy machine may need; returns the seconds that were reported last. */
 static double look(struct kd_pulse *pulse, double ms, bool beats)
 {
     double s = 0;
@@ -53,11 +54,11 @@ static void a_process_that_was_stopped_does_not_hang(void **state)
     struct kd_pulse pulse = { 0 };
     kd_pulse_beat(&pulse);
     assert_true(kd_pulse_missing_s(&pulse, DEADLINE_MS) == 0);
-    for (int i = 0; i < KD_PULSE_DEADLINES - 1; i++) { /* each time for longer than a thread may be silent */
+    for (int i = 0; i < KD_PULSE_DEADLINES - 1; i++) { /* each pause is longer than a thread may be silent */
         sleep_ms(i ? 2 * DEADLINE_MS : 2.0 * KD_PULSE_DEADLINES * DEADLINE_MS);
         assert_true(kd_pulse_missing_s(&pulse, DEADLINE_MS) == 0);
     }
-    assert_true(look(&pulse, 60e3, false) > 0); /* but one that goes on to be silent does */
+    assert_true(look(&pulse, 60e3, false) > 0); /* but one that stays silent afterwards is reported */
 }
 
 int main(void)

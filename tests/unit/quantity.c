@@ -1,5 +1,5 @@
-/* Quantities by name: every table is sound, requests are read or refused with the reason, ranges nest, and the forms
- * of an answer say the same. */
+/* Tests of quantities by name: every table is consistent, requests are read or refused with the reason, ranges nest,
+ * and all formats of an answer agree. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -57,7 +57,7 @@ static cJSON *parsed(const struct kd_quantity_answer *answer)
     return json;
 }
 
-/* What the rest takes for granted. */
+/* Properties of the tables that the other code relies on. */
 static void tables_are_sound(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void tables_are_sound(void **state)
             kd_quantity_request_init(&request, quantity);
             assert_int_equal(kd_quantity_request_set(&request, p->name, p->initial, NULL), KD_OK);
             assert_true(p->help && (p->words || (p->unit && p->minimum < p->maximum)));
-            assert_true(p->along || !along); /* these come last */
+            assert_true(p->along || !along); /* the outputs that vary along the curve come last */
             along = p->along;
         }
         for (size_t i = 0; i < quantity->n_outputs; i++)
@@ -92,13 +92,13 @@ static void defaults_answer(void **state)
         for (size_t i = 0; i < answer.points * kd_quantities[q]->n_outputs; i++)
             finite += isfinite(answer.values[i]);
         assert_true(2 * finite > answer.points * kd_quantities[q]->n_outputs);
-        assert_true(kd_quantity_cost_ms(&answer.request) < 50); /* nobody waits for what nobody asked for */
+        assert_true(kd_quantity_cost_ms(&answer.request) < 50); /* a request with default values is cheap */
         cJSON_Delete(parsed(&answer));
         kd_quantity_answer_finish(&answer);
     }
 }
 
-/* Each point of a range of parameter i is what it is on its own. */
+/* Each point of a range over parameter i equals the answer for that value alone. */
 static void points_of(struct kd_quantity_request request, size_t i)
 {
     struct kd_quantity_answer curve, point;
@@ -122,7 +122,7 @@ static void points_of(struct kd_quantity_request request, size_t i)
     kd_quantity_answer_finish(&curve);
 }
 
-/* What is kept from point to point changes nothing, whether the other parameters are ranges or not. */
+/* Values kept from point to point change nothing, whether or not the other parameters are ranges. */
 static void points_stand_alone(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void outside_the_domain(void **state)
     assert_int_equal(kd_quantity_evaluate(&request, &answer, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/r");
     assert_non_null(strstr(error.message, "horizon at 1.43588989 M"));
-    kd_quantity_request_set(&request, "spin", "0.5:0.999:7", NULL); /* at the first point alone would be enough */
+    kd_quantity_request_set(&request, "spin", "0.5:0.999:7", NULL); /* enough samples for the first point only */
     assert_int_equal(kd_quantity_evaluate(&request, &answer, &error), KD_EINVAL);
     kd_quantity_request_set(&request, "r", "2", NULL);
     kd_quantity_request_set(&request, "spin", "0.5:0.999:501", NULL);
@@ -222,7 +222,7 @@ static void ranges_nest(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
-/* Along r what belongs to the hole stays a number. */
+/* In a curve along r, properties of the hole alone stay a single number. */
 static void json_of_a_curve(void **state)
 {
     (void)state;
@@ -242,7 +242,8 @@ static void json_of_a_curve(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
-/* Of a hole that does not turn it is 6 + 2e whatever the inclination, of a turning one the ISCO where e vanishes. */
+/* For a hole without spin the separatrix is 6 + 2e, whatever the inclination; for a spinning one it is the ISCO at e
+ * = 0. */
 static void separatrix_by_known_ones(void **state)
 {
     (void)state;
@@ -270,9 +271,9 @@ static void separatrix_by_known_ones(void **state)
     kd_quantity_answer_finish(&turns);
 }
 
-/* Against closed forms for spin 0.9: of the retrograde ISCO; of a parabola, whose p is twice the marginally bound
- * radius 2 - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky 1972), a < 0 for the retrograde one; of the orbits of
- * light in the equator (there) and over the poles (Teo 2003, Gen. Rel. Grav. 35, 1909). */
+/* Against closed forms for spin 0.9: the retrograde ISCO; a parabola, whose p is twice the marginally bound radius 2
+ * - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky 1972; a < 0 for the retrograde one); the photon orbits in the
+ * equator (same paper) and over the poles (Teo 2003, Gen. Rel. Grav. 35, 1909). */
 static void separatrix_of_a_spinning_hole(void **state)
 {
     (void)state;
@@ -326,7 +327,7 @@ static void csv_has_a_line_a_point(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
-/* Numbers in lists have so many digits, and are the nearest; one that stands alone has all of its own. */
+/* Numbers in lists have a limited number of digits and are correctly rounded; a single number has all of its digits. */
 static void digits_of_lists(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Quantities against published figures, each with its source, and against what they must add up to. */
+/* Quantities against published figures, each with its source, and against conservation laws and symmetries. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* One value of a quantity; parameters as "name=value" up to a NULL. */
+/* One value of a quantity; parameters as "name=value", ended by NULL. */
 static double ask(const char *name, const char *output, const char *const settings[])
 {
     struct kd_quantity_request request;
@@ -73,8 +73,8 @@ static void figures(void **state)
 }
 
 /* The lensing ring and the photon ring of a hole without spin seen face on: S. E. Gralla, D. E. Holz & R. M. Wald
- * 2019, section III: b from 5.02 to 6.17 and from 5.19 to 5.23; each further one thinner by e^pi; M. D. Johnson et
- * al. 2020: gamma is least where the light goes with the spin. */
+ * 2019, section III: b from 5.02 to 6.17 and from 5.19 to 5.23; each further ring is thinner by e^pi. M. D. Johnson
+ * et al. 2020: gamma is smallest where light moves with the rotation. */
 static void rings(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static void rings(void **state)
         double fifth = ASK("photon-rings", "width", "order=5", angles[k]),
                sixth = ASK("photon-rings", "width", "order=6", angles[k]);
         published("a ring over the one before", log(fifth / sixth), ASK("photon-rings", "gamma", angles[k]), 1e-3);
-        /* upside down from below */
+        /* upside down when seen from below */
         const char *const mirrored[] = { "angle_deg=0", "angle_deg=-70", "angle_deg=-160", "angle_deg=-250" };
         published("from below", ASK("photon-rings", "width", "order=3", "inclination_deg=120", mirrored[k]),
                   ASK("photon-rings", "width", "order=3", angles[k]), 1e-16);
@@ -103,14 +103,15 @@ static void rings(void **state)
     assert_true(isnan(ASK("photon-rings", "width", "inclination_deg=90")));
 }
 
-/* What constants.h calls exact follows from what defines the units, and its derived ones from each other. */
+/* The constants that constants.h calls exact follow from the definitions of the units, and the derived ones from
+ * each other. */
 static void constants(void **state)
 {
     (void)state;
     double k = KD_K_J_K, h = KD_H_J_S, c = KD_C_M_S;
     double stefan = 2 * pow(M_PI, 5) * k * k * k * k / (15 * h * h * h * c * c);
     published("Stefan-Boltzmann", KD_STEFAN_BOLTZMANN_SI / stefan, 1, 1e-15);
-    double x = 5, y = 3; /* of B_lambda and B_nu: x = 5 (1 - e^-x), y = 3 (1 - e^-y) */
+    double x = 5, y = 3; /* of the maxima of B_lambda and B_nu: x = 5 (1 - e^-x), y = 3 (1 - e^-y) */
     for (int i = 0; i < 100; i++)
         x = -5 * expm1(-x), y = -3 * expm1(-y);
     published("Wien", KD_WIEN_M_K / (h * c / (k * x)), 1, 1e-15);
@@ -123,9 +124,9 @@ static void constants(void **state)
     published("astronomical unit over the radius of the sun", KD_AU_M / KD_R_SUN_M, 215.032, 5e-4);
 }
 
-/* What reaches infinity is 1 - E(ISCO) a unit of accreted mass: F is a proper flux a proper area, r dr dphi on both
- * faces, and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are smooth and vanish at the ends, by
- * Simpson's rule. */
+/* The energy that reaches infinity is 1 - E(ISCO) per unit of accreted mass: F is the flux per proper time and
+ * proper area, r dr dphi on both faces, and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are
+ * smooth and vanish at the ends, by Simpson's rule. */
 static void energy_is_conserved(void **state)
 {
     (void)state;
@@ -145,8 +146,8 @@ static void energy_is_conserved(void **state)
     }
 }
 
-/* A face-on ring of a = 0 has g = sqrt(1 - 3/r) all round; the flat formula agrees there, and lensing makes no
- * difference. */
+/* A face-on ring at a = 0 has g = sqrt(1 - 3/r) all round; the formula of flat space agrees there, and lensing makes
+ * no difference. */
 static void face_on(void **state)
 {
     (void)state;
@@ -154,7 +155,7 @@ static void face_on(void **state)
     published("g", ASK("redshift", "g", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
     published("g of order 1", ASK("redshift", "g_1", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
     published("g_flat", ASK("redshift", "g_flat", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
-    /* From below everything is seen upside down with the same colours. */
+    /* Seen from below everything is upside down with the same colours. */
     double above = ASK("redshift", "g", "inclination_deg=70", "phi_deg=200"),
            below = ASK("redshift", "g", "inclination_deg=110", "phi_deg=200");
     published("g from below", below, above, 1e-12);
@@ -162,11 +163,11 @@ static void face_on(void **state)
               -ASK("redshift", "beta", "inclination_deg=70", "phi_deg=200"), 1e-11);
 }
 
-/* sqrt(r^3/2) (eta + sin eta)/2 with r cos^2(eta/2) from rest at r (Misner, Thorne & Wheeler 1973, eq. 31.10): pi/2
- * sqrt(r^3/2) in all. */
-/* How far rain from r turns until the inner horizon: the azimuth of C. Doran 2000, eq. 16 and 18, stays, and differs
- * from that of ingoing Kerr and Schild by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2 + a^2))^(1/2))) dr; by
- * Simpson's rule. */
+/* From rest at r: sqrt(r^3/2) (eta + sin eta)/2 with the radius r cos^2(eta/2) (Misner, Thorne & Wheeler 1973, eq.
+ * 31.10); pi/2 sqrt(r^3/2) in all. */
+/* The azimuth that rain from r covers until the inner horizon: in the coordinates of C. Doran 2000, eq. 16 and 18,
+ * it is constant, and they differ from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2
+ * + a^2))^(1/2))) dr; by Simpson's rule. */
 static double rain_turns(double a, double r)
 {
     enum { PARTS = 2000 };
@@ -192,13 +193,13 @@ static void fall(void **state)
               1e-10);
     published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"),
               0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
-    /* Rain in the coordinates of Painleve and Gullstrand: E of light inwards over what rain measures of it is 1 +
-     * its velocity, sqrt(2/r). */
+    /* Rain in the coordinates of Painleve and Gullstrand: the energy of ingoing light over what rain measures of it
+     * is 1 plus rain's velocity, sqrt(2/r). */
     published("starlight behind rain", ASK("infall", "g_behind", "r=8"), 2.0 / 3, 1e-14);
     published("starlight behind rain at the horizon", ASK("infall", "g_behind", "r=2"), 0.5, 1e-14);
     published("starlight behind rain within", ASK("infall", "g_behind", "r=0.5"), 1.0 / 3, 1e-14);
-    /* t of ingoing Kerr-Schild coordinates is, without spin, that of Painleve and Gullstrand, rain's own, less 2
-     * (2r)^(1/2) - 4 ln(1 + (r/2)^(1/2)). */
+    /* Without spin the t of ingoing Kerr-Schild coordinates is that of Painleve and Gullstrand, the proper time of
+     * rain, minus 2 (2r)^(1/2) - 4 ln(1 + (r/2)^(1/2)). */
     published("rain's coordinate time", ASK("infall", "time_to_end", "r=8"), 32.0 / 3 + 8 - 4 * log(3), 1e-10);
     published("rain's turn", ASK("infall", "azimuth_to_end_deg", "spin=0.9", "r=10"),
               rain_turns(0.9, 10) * (180 / M_PI), 1e-7);
@@ -217,9 +218,9 @@ static void fall(void **state)
     published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
 }
 
-/* Rain in Schwarzschild looks: what comes from behind is as above, what comes from the side, L = 0 = p^r of its own,
- * unshifted, and the dark disk at the horizon has the radius 2 atan(2/sqrt(27)), on whose edge E = 1/(1 - cos
- * sqrt(2/r)). */
+/* The sky that rain sees in Schwarzschild: light from behind is as above; light from the side, with L = 0 and p^r =
+ * 0 in rain's frame, is unshifted; and at the horizon the dark disk has the radius 2 atan(2/sqrt(27)), with E = 1/(1
+ * - cos sqrt(2/r)) at its edge. */
 static void sky_of_rain(void **state)
 {
     (void)state;
@@ -237,8 +238,8 @@ static void sky_of_rain(void **state)
     published("its edge", ASK("sky", "g_greatest", RAIN, "observer_r=2"), 1 / (1 - cosine), 1e-12);
     assert_true(isnan(ASK("sky", "g_ahead", RAIN, "observer_r=2")));
     published("far away", ASK("sky", "g_greatest", "observer_r=infinity"), 1, 0);
-    /* One at rest at 6 M sees 1/sqrt(2/3) of it, from where the orbit, of v = 1/2, leads away sqrt((1 - v)/(1 + v))
-     * of that. */
+    /* An observer at rest at 6 M sees it shifted by 1/sqrt(2/3); one on the orbit, with v = 1/2, sees light from
+     * behind shifted by sqrt((1 - v)/(1 + v)) of that. */
     published("from behind one that goes round",
               ASK("sky", "g_left", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), sqrt(0.5),
               1e-14);

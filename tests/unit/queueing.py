@@ -24,7 +24,7 @@ MEAN = 0.02  # seconds of a work
 
 
 def erlang_c(n, load):
-    """The probability that one who comes to n servers has to wait; load: of one server."""
+    """The probability that one who comes to n servers has to wait; load: that of each server."""
     offered, term, total = n * load, 1.0, 1.0
     for k in range(1, n):
         term *= offered / k
@@ -34,8 +34,8 @@ def erlang_c(n, load):
 
 
 def waits(n, load, count, draw, seed, maxconn=1, limit=10**9, retries=5, patience=math.inf):
-    """Seconds that works waited beyond their own time, by number, and what was answered. All of one estimate: the
-    scheduler cannot know which is short."""
+    """Seconds that works waited beyond their own time, by number, and the statuses answered. All have the same
+    estimate, so that the scheduler cannot know which are short."""
     rng, env = random.Random(seed), simpy.Environment()
     servers = [queueing.Server(env, limit) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, maxconn, patience, retries), []
@@ -56,8 +56,8 @@ def exponential(rng):
 
 class Queues(unittest.TestCase):
     def near(self, found, expected):
-        """Within four standard errors of the mean, by the means of thirty batches: waits that follow each other are
-        alike. The error is small, or this would say nothing."""
+        """Within four standard errors of the mean, estimated from the means of thirty batches, because successive
+        waits are correlated. The error must be small, otherwise the test would show nothing."""
         size = len(found) // 30
         batches = [statistics.mean(found[k * size : (k + 1) * size]) for k in range(30)]
         error = statistics.stdev(batches) / math.sqrt(len(batches))
@@ -73,7 +73,7 @@ class Queues(unittest.TestCase):
                     self.near(found, MEAN * load / (1 - load))
 
     def test_works_of_one_length(self):
-        """Pollaczek and Khinchine: half of what it is with exponential ones."""
+        """Pollaczek and Khinchine: half of the wait with exponential lengths."""
         found, _ = waits(1, 0.7, 10000, lambda rng: MEAN, 5)
         self.near(found, MEAN * 0.7 / (1 - 0.7) / 2)
 
@@ -86,13 +86,14 @@ class Queues(unittest.TestCase):
                 self.near([float(wait > 1e-9) for wait in found], chance)
 
     def test_two_connections_a_server_wait_longer_than_one(self):
-        """Who waits at a server waits for that one; and yet two ways to wait lose no more than a service time."""
+        """Who waits at a server waits for that one although the other may be free; and yet the two ways of waiting
+        differ by no more than a service time."""
         one, two = (statistics.mean(waits(4, 0.7, 10000, exponential, 9, maxconn)[0]) for maxconn in (1, 2))
         self.assertGreater(two, 1.2 * one)
         self.assertLess(two, one + MEAN)
 
     def test_a_full_queue_refuses(self):
-        """M/M/1/K: of one device, so many who wait, and no retries."""
+        """M/M/1/K: one device, a limited number of waiting works, and no retries."""
         limit, load = 3, 1.2
         k = limit + 1
         expected = load**k * (1 - load) / (1 - load ** (k + 1))
@@ -107,7 +108,7 @@ class Queues(unittest.TestCase):
 
 class Shares(unittest.TestCase):
     def served(self, works, seconds):
-        """Seconds that each of these had the device, who ask again as soon as they are served."""
+        """Seconds of the device for each of these clients, who ask again as soon as they are served."""
         env = simpy.Environment()
         server, had = queueing.Server(env), [0.0] * len(works)
 
@@ -122,7 +123,7 @@ class Shares(unittest.TestCase):
         return had
 
     def test_classes_by_their_weights(self):
-        """Two that go on for ever in each class: device time as 8 : 4 : 2."""
+        """Two endless works in each class: device time is shared as 8 : 4 : 2."""
         had = self.served(
             [(kind, takes, "a") for kind in ("live", "picture", "refinement") for takes in (0.010, 0.013)], 30
         )
@@ -131,7 +132,7 @@ class Shares(unittest.TestCase):
         self.assertAlmostEqual(picture / refinement, 2, delta=0.1)
 
     def test_clients_have_the_same(self):
-        """However much one of them wants."""
+        """Also if one of them asks for much more."""
         had = self.served([("picture", 0.02, "a")] * 5 + [("picture", 0.01, "b")] * 2, 40)
         self.assertAlmostEqual(sum(had[:5]) / sum(had[5:]), 1, delta=0.05)
 
@@ -151,7 +152,7 @@ class Shares(unittest.TestCase):
         self.assertAlmostEqual(ended["long"], 2.03, delta=1e-6)
 
     def test_a_frame_is_as_the_governor_says(self):
-        """The figures of governor.h: alone 33 ms, of two each 23 every 47, of eight each 7.5 every 60."""
+        """The figures of governor.h: 33 ms alone, for two sessions 23 each every 47, for eight 7.5 each every 60."""
         habits = queueing.Habits(fill=1, floor=0, full=1)
         for n, milliseconds in ((1, 33), (2, 23.3), (8, 7.5)):
             self.assertAlmostEqual(1e3 * queueing.frame_seconds(habits, n), milliseconds, delta=0.1)

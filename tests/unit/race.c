@@ -1,5 +1,5 @@
-/* Two threads add to one number without a lock. It is there for the thread sanitizer alone, which must end it with
- * an error. */
+/* A program with a data race: two threads add to one number without a lock. It exists only for the thread sanitizer,
+ * which must end it with an error. */
 #include <pthread.h>
 #include <stddef.h>
 

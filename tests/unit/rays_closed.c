@@ -1,4 +1,5 @@
-/* kd_rays_trace with the closed engine: against geodesics in Kerr-Schild coordinates, and what it does around them. */
+/* Tests of kd_rays_trace with the closed-form engine, against geodesics in Kerr-Schild coordinates; and of its
+ * threads, cancellation and errors. */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"
@@ -38,7 +39,7 @@ static void trace_one(const struct kd_rays_params *params, double alpha, double 
 
 static bool same_azimuth(double a, double b, double bound) { return fabs(remainder(a - b, 2 * M_PI)) < bound; }
 
-/* The oracle starts at 1e6 M by a series, good to 1e-9 or so; that grows by up to 23 an order. */
+/* The reference starts at 1e6 M with a series, good to about 1e-9; that error grows by up to 23 times an order. */
 static void against_the_oracle(void **state)
 {
     (void)state;
@@ -73,7 +74,7 @@ static void against_the_oracle(void **state)
     assert_true(compared > 200);
 }
 
-/* From outside the ISCO to inside it g goes on without a step, and every number that should be there is. */
+/* Across the ISCO g is continuous, and every number that should exist is there. */
 static void redshift(void **state)
 {
     (void)state;
@@ -98,9 +99,9 @@ static void redshift(void **state)
     assert_true(inside && outside && step > 0 && step < 2e-3);
 }
 
-/* Radii fall until the turning point and rise after it: so where the next crossing is nearer, the ray is still on
- * its way in (the photon leaves outwards), and where the last one was nearer, it is on its way out. Rays close to
- * the critical curve cross the plane on both, all inside the ISCO at a = 0. */
+/* Radii fall until the turning point and rise after it: if the next crossing is nearer the hole, the ray is still on
+ * its way in (so the photon leaves outwards), and if the last one was nearer, it is on its way out. Rays close to
+ * the critical curve cross the plane on both parts, always inside the ISCO at a = 0. */
 static void redshift_knows_the_turning_point(void **state)
 {
     (void)state;
@@ -138,7 +139,7 @@ static bool count(void *user, double fraction)
     return ++watch->calls < 3;
 }
 
-/* Shared out among threads, a list gives what each of its rays gives alone; and it stops when told to. */
+/* A list shared among threads gives what each of its rays gives alone; and it stops when it is cancelled. */
 static void many(void **state)
 {
     (void)state;
@@ -169,15 +170,16 @@ static void many(void **state)
     free(ends);
 }
 
-/* Boyer-Lindquist less ingoing Kerr-Schild azimuth: the integral of a/Delta from r to infinity. */
+/* Boyer-Lindquist azimuth minus ingoing Kerr-Schild azimuth: the integral of a/Delta from r to infinity. */
 static double twist(double a, double r)
 {
     double root = sqrt(1 - a * a);
     return a / (2 * root) * log1p(2 * root / (r - 1 - root));
 }
 
-/* Where an observer that moves looks, [yaw, pitch], by frames in Kerr-Schild coordinates: the frame of zero angular
- * momentum, or of rain for one that falls, boosted to its velocity, whose constants alone are the code's. */
+/* The path that a moving observer sees in the direction [yaw, pitch], by frames in Kerr-Schild coordinates: the
+ * frame of zero angular momentum, or that of rain for an infalling observer, boosted to its velocity. Only the
+ * observer's constants of motion are taken from the code under test. */
 static struct ks_path seen_by(const struct kd_rays_params *p, const double *look, double constants[4])
 {
     const double theta = p->inclination_deg * M_PI / 180, yaw = look[0] * M_PI / 180, pitch = look[1] * M_PI / 180;
@@ -198,8 +200,9 @@ static struct ks_path seen_by(const struct kd_rays_params *p, const double *look
     return ks_follow(&at, photon, ORDERS);
 }
 
-/* Every kind of observer, all round it. The oracle starts from a velocity whose square root of the radial potential,
- * 0 where an observer stays or goes round, leaves 1e-8, which grows by up to 23 an order. */
+/* Every kind of observer, in all directions. The reference starts from a velocity with the square root of the radial
+ * potential, which is 0 where an observer stays or circles; that leaves 1e-8, which grows by up to 23 times an
+ * order. */
 static void observers_that_move(void **state)
 {
     static const double looks[][2] = { { 3, 2 },  { -21, 13 }, { 40, -33 },  { -75, 5 },
@@ -256,7 +259,7 @@ static void observers_that_move(void **state)
             crossings++;
         }
         if (path.fate == KS_ESCAPED)
-            assert_true(fabs(cos(end.theta) - path.u) < 1e-4 && /* grows with the turns */
+            assert_true(fabs(cos(end.theta) - path.u) < 1e-4 && /* the error grows with the turns */
                         same_azimuth(end.phi, path.sky_phi - twist(p.spin, p.r), 1e-4));
     }
     assert_true(crossings > 40 && reversed > 0);

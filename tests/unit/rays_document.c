@@ -1,4 +1,4 @@
-/* Requests and answers as text and bytes, down to every cut and every size of piece. */
+/* Tests of the requests and answers for rays, as text and bytes: cut at every place, and in pieces of every size. */
 #include "render/rays/answer.h"
 #include "render/rays/request.h"
 
@@ -16,7 +16,7 @@ static const char document[] = " { \"spin\" : -0.5 , \"note\\u0041\":1, "
                                "\"observer\":{\"r\":40,\"inclination_deg\":3e1},\"rays\":[[1,2],\n[-3.5,4e-1] , [0,0]],"
                                "\"orders\":5,\"accuracy\":{\"engine\":\"ks-rk4\",\"precision\":\"f32\",\"steps\":16}}";
 
-/* The copy is of exact size, so that a sanitizer sees a byte too far. */
+/* The copy has exactly that size, so that a sanitizer notices a byte read beyond the end. */
 static enum kd_status read_exact(const char *text, size_t length, struct kd_rays_request *request,
                                  struct kd_error *error)
 {

@@ -1,4 +1,5 @@
-/* Files read as a whole: what is none, or too large, neither holds up the reader nor fills its memory. */
+/* Tests of reading whole files: what is not a regular file, or is too large, neither blocks the reader nor fills its
+ * memory. */
 #include "base/read.h"
 #include "base/replace.h"
 
@@ -42,7 +43,7 @@ static void test_no_files(void **state)
     expect("huge", 0, 1 << 20, EFBIG);
     expect(".", 0, 1 << 20, EINVAL);
     expect("/dev/zero", 0, 1 << 20, EINVAL);
-    expect("/proc/self/cmdline", 0, 1, EFBIG); /* its size is said to be 0 */
+    expect("/proc/self/cmdline", 0, 1, EFBIG); /* the kernel gives its size as 0 */
     expect("link", O_NOFOLLOW, 1 << 20, ELOOP);
     expect("nothing", 0, 1 << 20, ENOENT);
 }
@@ -82,7 +83,7 @@ static int end(void **state)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlinkat(at, names[i], 0);
     close(at);
-    return rmdir(folder); /* nothing else has been left */
+    return rmdir(folder); /* fails if anything else is left in it */
 }
 
 int main(void)

@@ -1,4 +1,5 @@
-/* Files written as a whole: what comes to the disk in which order, and what killed processes have left. */
+/* Tests of writing whole files: in which order things reach the disk, and what becomes of files left by killed
+ * processes. */
 #include "base/replace.h"
 
 #include <dirent.h>
@@ -20,10 +21,10 @@
 
 static char folder[] = "/tmp/kerrd-replace-XXXXXX";
 
-/* What was called, in order: "file", "rename" and "folder" of the two kinds of fsync. The linker leads the calls
- * here. */
+/* The calls made, in order: "file" and "folder" for the two kinds of fsync, and "rename". The linker directs the
+ * calls here. */
 static char calls[200];
-static int folder_sync_errno; /* of fsync of a folder; 0: it succeeds */
+static int folder_sync_errno; /* errno of fsync of a folder; 0: it succeeds */
 int __real_fsync(int fd);
 int __real_renameat(int from_folder, const char *from, int to_folder, const char *to);
 int __wrap_fsync(int fd);
@@ -70,8 +71,8 @@ static void expect(const char *name, const char *text)
     assert_string_equal(found, text);
 }
 
-/* After a power cut there is the old file or the new one: the bytes before the name, and the name before success is
- * said. */
+/* After a power cut there is the old file or the new one: the bytes reach the disk before the name, and the name
+ * before success is reported. */
 static void test_order(void **state)
 {
     (void)state;
@@ -83,7 +84,7 @@ static void test_order(void **state)
     errno = 0;
     assert_false(kd_replace_file(path_of("a"), "two", 3));
     assert_int_equal(errno, EIO);
-    folder_sync_errno = EINVAL; /* a file system that knows no such thing */
+    folder_sync_errno = EINVAL; /* a file system that does not support it */
     assert_true(kd_replace_file(path_of("a"), "three", 5));
     folder_sync_errno = 0;
     expect("a", "three");
@@ -107,7 +108,8 @@ static void make(const char *name, int64_t age_s)
 
 static bool there(const char *name) { return !access(path_of(name), F_OK); }
 
-/* Only what is ours, and old: another process may be at work, and whose the rest is nobody knows. */
+/* Only old temporary files of kerrd are removed: a recent one may be in use by another process, and others belong to
+ * someone else. */
 static void test_leftovers(void **state)
 {
     (void)state;

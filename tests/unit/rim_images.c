@@ -1,5 +1,5 @@
-/* Images of stars in the rim of the shadow: against the lens equation of Schwarzschild, and against rays of the
- * Kerr-Schild oracle. */
+/* Tests of images of stars in the rim of the shadow, against the lens equation of Schwarzschild and against rays
+ * integrated in Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "render/sky/rim_images.h"
 #include "render/view/camera.h"
@@ -45,8 +45,9 @@ static void look(double spin, double inclination)
 
 static const double step = 2 * 0.36397023426620236135 / WIDTH; /* tan(20 degrees) */
 
-/* The azimuth that a ray sweeps from RADIUS to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3), in to
- * the turning point w_t and out; w = w_t sin^2 takes the root's zero out. Midpoints. */
+/* The azimuth that a ray of impact parameter b covers from RADIUS to infinity: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2
+ * + 2 w^3), in to the turning point w_t and out again; the substitution w = w_t sin^2 removes the zero of the root.
+ * Midpoint rule. */
 static double swept(double b)
 {
     double low = 0, high = 1.0 / 3, sum = 0;
@@ -68,14 +69,14 @@ static double swept(double b)
 
 static const double closest = 5.19615242270663188; /* b of the critical curve */
 
-/* The tangent of the angle from the hole, of a ray whose b is so much above the critical one. */
+/* The tangent of the angle from the hole, for a ray whose b is above the critical one by that much. */
 static double tangent(double above)
 {
     const double s = closest * (1 + above) * sqrt(1 - 2 / RADIUS) / RADIUS;
     return s / sqrt(1 - s * s);
 }
 
-/* Which ray sweeps so much: log of how far it is above the critical one. */
+/* Inverse: the logarithm of how far above the critical b the ray is that covers this azimuth. */
 static double above_of(double azimuth)
 {
     double low = log(1e-6), high = log(1.0);
@@ -86,8 +87,8 @@ static double above_of(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* A star lies cos(psi) along the way to the observer and sin(psi) to its side, at `angle` from the picture's right:
- * this finds all of its images within the rim, by how much their rays sweep. */
+/* A star lies cos(psi) along the direction towards the observer and sin(psi) to its side, at `angle` from the
+ * picture's right. Finds all of its images within the rim from the azimuth that their rays cover. */
 static size_t judge(double psi, double angle, double *place, double *area)
 {
     size_t images = 0;
@@ -104,7 +105,7 @@ static size_t judge(double psi, double angle, double *place, double *area)
         const double slope = (swept(closest * (1 + exp(above + h))) - swept(closest * (1 + exp(above - h)))) /
                              (atan(tangent(exp(above + h))) - atan(tangent(exp(above - h))));
         const double want = step * step * pow(1 + t * t, -1.5) * sin(psi) * fabs(slope) / sin(atan(t));
-        if (want > KD_RIM_BRIGHTEST / KD_STAR_LEAST) /* no star is bright enough */
+        if (want > KD_RIM_BRIGHTEST / KD_STAR_LEAST) /* too faint for the brightest star */
             continue;
         const struct kd_star_image *best = NULL;
         for (size_t i = 0; i < n_seen; i++)
@@ -134,7 +135,7 @@ static void by_the_lens_equation(void **state)
         look(0, 90);
         assert_int_equal(kd_rim_images(&scene, &rim, &star, NULL, 1, keep, NULL, &error), KD_OK);
         const size_t images = judge(psi, angle, &place, &area);
-        if (n_seen < images || n_seen > images + 2) /* one at each edge may be there, and is not judged */
+        if (n_seen < images || n_seen > images + 2) /* at each edge one more may be there, which is not tested */
             fail_msg("psi %g: %zu images instead of %zu", psi, n_seen, images);
         all += images;
     }
@@ -142,7 +143,7 @@ static void by_the_lens_equation(void **state)
     assert_true(all > 25 && place < 1e-4 && area < 1e-3);
 }
 
-/* What a pixel shows of the sky there, sr: which places are bright enough to be judged. */
+/* The solid angle of the sky that a pixel shows there, in sr: tells which places are bright enough to be tested. */
 static double shown(double u, double off)
 {
     double n[3][3], at[3][2], a[3], b[3];
@@ -160,7 +161,7 @@ static double shown(double u, double off)
                 area);
 }
 
-/* A place next to the curve, and the star where the oracle's ray from there ends. */
+/* A place next to the critical curve, and the star where the reference's ray from there ends. */
 struct place { double u, off, x, y; };
 
 static struct kd_vec star_of(double spin, double inclination, struct place *at)
@@ -177,7 +178,7 @@ static struct kd_vec star_of(double spin, double inclination, struct place *at)
     return (struct kd_vec) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
 }
 
-/* That star has an image at that place. */
+/* The star has an image at that place. */
 static void by_the_oracle(void **state)
 {
     (void)state;
@@ -219,7 +220,7 @@ static void by_the_oracle(void **state)
     }
 }
 
-/* A place that is seen is looked at, by every projection and from infinity. */
+/* From a pixel to its direction and back gives the same pixel, in every projection and from infinity. */
 static void seeing_is_looking(void **state)
 {
     (void)state;

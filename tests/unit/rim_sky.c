@@ -1,5 +1,5 @@
-/* Where rays next to the critical curve come from: by the Kerr-Schild oracle, and by closed form at each ray of the
- * rim. */
+/* Tests of the origin of rays next to the critical curve: by integration in Kerr-Schild coordinates, and by closed
+ * form for each ray of the rim. */
 #include "kerr_schild.h"
 #include "render/view/camera.h"
 #include "render/view/rim_sky.h"
@@ -18,7 +18,7 @@ static struct kd_rim_grids grids;
 static struct kd_error error;
 static float sky[3 * KD_RIM_RAYS + KD_RIM_RAYS];
 
-/* As if the image were 640 x 360. */
+/* Sets up the scene with this observer, for an image of 640 x 360. */
 static bool looks(double spin, double r, double inclination, enum kd_observer observer)
 {
     kd_scene_smooth(&scene);
@@ -35,7 +35,8 @@ static bool looks(double spin, double r, double inclination, enum kd_observer ob
     return true;
 }
 
-/* One of the rays, by a number: its grid, its place there, its turn and distance. */
+/* One of the rays, chosen by a number: its grid, its row and column there, and its place along the curve and
+ * distance from it. */
 struct ray {
     const struct kd_rim_grid *grid;
     uint32_t row, k;
@@ -58,7 +59,7 @@ static double apart(const double a[3], const struct ray *ray)
     return sqrt(pow(a[0] - sky[at], 2) + pow(a[1] - sky[rays + at], 2) + pow(a[2] - sky[2 * rays + at], 2));
 }
 
-/* At rest, by the oracle, which knows no curve, no roots and no angles. */
+/* For an observer at rest, by the reference integration, which uses no curve, no roots and no angles. */
 static void by_the_oracle(void **state)
 {
     (void)state;
@@ -94,8 +95,8 @@ static void by_the_oracle(void **state)
     printf("by the oracle within %.2g rad\n", worst);
 }
 
-/* What is interpolated is what each ray does, for whoever looks from wherever; and there is no ray that does not
- * escape. */
+/* The interpolated origin agrees with that of each ray, for all kinds of observers and places; and every ray
+ * escapes. */
 static void each_ray(void **state)
 {
     (void)state;
@@ -134,8 +135,8 @@ static void each_ray(void **state)
     assert_true(rims >= 165);
 }
 
-/* However closely one looks, at some place of the curve, the last row is one that double precision can tell of, and
- * there is none that does not escape. */
+/* However narrow the view on some place of the curve is, the last row is one that double precision can resolve, and
+ * all rays escape. */
 static void close_up(void **state)
 {
     (void)state;
@@ -176,8 +177,8 @@ static void close_up(void **state)
     }
 }
 
-/* The parts of grids next to one another have all images, each once: shares add up to 1 wherever the rim is in the
- * picture, and bright enough. */
+/* Adjacent parts of the grids contain each image exactly once: shares add up to 1 wherever the rim is in the picture
+ * and bright enough. */
 static void shares(void **state)
 {
     (void)state;

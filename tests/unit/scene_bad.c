@@ -1,4 +1,5 @@
-/* Documents that must be refused, each with its pointer and its reason; and random damage to good ones. */
+/* Documents that must be refused, each with the JSON pointer and reason expected; and good documents with random
+ * damage. */
 #include "scene_support.h"
 
 #include "scene/scan.h"
@@ -9,11 +10,12 @@ static void expect_refused(const char *text, size_t length, const char *pointer,
 {
     struct kd_scene scene, before;
     struct kd_error error = { 0 };
-    memset(&scene, 0x5a, sizeof scene); /* not even looked at */
+    memset(&scene, 0x5a, sizeof scene); /* its content does not matter */
     kd_scene_defaults(&scene);
     scene.camera.r = 12;
     before = scene;
-    char *exact = length ? malloc(length) : NULL; /* so that a read past the end is seen, and of no bytes a sum */
+    /* of exact size, so that a read past the end is noticed; NULL for no bytes */
+    char *exact = length ? malloc(length) : NULL;
     if (length)
         memcpy(exact, text, length);
     enum kd_status status = kd_scene_from_json(&scene, exact, length, &error);
@@ -69,8 +71,8 @@ static const struct bad syntax[] = {
     { "{\"time\":1.0000000000000000000000000000000000000000000000000000000000001}", "", "more than 60 characters" },
     { "{\"time\":\v1}", "", "unexpected character" },
     { "\xef\xbb\xbf{,}", "",
-      "at byte 1, line 1, column 2: a comma without a value before it" }, /* a mark of UTF-8 is ignored, and counts for
-                                                                             nothing */
+      /* a UTF-8 byte order mark is ignored and not counted */
+      "at byte 1, line 1, column 2: a comma without a value before it" },
     { " \xef\xbb\xbf{}", "", "unexpected character at byte 1" },
     { "\xff\xfe{", "", "it is UTF-16, and JSON is UTF-8" },
     { "\xfe\xff", "", "it is UTF-16, and JSON is UTF-8" },
@@ -194,7 +196,7 @@ static void every_prefix_is_refused(void **state)
     free(text);
 }
 
-/* Text that costs a careless parser its stack, its memory or its time. */
+/* Texts that would cost a careless parser its stack, its memory or its time. */
 static void bombs_are_refused(void **state)
 {
     (void)state;
@@ -218,7 +220,7 @@ static void bombs_are_refused(void **state)
     free(text);
 }
 
-/* 32 levels pass the scan and then fail as an unknown field; one more does not. */
+/* 32 levels pass the scan and then fail as an unknown field; one more fails in the scan. */
 static void depth_limit_is_exact(void **state)
 {
     (void)state;
@@ -233,7 +235,7 @@ static void depth_limit_is_exact(void **state)
     expect_refused(text, strlen(text), "", "deeper than 32");
 }
 
-/* A member of the outermost object alone, however its name is written. */
+/* Finds a member of the outermost object only, however its name is escaped. */
 static void names_are_found(void **state)
 {
     (void)state;
@@ -261,7 +263,7 @@ static void names_are_found(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].text);
-        char *exact = malloc(length ? length : 1); /* so that a read past the end is seen */
+        char *exact = malloc(length ? length : 1); /* so that a read past the end is noticed */
         memcpy(exact, cases[i].text, length);
         if (kd_scan_names(exact, length, "axes") != cases[i].there)
             fail_msg("%s", cases[i].text);
@@ -320,11 +322,11 @@ static size_t mutate(char *text, size_t length, size_t capacity, uint64_t *seed)
     size_t size = strlen(piece);
     switch (support_random(seed) % 4) {
     case 0: /* a byte */ text[at] = (char)support_random(seed); return length;
-    case 1: /* leave some out */
+    case 1: /* remove some */
         n = n > length - at ? length - at : n;
         memmove(text + at, text + at + n, length - at - n);
         return length - n;
-    case 2: /* put something in */
+    case 2: /* insert something */
         if (length + size > capacity)
             return length;
         memmove(text + at + size, text + at, length - at);
@@ -350,7 +352,7 @@ static void random_damage_is_harmless(void **state)
         memcpy(text, good, length);
         for (uint64_t n = 1 + support_random(&seed) % 3; n; n--)
             length = length ? mutate(text, length, capacity, &seed) : 0;
-        text = realloc(text, length ? length : 1); /* a read past the end is seen */
+        text = realloc(text, length ? length : 1); /* of exact size, so that a read past the end is noticed */
         struct kd_error error = { 0 };
         if (kd_scene_from_json(&target, text, length, &error)) {
             refused++;
@@ -370,7 +372,7 @@ static void random_damage_is_harmless(void **state)
         free(text);
         free(good);
     }
-    assert_true(accepted > 100 && refused > 1000); /* else this tests one path alone */
+    assert_true(accepted > 100 && refused > 1000); /* otherwise only one outcome would be tested */
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-/* Every field of the scene table: its bounds, its words, kd_scene_set, and the texts generated from it. */
+/* Tests of every field of the scene table: its bounds, its words, kd_scene_set, and the texts generated from it. */
 #include "scene_support.h"
 
 #include "scene/control.h"
@@ -7,7 +7,7 @@
 #include <cjson/cJSON.h>
 #include <limits.h>
 
-/* value, as JSON text and as text on a command line, is taken by both ways in or by neither. */
+/* A value, as JSON and as text of a command line, is accepted in both ways or in neither. */
 static void expect(const struct kd_field *field, const char *json, const char *text, bool accepted, double stored)
 {
     struct kd_scene a, b, before;
@@ -108,7 +108,7 @@ static void types_are_strict(void **state)
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
         bool truth = field->kind == KD_FIELD_BOOL;
-        if (field->kind == KD_FIELD_ASSET) /* text of --set is a name, whatever it would be in JSON */
+        if (field->kind == KD_FIELD_ASSET) /* the text given to --set is a name, whatever it would be in JSON */
             continue;
         for (size_t n = 0; n < sizeof never / sizeof *never; n++)
             expect(field, never[n], never[n], false, 0);
@@ -153,7 +153,7 @@ static void assets_have_names(void **state)
     assert_int_equal(n, 2);
 }
 
-/* What strtod takes and JSON does not, but for the half-written: .5 is no mistake of whoever types it. */
+/* What strtod accepts and JSON does not is refused, except half-written numbers: whoever types .5 means it. */
 static void set_reads_numbers(void **state)
 {
     (void)state;
@@ -251,7 +251,7 @@ static void defaults_are_valid(void **state)
     assert_true(scene.style.dither);
 }
 
-/* The schema of a section; of one that stands in another, there. */
+/* The schema of a section, or of a section nested in another. */
 static const cJSON *schema_of(const cJSON *properties, const char *section)
 {
     char first[KD_PATH_SIZE];
@@ -261,7 +261,7 @@ static const cJSON *schema_of(const cJSON *properties, const char *section)
     return *section ? schema_of(cJSON_GetObjectItemCaseSensitive(found, "properties"), section + 1) : found;
 }
 
-/* Members of the document that are sections. */
+/* The number of members of the document that are sections. */
 static int outer_sections(void)
 {
     int n = 0;
@@ -317,8 +317,8 @@ static void schema_names_each_field(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Some fields of each group of the page stand in front, so that none opens on nothing; and what is known to be of a
- * nature is. */
+/* Each group on the page has some fields in front, so that none opens empty; and some known fields have the right
+ * nature. */
 static void natures_and_groups(void **state)
 {
     (void)state;
@@ -334,7 +334,7 @@ static void natures_and_groups(void **state)
     assert_int_equal(kd_field_find("style", "tone_map")->nature, KD_FIELD_LOOK);
 }
 
-/* Each control is that of one field, which holds what it says. */
+/* Each control belongs to exactly one field, which refers to it. */
 static void controls_are_of_fields(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The scene document: round trips, canonical form, hash. */
+/* Tests of the scene document: round trips, canonical form, hash. */
 #include "scene_support.h"
 
 #include "base/pause.h"
@@ -73,7 +73,8 @@ static void documents_merge(void **state)
     assert_true(isinf(scene.camera.r));
 }
 
-/* RFC 7396: null is the default, of a field or of a section; what is not named stays; nothing half done. */
+/* RFC 7396: null sets a field or a section to its default; what is not named stays; a patch that fails changes
+ * nothing. */
 static void patches(void **state)
 {
     (void)state;
@@ -122,12 +123,12 @@ static void expect_spots(const struct kd_scene *scene, size_t count, const doubl
     assert_int_equal(scene->spots.count, count);
     for (size_t i = 0; i < count; i++)
         assert_true(scene->spots.at[i].r == radii[i]);
-    for (size_t i = count; i < KD_SPOTS; i++) /* beyond the list nothing is left of what was there */
+    for (size_t i = count; i < KD_SPOTS; i++) /* beyond the end of the list nothing of the former content is left */
         assert_true(scene->spots.at[i].r == 9 && scene->spots.at[i].brightness == 0);
 }
 
-/* An array is the whole list, and what its objects do not name is at its default; an object names elements by their
- * index. */
+/* An array replaces the whole list, with defaults for what its objects do not name; an object names elements by
+ * their index. */
 static void lists_merge(void **state)
 {
     (void)state;
@@ -153,7 +154,7 @@ static void lists_merge(void **state)
     assert_true(full.spots.count == 16 && full.spots.at[15].r == 40);
 }
 
-/* The preset hot-spot as pictures of it held it inside when spots had names. */
+/* The preset hot-spot as it was stored in pictures when spots still had names. */
 static const char hot_spot[] =
     "{\"version\":1,\"spacetime\":{\"spin\":0.5,\"mass_msun\":4300000},\"camera\":{\"r\":\"infinity\",\"inclination_"
     "deg\":155,"
@@ -179,7 +180,7 @@ static const char hot_spot[] =
     "\"profile\","
     "\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0}";
 
-/* Documents from before there were lists: pictures with such a document inside, links, scripts. */
+/* Documents from before there were lists, in pictures, links and scripts, are still read. */
 static void old_names_are_read(void **state)
 {
     (void)state;
@@ -190,7 +191,7 @@ static void old_names_are_read(void **state)
         { "{\"spot2\":{\"brightness\":1,\"r\":12},\"spot1\":{\"size\":2}}",
           "{\"spots\":[{\"size\":2},{\"brightness\":1,\"r\":12}]}" },
         { "{\"spot3\":{\"index\":2}}", "{\"spots\":[{},{},{\"index\":2}]}" },
-        /* as they were written in full: without spots, and with the second alone */
+        /* as they used to be written in full: without spots, and with only the second one */
         { "{\"spot1\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
           "\"spot2\":{},\"spot3\":{}}",
           "{}" },
@@ -205,10 +206,10 @@ static void old_names_are_read(void **state)
         assert_memory_equal(&old, &now, sizeof old);
     }
     struct kd_scene preset, picture;
-    kd_scene_smooth(&picture); /* which is what a picture's document is read over */
+    kd_scene_smooth(&picture); /* the base over which a picture's document is read */
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
-    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* no field of then */
+    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* this field did not exist then */
     picture.sky.brightness = preset.sky.brightness;               /* nor this word */
     picture.source = preset.source;                               /* nor these */
     assert_memory_equal(&picture, &preset, sizeof picture);
@@ -220,7 +221,7 @@ static void old_names_are_read(void **state)
     expect_spots(&scene, 0, NULL);
 }
 
-/* The same on a command line or in a link. */
+/* The same list elements set on a command line or in a link. */
 static void elements_are_set(void **state)
 {
     (void)state;
@@ -238,7 +239,8 @@ static void elements_are_set(void **state)
     assert_int_equal(kd_scene_set(&scene, "spots.2.r", "0.5", &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/spots/2/r");
     assert_memory_equal(&scene, &before, sizeof scene);
-    assert_int_equal(kd_scene_set(&scene, "spots.2.brightness", "0", &error), KD_OK); /* said is made */
+    /* setting an element creates it */
+    assert_int_equal(kd_scene_set(&scene, "spots.2.brightness", "0", &error), KD_OK);
     assert_int_equal(scene.spots.count, 3);
     kd_scene_defaults(&scene);
     assert_int_equal(kd_scene_set(&scene, "spot3.r", "12", &error), KD_OK);
@@ -246,7 +248,7 @@ static void elements_are_set(void **state)
     assert_int_equal(kd_scene_set(&scene, "spot1.r", "8", &error), KD_OK);
     expect_spots(&scene, 3, (double[]) { 8, 9, 12 });
     kd_scene_defaults(&scene);
-    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* what it was anyway */
+    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* its default already */
     assert_int_equal(scene.spots.count, 0);
     assert_true(kd_scene_same_path("spot2.r", "spots.1.r") && kd_scene_same_path("spots.0.r", "spot1.r") &&
                 kd_scene_same_path("time", "time"));
@@ -254,8 +256,8 @@ static void elements_are_set(void **state)
                  kd_scene_same_path("spot2", "spots.1"));
 }
 
-/* A file from an earlier version must go on meaning the same. */
-/* A section in another one is a member of it: in documents, patches, by its path, and in what is written. */
+/* A file from an earlier version must keep its meaning. */
+/* A section nested in another is a member of it: in documents, in patches, in paths, and in what is written. */
 static void sections_stand_in_sections(void **state)
 {
     (void)state;
@@ -303,7 +305,7 @@ static void sections_stand_in_sections(void **state)
     assert_string_equal(error.pointer, "/disk/gas/sed");
 }
 
-/* One width in two units. M is 3.8189932 uas at m87's mass and distance. */
+/* One width given in two units. M is 3.8189932 uas at m87's mass and distance. */
 static void a_field_in_microarcseconds(void **state)
 {
     (void)state;
@@ -315,7 +317,7 @@ static void a_field_in_microarcseconds(void **state)
     assert_int_equal(kd_scene_validate(&scene, NULL), KD_OK);
     assert_true(fabs(kd_scene_width_uas(&scene) / 200 - 1) < 1e-15);
 
-    /* a scene read back is the scene written, and has the width of the one that says it in M */
+    /* a scene read back equals the scene written, and has the same width as one that gives it in M */
     char *text = support_canonical(&scene);
     again = of(text);
     assert_memory_equal(&again, &scene, sizeof scene);
@@ -324,13 +326,13 @@ static void a_field_in_microarcseconds(void **state)
     in_m.camera.field_uas = INFINITY;
     assert_true(in_m.camera.field_m == scene.camera.field_m);
 
-    /* it follows the hole, in whatever order they are given */
+    /* the width in M follows the hole's mass and distance, in whatever order they are given */
     patched(&scene, "{\"spacetime\":{\"mass_msun\":3.25e9}}");
     assert_true(fabs(scene.camera.field_m / 104.7396457 - 1) < 1e-7);
     assert_int_equal(kd_scene_set(&scene, "spacetime.distance_pc", "33.6e6", &error), KD_OK);
     assert_true(fabs(scene.camera.field_m / 209.4792913 - 1) < 1e-7 && scene.camera.field_uas == 200);
 
-    /* what is given last holds */
+    /* the unit given last determines the width */
     again = scene;
     patched(&again, "{\"camera\":{\"field_m\":40}}");
     assert_true(again.camera.field_m == 40 && isinf(again.camera.field_uas));
@@ -339,12 +341,12 @@ static void a_field_in_microarcseconds(void **state)
     assert_true(again.camera.field_m == 41 && isinf(again.camera.field_uas));
     assert_int_equal(kd_scene_set(&again, "camera.field_uas", "100", &error), KD_OK);
     assert_true(fabs(again.camera.field_m / 104.7396457 - 1) < 1e-7);
-    patched(&again, "{\"camera\":{\"field_uas\":null}}"); /* as wide as it was */
+    patched(&again, "{\"camera\":{\"field_uas\":null}}"); /* the width stays */
     assert_true(fabs(again.camera.field_m / 104.7396457 - 1) < 1e-7 && isinf(again.camera.field_uas));
     patched(&scene, "{\"camera\":null}");
     assert_true(scene.camera.field_m == 46 && isinf(scene.camera.field_uas));
 
-    /* out of the range of the one in M: said of the one that was given */
+    /* outside the range of the field in M: the message is about the one that was given */
     patched(&scene, "{\"camera\":{\"field_uas\":1e10}}");
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/camera/field_uas");
@@ -437,7 +439,8 @@ static void hash_feels_each_field(void **state)
     char original[65], hash[65], seen[KD_FIELD_COUNT][65];
     kd_scene_defaults(&defaults);
     assert_int_equal(kd_scene_hash(&defaults, hash), KD_OK);
-    for (size_t i = 0; i < KD_SECTION_COUNT; i++) /* an element has fields to change, and is itself told in the hash */
+    /* fill every list, so that its elements have fields to change; this itself changes the hash */
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++)
         if (kd_sections[i].most)
             kd_section_resize(&defaults, &kd_sections[i], kd_sections[i].most);
     assert_int_equal(kd_scene_hash(&defaults, original), KD_OK);
@@ -454,7 +457,7 @@ static void hash_feels_each_field(void **state)
         default: value = kd_field_holds(field, value + 1) ? value + 1 : value - 1;
         }
         if (field->kind == KD_FIELD_ASSET)
-            kd_field_put_asset(&scene, field, last, original); /* a hash, of whatever */
+            kd_field_put_asset(&scene, field, last, original); /* any hash */
         else
             kd_field_put(&scene, field, last, value);
         assert_int_equal(kd_scene_hash(&scene, seen[i]), KD_OK);
@@ -466,7 +469,7 @@ static void hash_feels_each_field(void **state)
     assert_string_equal(hash, original);
 }
 
-/* The same digest from another program. */
+/* The digest computed by another program. */
 static void hash_is_sha256(void **state)
 {
     (void)state;
@@ -518,8 +521,8 @@ static void locale_does_not_matter(void **state)
     free(text);
 }
 
-/* How often a large document lets others go first while it is read and freed; by that its pieces are short. The
- * longest took a share of this thread's time. */
+/* Pauses in which a large document lets other work go first while it is read and freed: their number, which shows
+ * that its pieces are short, and the share of this thread's time that the longest piece took. */
 static unsigned pauses;
 static double last_s, longest_s, longest_share;
 static double thread_s(void)
@@ -581,7 +584,7 @@ static void long_strings_are_read_in_pieces(void **state)
     snprintf(text, all, "{\"a\":1,\"long\":\"%s\",\"b\":[\"%s\",2],\"%s\":\"\\\"%s\"}", x, x, x, x);
     struct kd_error error = { 0 };
     cJSON *root = read_large(text, strlen(text), &error);
-    assert_true(pauses >= 2 * 4 * n >> 20); /* as it is looked at, and as it is copied */
+    assert_true(pauses >= 2 * 4 * n >> 20); /* once when scanned, and once when copied */
     const cJSON *b = cJSON_GetObjectItemCaseSensitive(root, "b"), *last = b->next;
     assert_string_equal(cJSON_GetObjectItemCaseSensitive(root, "long")->valuestring, x);
     assert_string_equal(cJSON_GetArrayItem(b, 0)->valuestring, x);
@@ -590,7 +593,7 @@ static void long_strings_are_read_in_pieces(void **state)
     assert_int_equal(*last->valuestring, '"');
     assert_string_equal(last->valuestring + 1, x);
     cJSON_Delete(root);
-    /* no string of the document is taken for what stands in the place of a long one, whatever its escapes are */
+    /* no string of the document is confused with the placeholder of a long one, whatever its escapes are */
     snprintf(text, all, "{\"\\u0001\":\"\\u0001\",\"\\u00ff\":\"\\u00ff\",\"long\":\"%s\"}", x);
     root = read_large(text, strlen(text), &error);
     assert_string_equal(root->child->string, "\x01");
@@ -600,7 +603,7 @@ static void long_strings_are_read_in_pieces(void **state)
     assert_string_equal(cJSON_GetObjectItemCaseSensitive(root, "long")->valuestring, x);
     cJSON_Delete(root);
     assert_null(read_large("{\"a\":\"\xff\"}", 9, &error));
-    /* a mistake is told by its place in the whole document */
+    /* an error is reported by its place in the whole document */
     static const char wrong[] = "{\"long\":\"%s\",\"b\":{]}";
     size_t of_short = 0, of_long = 0;
     for (int i = 0; i < 2; i++) {
@@ -614,8 +617,8 @@ static void long_strings_are_read_in_pieces(void **state)
     free(x);
 }
 
-/* Escapes of every kind, at every distance from the border of a piece, are what cJSON makes of them in a short string;
- * however many there are, others go first in between. */
+/* Escapes of every kind, at every distance from the border of a piece, give what cJSON makes of them in a short
+ * string; however many there are, other work goes first in between. */
 static void long_strings_with_escapes_are_read_in_pieces(void **state)
 {
     (void)state;
@@ -638,10 +641,10 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         assert_memory_equal(all + length * i, one, length);
     cJSON_Delete(root);
     free(text);
-    mallopt(M_PERTURB, 0); /* to fill a string's memory is no work of the reader, and one piece */
+    mallopt(M_PERTURB, 0); /* filling memory is not the reader's work, and would be one long piece */
     const size_t many = (size_t)12 << 20;
     text = malloc(2 * many + 10);
-    for (size_t shift = 0; shift < 2; shift++) { /* nothing but escapes, from an even and from an odd place on */
+    for (size_t shift = 0; shift < 2; shift++) { /* only escapes, beginning at an even and at an odd place */
         end = text + sprintf(text, "%s[\"", shift ? " " : "");
         for (size_t i = 0; i < many; i++, end += 2)
             memcpy(end, "\\n", 2);
@@ -649,7 +652,7 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         root = read_large(text, strlen(text), &error);
         assert_int_equal(strlen(root->child->valuestring), many);
         print_message("the longest of %u pieces took %.3f of the time\n", pauses, longest_share);
-        assert_true(longest_share < 0.15); /* cJSON takes a fifth for the string */
+        assert_true(longest_share < 0.15); /* cJSON takes a fifth of the time for the string */
         cJSON_Delete(root);
     }
     memcpy(end - 12, "\\ud83d\\u0041", 12);

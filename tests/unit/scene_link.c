@@ -1,4 +1,4 @@
-/* Links hold scenes: each preset and each change comes back as it was, and is short. */
+/* Tests that links hold scenes: each preset and each change comes back unchanged, and the link is short. */
 #include "scene_support.h"
 
 #include "scene/difference.h"
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* Sets what a link says, as a query is read: the preset, the style, the rest in order. */
+/* Applies what a link says as the query is read: the preset, the style, the rest in order. */
 static struct kd_scene read_link(const char *link)
 {
     struct kd_scene scene;
@@ -39,7 +39,7 @@ static char *link_of(const struct kd_scene *scene)
     return text.data ? (char *)text.data : strdup("");
 }
 
-/* The size of the picture is not part of a link. */
+/* Equal except for the size of the picture, which is not part of a link. */
 static void assert_same(const struct kd_scene *scene, const char *link)
 {
     struct kd_scene back = read_link(link);
@@ -71,7 +71,7 @@ static void presets_are_their_names(void **state)
     free(link);
 }
 
-/* Over each preset: every field at each of its ends and words, one by one, then some at random together. */
+/* For each preset: every field at each of its ends and words, one by one, then some of them at random together. */
 static void changes_come_back(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void changes_come_back(void **state)
     }
 }
 
-/* A style sets fields; one that is taken back to its default is told all the same. */
+/* A style sets fields; one that is set back to its default is part of the link all the same. */
 static void a_style_does_not_hide_what_it_sets(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void a_style_does_not_hide_what_it_sets(void **state)
     }
 }
 
-/* -0 is 0 in a document, and so in a link. */
+/* -0 is 0 in a document, and therefore in a link. */
 static void minus_zero_has_a_link(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void minus_zero_has_a_link(void **state)
     free(link);
 }
 
-/* No field makes a list shorter: another preset, or the default scene, is the base then. */
+/* No field can shorten a list: in that case the link is based on another preset or on the default scene. */
 static void a_shorter_list_has_another_base(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void changes_are_told(void **state)
     }
 }
 
-/* A lower picture shows as much upwards as one of 16:9: tan(fov/2) and the width grow by (1200/630)/(16/9). */
+/* A preview shows the same height as a picture of 16:9: tan(fov/2) and the width grow by (1200/630)/(16/9). */
 static void a_preview_is_as_high(void **state)
 {
     (void)state;

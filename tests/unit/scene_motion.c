@@ -1,4 +1,4 @@
-/* What goes on by itself in a live session, and when it has come to rest. */
+/* Tests of what moves by itself in a live session, and when it has come to rest. */
 #include "scene_support.h"
 
 #include "qnm_reference.h"
@@ -29,7 +29,7 @@ static void a_smooth_disk_rests(void **state)
     assert_true(kd_emit_moves(&scene));
     scene.motion.time_rate = 0;
     assert_false(kd_emit_moves(&scene));
-    for (int sign = -1; sign <= 1; sign += 2) { /* at the end of time */
+    for (int sign = -1; sign <= 1; sign += 2) { /* at the limits of time */
         scene.motion.time_rate = sign * 1e6;
         scene.top.time = sign * (1e12 - 1);
         assert_true(kd_emit_moves(&scene));
@@ -45,7 +45,7 @@ static void rings_move_while_time_does(void **state)
     (void)state;
     struct kd_scene scene = struck(0.5, 0.01);
     assert_true(kd_emit_moves(&scene));
-    scene.top.time = 999.999; /* before the stroke */
+    scene.top.time = 999.999; /* before the ringdown begins */
     assert_false(kd_emit_moves(&scene));
     kd_scene_advance(&scene, 1e-3);
     assert_true(kd_emit_moves(&scene));
@@ -58,12 +58,12 @@ static void rings_move_while_time_does(void **state)
     scene.disk.model = KD_DISK_NONE;
     assert_false(kd_emit_moves(&scene));
     scene = struck(0.5, 1);
-    scene.accuracy.orders = 1; /* nothing that rings is in the picture */
+    scene.accuracy.orders = 1; /* with this nothing in the picture shows the ringdown */
     assert_false(kd_emit_moves(&scene));
 }
 
-/* The slope of the sRGB curve at white is 0.44: less than half of one of 255 steps is left when the motion ends, and
- * motion does not go on for a fortieth of one. Decay by another method's numbers. */
+/* The slope of the sRGB curve at white is 0.44: when the motion ends, less than half of one of 255 steps is left,
+ * and the motion does not go on until it is less than a fortieth of one. The decay time is by another method. */
 static void it_ends_when_it_cannot_be_seen(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void it_ends_when_it_cannot_be_seen(void **state)
             continue;
         for (int k = 0; k < 4; k++) {
             struct kd_scene scene = struck(k & 1 ? q->a : -q->a, amplitudes[k / 2]);
-            double decay = 1000 / -q->im, low = 0, high = decay; /* moves at low, rests at high */
+            double decay = 1000 / -q->im, low = 0, high = decay; /* moves at low, is at rest at high */
             while (high - low > 1e-3) {
                 double middle = (low + high) / 2;
                 scene.top.time = 1000 + middle;
@@ -87,8 +87,8 @@ static void it_ends_when_it_cannot_be_seen(void **state)
     }
 }
 
-/* What falls moves whatever there is to see, until it is where a camera can be at last; what goes round turns before
- * what is not alike all round. */
+/* An infalling observer moves whatever there is to see, until it is at the last place where a camera can be; an
+ * orbiting one counts as moving only if something in the scene is not axially symmetric. */
 static void an_observer_goes_on_by_its_own_clock(void **state)
 {
     (void)state;
@@ -129,7 +129,8 @@ static void an_observer_goes_on_by_its_own_clock(void **state)
     assert_true(kd_scene_time_goes_on(&scene));
 }
 
-/* With light that takes its time `time` is the far clock's: of rain in Schwarzschild it gains 2r/(r - 2) dr/dr more. */
+/* With slow light `time` is that of the clock far away: for rain in Schwarzschild it advances by the integral of
+ * 2/(r - 2) dr more. */
 static void slow_light_has_the_far_clock(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What ties fields together, and the presets. */
+/* Tests of the rules that connect fields, and of the presets. */
 #include "scene_support.h"
 #include "scene/label.h"
 
@@ -11,8 +11,8 @@ struct rule {
     const char *fragment;
 };
 
-/* Radii by hand: r+ = 1 + sqrt(1 - a^2) is 1.8 at a = 0.6; the ergosphere is 2 in the plane; the ISCO is 6 at
- * a = 0. */
+/* Radii computed by hand: r+ = 1 + sqrt(1 - a^2) is 1.8 at a = 0.6; the ergosphere is 2 in the plane; the ISCO is 6
+ * at a = 0. */
 static const struct rule rules[] = {
     { "{\"image\":{\"bit_depth\":8}}", NULL, NULL },
     { "{\"polarization\":{\"model\":\"transfer\"}}", "/polarization/model",
@@ -75,7 +75,7 @@ static const struct rule rules[] = {
     { "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":3.001,\"observer\":\"keplerian\",\"inclination_deg\":0}}", NULL,
       NULL },
     { "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":1.6,\"observer\":\"keplerian\",\"inclination_deg\":90}}", NULL,
-      NULL }, /* light: 1.558 */
+      NULL }, /* the photon orbit is at 1.558 */
     { "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":1.5,\"observer\":\"keplerian\",\"inclination_deg\":90}}",
       "/camera/r", "1.5578" },
     { "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":3.9,\"observer\":\"retrograde\",\"inclination_deg\":90}}",
@@ -145,8 +145,8 @@ static const struct rule rules[] = {
       "is 8.9 M; it must be at least camera.r, 9 M" },
     { "{\"camera\":{\"r\":9,\"observer\":\"infall\",\"infall_from\":10,\"infall_energy\":1}}", "/camera/infall_energy",
       "camera.infall_energy is 1 with camera.infall_from 10 M; it must be \"rest\"" },
-    /* At a = 0, E^2 = 1 - 2/r is at rest; with L, (1 - 2/r) (1 + L^2/r^2): 25/36 at r = 4, L = 2.5. What is
-     * marginally bound turns with |L| > 4. */
+    /* At a = 0, E^2 = 1 - 2/r for a body at rest; with L, (1 - 2/r) (1 + L^2/r^2): 25/36 at r = 4, L = 2.5. A
+     * marginally bound body turns back if |L| > 4. */
     { "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":8,\"observer\":\"infall\",\"infall_energy\":0.86}}",
       "/camera/infall_energy", "at camera.r 8 M with this angular momentum it must be at least 0.866025" },
     { "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":8,\"observer\":\"infall\",\"infall_energy\":0.8661}}", NULL,
@@ -158,7 +158,7 @@ static const struct rule rules[] = {
       "momentum\":4.01}}",
       "/camera/infall_momentum", "with which the observer turns outside camera.r 3 M" },
     { "{\"camera\":{\"r\":9,\"observer\":\"infall\",\"inclination_deg\":0,\"infall_momentum\":1}}",
-      "/camera/infall_momentum", "turns" }, /* no L on the axis */
+      "/camera/infall_momentum", "turns" }, /* no L is possible on the axis */
     { "{\"spacetime\":{\"spin\":0.9999},\"style\":{\"ringdown\":1}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":-0.99991},\"style\":{\"ringdown\":0}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":-0.99991},\"style\":{\"ringdown\":0.5}}", "/style/ringdown",
@@ -177,7 +177,7 @@ static const struct rule rules[] = {
     { "{\"style\":{\"beam_uas\":38191},\"spacetime\":{\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},\"camera\":{\"field_"
       "m\":10}}",
       "/style/beam_uas", "style.beam_uas is 38191 microarcseconds; it must be at most 38189.9" },
-    /* 2 10^6 M tan(5e-6) are 10 M, too */
+    /* 2 10^6 M tan(5e-6) is 10 M, too */
     { "{\"style\":{\"beam_uas\":38189},\"spacetime\":{\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},\"camera\":{\"r\":"
       "1e6,\"fov_deg\":5.729577951e-4}}",
       NULL, NULL },
@@ -249,7 +249,7 @@ static void fields_fit_each_other(void **state)
     }
 }
 
-/* At the ISCO itself, to the last bit, and one step inside it. */
+/* The inner edge may be at the ISCO itself, to the last bit, but not one step inside it. */
 static void inner_edge_may_touch_the_isco(void **state)
 {
     (void)state;
@@ -264,7 +264,7 @@ static void inner_edge_may_touch_the_isco(void **state)
     }
 }
 
-/* A scene filled in by hand has passed no parser. */
+/* A scene filled in by hand, without any parser. */
 static void put_wrong(struct kd_scene *scene, const struct kd_field *field, size_t index)
 {
     if (field->kind == KD_FIELD_ASSET)
@@ -288,7 +288,7 @@ static void ranges_are_checked_again(void **state)
         size_t last = section->most ? section->most - 1 : 0;
         put_wrong(&scene, field, last);
         kd_field_pointer(field, last, pointer);
-        if (section->most) { /* what lies beyond a list is not looked at */
+        if (section->most) { /* what lies beyond the end of a list is not checked */
             assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
             kd_section_resize(&scene, section, last);
             kd_section_resize(&scene, section, last + 1);
@@ -313,7 +313,7 @@ static void lists_have_an_end(void **state)
     assert_string_equal(error.message, "spots has 17 elements; it must have at most 16");
 }
 
-/* A session draws a new frame when something that can be seen has moved. */
+/* A session draws a new frame if something visible has moved. */
 static void what_moves(void **state)
 {
     (void)state;
@@ -355,7 +355,7 @@ static void presets_are_valid(void **state)
         struct kd_error error;
         assert_string_equal(kd_scene_preset_name(i), names[i]);
         assert_true(strlen(kd_scene_preset_title(i)) > 10);
-        assert_in_range(strlen(kd_scene_preset_label(i)), 3, 26); /* it stands in one line beside a small picture */
+        assert_in_range(strlen(kd_scene_preset_label(i)), 3, 26); /* it must fit in one line beside a small picture */
         memset(&scene, 0xff, sizeof scene);
         if (kd_scene_preset(&scene, names[i], &error) || kd_scene_validate(&scene, &error))
             fail_msg("%s: %s %s", names[i], error.pointer, error.message);
@@ -373,7 +373,7 @@ static void presets_show_what_they_say(void **state)
     (void)state;
     static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk", "companions" };
     struct kd_scene scene, base;
-    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* but for those of gas none has any */
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* only those of gas have any */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
         bool gas = strstr(kd_scene_preset_name(i), "gas");
         for (size_t k = 0; k < sizeof stirred / sizeof *stirred; k++)
@@ -395,7 +395,7 @@ static void presets_show_what_they_say(void **state)
     assert_int_equal(kd_scene_preset(&scene, "m87", NULL), KD_OK);
     assert_true(scene.camera.inclination_deg == 163 && scene.spacetime.mass_msun == 6.5e9);
     struct kd_scene old;
-    assert_int_equal(kd_scene_preset(&old, "m87-eht", NULL), KD_OK); /* its name from before */
+    assert_int_equal(kd_scene_preset(&old, "m87-eht", NULL), KD_OK); /* its former name */
     assert_memory_equal(&old, &scene, sizeof old);
     assert_int_equal(kd_scene_preset(&scene, "edge-on", NULL), KD_OK);
     assert_true(scene.camera.inclination_deg == 90);

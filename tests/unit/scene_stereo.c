@@ -1,6 +1,6 @@
-/* The eyes of a pair against Euclid, with cameras and places of its own in Cartesian coordinates: far away, where
- * space is flat; and in the space of rain in Schwarzschild, which is flat at any radius (Painleve 1921, Gullstrand
- * 1922). */
+/* Tests of the two eyes of a stereo pair against Euclidean geometry, with cameras and places computed in Cartesian
+ * coordinates: far away, where space is flat; and in the space of rain in Schwarzschild, which is flat at any radius
+ * (Painleve 1921, Gullstrand 1922). */
 #include "scene_support.h"
 
 #include "render/output/wcs.h"
@@ -8,7 +8,7 @@
 
 struct eye { double place[3], ahead[3], right[3], up[3]; };
 
-/* The camera of a scene, through the directions that the kernels are given, about the hole. */
+/* The camera of a scene relative to the hole, from the directions that the kernels are given. */
 static struct eye eye_of(const struct kd_scene *scene)
 {
     const struct kd_camera_exact c = kd_camera_exact(scene);
@@ -84,7 +84,7 @@ static void far_away_eyes_are_euclids(void **state)
                                                 .field_uas = INFINITY,
                                                 .ring_decades_min = -10 };
             assert_false(kd_wcs_of(&scene).known);
-            compare(&scene, k == 3 ? 3e-6 : 2e-6); /* M/r, and half as much of what falls */
+            compare(&scene, k == 3 ? 3e-6 : 2e-6); /* the error is M/r, and half as much again for an infalling one */
         }
 }
 
@@ -116,8 +116,8 @@ static void rain_sees_flat_space(void **state)
         }
 }
 
-/* Lengths along the legs: dr = sqrt(Delta/Sigma), dphi = 1/sqrt(g_phiphi) of one of zero angular momentum in the
- * equatorial plane. */
+/* Lengths along the axes of the frame: dr = sqrt(Delta/Sigma), dphi = 1/sqrt(g_phiphi) for an observer of zero
+ * angular momentum in the equatorial plane. */
 static void near_eyes_are_as_far_apart_as_they_say(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void near_eyes_are_as_far_apart_as_they_say(void **state)
             const double turn = 0.1 / sqrt(r * r + a * a + 2 * a * a / r);
             assert_true(fabs(tan(eye.camera.azimuth_deg * (M_PI / 180)) - turn) < 1e-13);
             assert_true(fabs(eye.camera.r - r * hypot(1, turn)) < 1e-12 && eye.camera.yaw_deg > 0);
-            scene.camera.yaw_deg = 90; /* to the right is outwards */
+            scene.camera.yaw_deg = 90; /* right is outwards */
             eye = kd_scene_eye(&scene, 1);
             assert_true(fabs(eye.camera.r - r - 0.1 * sqrt(1 - 2 / r + a * a / (r * r))) < 1e-12 &&
                         fabs(eye.camera.azimuth_deg) < 1e-12);

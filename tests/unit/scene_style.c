@@ -1,4 +1,4 @@
-/* Styles: what a document that names one becomes. */
+/* Tests of styles: the scene that results from a document that names one. */
 #include "scene_support.h"
 
 #include "scene/style.h"
@@ -24,7 +24,7 @@ static double value(const struct kd_scene *scene, const struct kd_style_row *row
     return kd_field_get(scene, kd_field_find(row->section, row->name), 0);
 }
 
-/* Each style sets its rows, and nothing else; some leave some alone. */
+/* Each style sets the fields of its rows and nothing else; some styles leave some fields unchanged. */
 static void each_sets_its_fields(void **state)
 {
     (void)state;
@@ -52,7 +52,7 @@ static void each_sets_its_fields(void **state)
     }
 }
 
-/* Whatever the order within a document: in it, in a patch of it, and with null. */
+/* Fields that a document sets stay, whatever the order within it, in a patch, and with null. */
 static void what_the_document_sets_stays(void **state)
 {
     (void)state;
@@ -72,7 +72,7 @@ static void what_the_document_sets_stays(void **state)
     assert_true(patched.disk.doppler && patched.disk.redshift);
 }
 
-/* A document that does not name the style changes what it says and no more, whatever the style was. */
+/* A document that does not name the style changes only what it names, whatever the style was. */
 static void the_name_alone_does_nothing_later(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void the_name_alone_does_nothing_later(void **state)
     assert_true(scene.disk.doppler && !scene.disk.redshift && scene.style.bloom == dngr.style.bloom);
     scene = parsed(&scene, "{\"style\":{\"name\":\"none\"}}", true);
     assert_true(scene.style.name == KD_STYLE_NONE && scene.style.bloom == dngr.style.bloom && !scene.disk.redshift);
-    scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* the default, which is a style */
+    scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* the default, which is a style itself */
     assert_true(scene.style.name == KD_STYLE_FILM && scene.disk.redshift);
     char *text = support_canonical(&dngr);
     const struct kd_scene again = of(text); /* names the style, and each field */
@@ -94,7 +94,7 @@ static void the_name_alone_does_nothing_later(void **state)
     free(text);
 }
 
-/* The look of an empty document is the style that it names. */
+/* The look of an empty document is that of the style in its defaults. */
 static void the_default_is_a_style(void **state)
 {
     (void)state;
@@ -103,7 +103,7 @@ static void the_default_is_a_style(void **state)
     assert_memory_equal(&none, &named, sizeof none);
 }
 
-/* One field at a time: the later one wins. */
+/* Fields set one at a time: the later one wins. */
 static void by_paths_in_order(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The tests of the scene document share this. */
+/* Helpers shared by the tests of the scene document. */
 #ifndef KD_TESTS_SCENE_SUPPORT_H
 #define KD_TESTS_SCENE_SUPPORT_H
 
@@ -29,7 +29,7 @@ static inline double support_uniform(uint64_t *state) { return (double)(support_
 static inline void support_document(char out[256], const struct kd_field *field, const char *value)
 {
     bool list = field->stride;
-    const char *dot = strchr(field->section, '.'); /* a section in another one */
+    const char *dot = strchr(field->section, '.'); /* a section nested in another */
     if (dot)
         snprintf(out, 256, "{\"%.*s\":{\"%s\":{\"%s\":%s}}}", (int)(dot - field->section), field->section, dot + 1,
                  field->name, value);
@@ -70,7 +70,8 @@ static inline double support_value(const struct kd_field *field, uint64_t *state
     return value < low ? low : value > high && isfinite(value) ? high : value;
 }
 
-/* Every field at a random value: often an end of its range, sometimes tiny, sometimes its word. Lists of any length. */
+/* Sets every field to a random value: often an end of its range, sometimes tiny, sometimes its word. Lists get any
+ * length. */
 static inline void support_scene(struct kd_scene *scene, uint64_t *state)
 {
     kd_scene_defaults(scene);

@@ -1,5 +1,5 @@
-/* The scene's machinery over another table of fields (table/scene/fields.h): what it does for spots it does for any
- * list, and assets are names until they are resolved. */
+/* Tests of the code for scenes with another table of fields (table/scene/fields.h): what it does for spots it does
+ * for any list, and assets are names until they are resolved. */
 #include "cli/asset_options.h"
 #include "cli/cli.h"
 #include "image/png.h"
@@ -109,7 +109,7 @@ static void lists_of_any_kind(void **state)
     }
 }
 
-/* Where names are known: "sky" is ABC, and no other. */
+/* The store of assets: "sky" is ABC, and no other name exists. */
 static bool find(void *user, const char *name, struct kd_asset_found *out)
 {
     (*(int *)user)++;
@@ -131,7 +131,7 @@ static void assets_are_resolved(void **state)
     char hashes[2][65];
     int asked = 0;
     const struct kd_assets assets = { .find = find, .allowed = "null and sky", .user = &asked };
-    assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL); /* a name is no identity */
+    assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL); /* a name does not identify the content */
     kd_buffer_finish(&text);
     assert_int_equal(kd_scene_hash(&scene, hashes[0]), KD_EINVAL);
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
@@ -161,7 +161,7 @@ static void assets_are_resolved(void **state)
     assert_memory_equal(&scene, &same, sizeof scene);
 }
 
-/* The rest of src/cli knows the other scene. */
+/* The rest of src/cli is compiled for kerrd's own scene. */
 enum kd_status kd_cli_prefix(struct kd_error *error, const char *name) { return (void)name, error->status; }
 void kd_cli_stdout_failed(int number) { (void)number; }
 
@@ -261,7 +261,7 @@ static void assets_have_names(void **state)
     }
 }
 
-/* What `object` says under the name `key`. */
+/* The string in `object` under the name `key`. */
 static const char *word_of(const cJSON *object, const char *key)
 {
     return cJSON_GetObjectItemCaseSensitive(object, key)->valuestring;
@@ -285,7 +285,7 @@ static void schema_has_natures_places_and_groups(void **state)
         const cJSON *row = cJSON_GetObjectItemCaseSensitive(rows, natures[i][0]);
         assert_string_equal(word_of(row, "x-nature"), natures[i][1]);
         assert_int_equal(cJSON_HasObjectItem(row, "x-front"), i < 2);
-        assert_false(cJSON_HasObjectItem(row, "x-group")); /* its section has it */
+        assert_false(cJSON_HasObjectItem(row, "x-group")); /* its section has that */
     }
     assert_string_equal(word_of(bodies, "x-group"), "gas");
     assert_string_equal(word_of(cJSON_GetObjectItemCaseSensitive(all, "stops"), "x-group"), "hole");
@@ -302,7 +302,7 @@ static void schema_has_natures_places_and_groups(void **state)
     kd_buffer_finish(&text);
 }
 
-/* What a page needs for its controls stands with each field, of one in a list as well. */
+/* What the page needs for its controls is in the schema of each field, also in lists. */
 static void schema_has_controls(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* Sessions that share a device: each with a governor and a viewer who asks for the next frame a while after the
- * last; the budget divides the device's time among them, shares.h says whose turn it is, and the machine is that of
- * governor_simulation.h. Events in the order of their times; a frame has the device until it is done, a refinement
- * for 40 ms at a time. */
+/* A simulation of sessions that share a device: each has a governor and a viewer who asks for the next frame a while
+ * after the last. The budget divides the device's time among them, shares.h decides whose turn it is, and costs of
+ * frames are those of governor_simulation.h. Events are processed in the order of their times; a frame has the
+ * device until it is done, a refinement for 40 ms at a time. */
 #ifndef KD_TESTS_SHARED_DEVICE_H
 #define KD_TESTS_SHARED_DEVICE_H
 
@@ -14,20 +14,21 @@ struct sharer {
     struct simulation sim;
     struct kd_budget_entry entry;
     struct kd_claim claim; /* of its frame */
-    double pause;          /* from a frame to the next request; half to one and a half times as long */
-    double from, to;       /* its scene changes at each request between these times, */
-    double stroke, lift;   /* for so long, and then not for so long; 0: without a break */
-    bool still;            /* what moves reuses its lens map, as time that goes on does */
-    /* the simulation's own */
-    double due; /* of the next request; INFINITY: a frame is in the queue */
+    double pause; /* mean time from a frame to the next request; the actual one is half to one and a half times that */
+    double from, to;     /* its scene changes at each request between these times, */
+    double stroke, lift; /* for `stroke`, and then not for `lift`, in turn; 0: without a break */
+    bool still;          /* the changes reuse the lens map, as a change of time does */
+    /* internal */
+    double due; /* time of the next request; INFINITY: a frame is in the queue */
     struct kd_frame_decision turn;
     struct kd_frame_cost cost;
-    double left;             /* ms of the device that the frame still needs */
-    double latest, gap;      /* the newest frame that was no refinement; the longest time between two in a drag */
+    double left;        /* ms of the device that the frame still needs */
+    double latest, gap; /* time of the newest frame that was not a refinement; the longest time between two in a drag */
     uint64_t moved, refined; /* frames */
-    double used;             /* ms of the device, refinement left out */
-    uint64_t seen, hasty; /* changes of scale; frames of a drag after which the server would refine before it hears from
-                             the hand */
+    double used;             /* ms of the device, without refinement */
+    /* changes of scale; frames of a drag after which the server would start to refine before the next request
+     * arrives */
+    uint64_t seen, hasty;
 };
 
 struct device {
@@ -37,7 +38,7 @@ struct device {
     struct kd_budget budget;
     struct sharer *served; /* NULL: nobody */
     double now, until, slice;
-    bool alone; /* governors are told nothing of each other */
+    bool alone; /* governors are not told of each other */
 };
 
 static void open_device(struct device *d, struct sharer *sharers, int n)
@@ -46,7 +47,7 @@ static void open_device(struct device *d, struct sharer *sharers, int n)
     memset(sharers, 0, (size_t)n * sizeof *sharers);
 }
 
-/* It is there from the beginning, and rests until `from`. */
+/* Adds a sharer that exists from the beginning and is at rest until `from`. */
 static struct sharer *join(struct device *d, int i, const char *client, struct truth truth, double pause, double from,
                            double to)
 {
@@ -90,7 +91,7 @@ static void request(struct device *d, struct sharer *s)
     const bool first = sim->lens == 0;
     if (first || dragged(s, d->now))
         change(sim, first || !s->still);
-    if (first) /* as the server tells it by the plan */
+    if (first) /* the server takes this from the plan */
         kd_governor_expect(&sim->governor, &(struct kd_frame_cost) { .fixed_ms = sim->truth.fixed,
                                                                      .rays_ms = sim->truth.traced,
                                                                      .pixels_ms = sim->truth.pixels,
@@ -99,7 +100,7 @@ static void request(struct device *d, struct sharer *s)
     s->turn = kd_governor_decide(&sim->governor, d->now);
     if (s->turn.wait_ms > 0) {
         double next = next_drag(s, d->now);
-        s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* not by a rounding before it */
+        s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* so that rounding does not put it before that time */
         return;
     }
     struct kd_scene scene;

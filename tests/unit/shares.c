@@ -1,4 +1,4 @@
-/* Shares of the device, by a clock that is simulated: what is served in which order, and how much of it. */
+/* Tests of shares of the device with a simulated clock: what is served in which order, and how much of it. */
 #include "server/http/shares.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #define SLICE 40.0
 
 struct work {
-    struct kd_claim claim; /* first */
+    struct kd_claim claim; /* must be the first member */
     double left, came, began, ended, served;
     bool here, barred;
 };
@@ -43,7 +43,7 @@ static bool may(const struct kd_claim *claim, void *user)
     return !((const struct work *)claim)->barred;
 }
 
-/* One turn: short works whole, others a slice. NULL: idle. */
+/* One turn: a short work is done completely, others for a slice. NULL: idle. */
 static struct work *turn(struct bench *b)
 {
     struct work *w = (struct work *)kd_shares_next(&b->shares, may, NULL);
@@ -70,7 +70,7 @@ static void run(struct bench *b, double until)
         ;
 }
 
-/* Whoever has less to do than its share waits for one slice of each other client at most, whatever those want. */
+/* A client with less work than its share waits for at most one slice of each other client, whatever they ask for. */
 static void a_small_one_beside_any_load(void **state)
 {
     (void)state;
@@ -92,7 +92,7 @@ static void a_small_one_beside_any_load(void **state)
         }
 }
 
-/* Two clients have half each, one work or thirty; and three a third. */
+/* Two clients get half each, whether they have one work or thirty; three get a third each. */
 static void shares_are_by_client(void **state)
 {
     (void)state;
@@ -108,10 +108,10 @@ static void shares_are_by_client(void **state)
     assert_true(fabs(third->served - 20000) <= 2 * SLICE);
 }
 
-/* Of the classes. Source: the table in shares.h. */
+/* Weights of the classes, from the table in shares.h. */
 static const double weight[KD_N_CLASSES] = { 64, 8, 4, 4, 2, 0.1, 0.1 };
 
-/* By their weights. */
+/* The classes of one client share by their weights. */
 static void classes_of_a_client(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void classes_of_a_client(void **state)
         assert_true(fabs(w[i]->served - 10000 * weight[i]) <= 8 * SLICE);
 }
 
-/* Who points at a pixel has it after the slice that is under way, whatever else the same client has asked for. */
+/* A probe of a pixel is served after the slice that is being computed, whatever else the same client has asked for. */
 static void a_pixel_is_next(void **state)
 {
     (void)state;
@@ -142,8 +142,8 @@ static void a_pixel_is_next(void **state)
     }
 }
 
-/* A film that a client has asked for goes before a view of the same client that goes on by itself, or is refined:
- * these have a twentieth, and go on. */
+/* A film goes before a view of the same client that moves by itself or is refined: these get a twentieth, and
+ * continue. */
 static void a_film_beside_an_idle_view(void **state)
 {
     (void)state;
@@ -157,7 +157,8 @@ static void a_film_beside_an_idle_view(void **state)
     }
 }
 
-/* Two living sessions that want all there is: a picture of the same client has its turn, and they go on. */
+/* Beside two live sessions that would use all the time, a picture of the same client gets its turns, and they
+ * continue. */
 static void a_picture_beside_living_sessions(void **state)
 {
     (void)state;
@@ -189,7 +190,7 @@ static void a_picture_beside_living_sessions(void **state)
     assert_true(worst <= 300 && live_worst <= 200);
 }
 
-/* In one client and class the short come before the long, but not for ever. */
+/* Within one client and class short works go before long ones, but not for ever. */
 static void short_first(void **state)
 {
     (void)state;
@@ -198,17 +199,17 @@ static void short_first(void **state)
     struct work *long_one = come(&b, "one", KD_CLASS_PICTURE, 5000), *short_one = come(&b, "one", KD_CLASS_PICTURE, 50);
     run(&b, 50);
     assert_true(short_one->ended <= 50);
-    while (b.n < 590 && isnan(long_one->began)) { /* more of them than there is time for: three always wait */
+    while (b.n < 590 && isnan(long_one->began)) { /* more of them than there is time for: three are always waiting */
         while (b.n - 2 < 2 + b.now / 50)
             come(&b, "one", KD_CLASS_PICTURE, 50);
         turn(&b);
     }
     assert_false(isnan(long_one->began));
     assert_true(long_one->began >= 5000 &&
-                long_one->began <= 4 * 5000); /* not before its length, nor after that of four */
+                long_one->began <= 4 * 5000); /* not before a time of its own length, nor after four times that */
 }
 
-/* Nobody saves time up, neither by being away nor by being barred, and nobody pays for having been alone. */
+/* Nobody saves up time, neither by being away nor by being blocked, and nobody pays for having been alone. */
 static void no_savings_and_no_debts(void **state)
 {
     (void)state;
@@ -224,12 +225,12 @@ static void no_savings_and_no_debts(void **state)
     barred->barred = false;
     before = late->served;
     run(&b, 605000);
-    assert_true(barred->served <= 1000 + 200 + 2 * SLICE); /* it draws level by 200 ms at most */
+    assert_true(barred->served <= 1000 + 200 + 2 * SLICE); /* it catches up by at most 200 ms */
     assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
 }
 
-/* Nor does a class of one client's work: whatever its weight, one that was barred catches up by 200 ms of the device.
- */
+/* The same for one class of a client's work: whatever its weight, one that was blocked catches up by at most 200 ms
+ * of the device. */
 static void a_class_that_was_barred(void **state)
 {
     (void)state;
@@ -246,13 +247,13 @@ static void a_class_that_was_barred(void **state)
             const double before = other->served, waited = b.now;
             while (other->served <= before)
                 assert_non_null(turn(&b));
-            /* 200 ms; its own share between two slices of the other one, by their weights; a slice that is under way,
-             * the other one's, and the rounding of one. */
+            /* 200 ms; its own share between two slices of the other one, by their weights; a slice of the other one
+             * that is being computed; and the rounding to one slice. */
             assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
         }
 }
 
-/* One who comes and goes, each time with a new work, has no more than its share. */
+/* A client that comes and goes, each time with a new work, gets no more than its share. */
 static void coming_and_going(void **state)
 {
     (void)state;
@@ -272,7 +273,7 @@ static void coming_and_going(void **state)
     assert_true(taken <= 10000 + 100 && steady->served >= 10000 - 100);
 }
 
-/* More clients than are told apart share places, and are all served. */
+/* If there are more clients than can be told apart, some share a place, and all are served. */
 static void more_clients_than_places(void **state)
 {
     (void)state;
@@ -289,7 +290,7 @@ static void more_clients_than_places(void **state)
     assert_true(fabs(b.now - 30.0 * b.n) < 1e-6);
 }
 
-/* Estimates that are wrong change the order, not the shares. */
+/* Wrong estimates change the order, not the shares. */
 static void wrong_estimates(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Skies: the catalogue and its counts, frames by places of the literature, stars that are made up, the panorama and
- * its packing. */
+/* Tests of skies: the catalogue and its counts, orientations against published places, generated stars, the panorama
+ * and its packing. */
 #include "render/sky/frame.h"
 #include "render/sky/panorama.h"
 #include "render/sky/star.h"
@@ -15,8 +15,8 @@
 #define DEGREE (M_PI / 180)
 #define NEAR(x, y, by) assert_true(fabs((x) - (y)) <= (by))
 
-/* How many stars there are of each magnitude, as counted in the package by other means; ESA, The Hipparcos
- * Catalogue, of Sirius and Canopus. */
+/* The number of stars of each magnitude, as counted in the package by other means; Sirius and Canopus from ESA, The
+ * Hipparcos Catalogue. */
 static void the_catalogue_is_whole(void **state)
 {
     (void)state;
@@ -44,8 +44,8 @@ static void the_catalogue_is_whole(void **state)
     NEAR(canopus.dec / DEGREE, -52.6957, 2e-3);
 }
 
-/* Flux by hand: five magnitudes are a factor of 100; a square arcsecond is 2.350443e-11 sr. The Sun's colour, 0.65,
- * is that of 5770 K (Ballesteros 2012, whose fit gives 5778 K for 0.648). */
+/* Flux computed by hand: five magnitudes are a factor of 100; a square arcsecond is 2.350443e-11 sr. The Sun's
+ * colour, 0.65, is that of 5770 K (Ballesteros 2012, whose fit gives 5778 K for 0.648). */
 static void light_and_colour(void **state)
 {
     (void)state;
@@ -55,7 +55,7 @@ static void light_and_colour(void **state)
     assert_true(kd_star_kelvin(-0.3) > 15000 && kd_star_kelvin(1.6) < 3800);
 }
 
-/* Galactic places as SIMBAD has them: l, b of M42, omega Cen, M31, and the pole. */
+/* Galactic coordinates l, b by SIMBAD: M42, omega Cen, M31, and the pole. */
 static void galactic_places(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static double determinant(const struct kd_rotation *r)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* No orientation mirrors the sky. What it is called after lies where it should, whatever the inclination. */
+/* No orientation mirrors the sky, and what each is named after lies where it should, whatever the inclination. */
 static void orientations(void **state)
 {
     (void)state;
@@ -126,8 +126,8 @@ static struct kd_stars stars_of(int model, int seed, double limit)
     return stars;
 }
 
-/* As many as the catalogue has where it is complete, a quarter more or less; the same of one seed, others of
- * another. */
+/* As many generated stars as the catalogue has where it is complete, within a quarter; the same for one seed, others
+ * for another. */
 static void made_up_stars(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void made_up_stars(void **state)
     kd_stars_finish(&real);
 }
 
-/* Nine bits of the largest channel. */
+/* The packed format has nine bits for the largest channel. */
 static void packing(void **state)
 {
     (void)state;
@@ -172,8 +172,8 @@ static void packing(void **state)
     }
 }
 
-/* Black space at the poles, the plane some 22 magnitudes a square arcsecond in the mean, and none of it below 0; the
- * coarsest level is the mean. */
+/* The Milky Way is black at the poles and on average some 22 magnitudes a square arcsecond in its plane, and nowhere
+ * negative; the coarsest level is the mean. */
 static void the_milky_way(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void the_milky_way(void **state)
     polar /= one.width * (one.height / 12);
     plane /= one.width * 64;
     assert_true(polar < 3e-3 && plane > 0.1 && plane < 1);
-    for (uint32_t y = 0; y < one.height; y++) /* no seam where l is 180 degrees */
+    for (uint32_t y = 0; y < one.height; y++) /* no seam at l = 180 degrees */
         NEAR(one.texels[3 * ((size_t)y * one.width)], one.texels[3 * ((size_t)y * one.width + one.width - 1)],
              0.2 * one.texels[3 * ((size_t)y * one.width)] + 0.02);
     const size_t words = kd_panorama_words(one.width, one.height);

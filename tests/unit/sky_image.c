@@ -1,4 +1,4 @@
-/* sky.image: from the bytes of a PNG file to a panorama and its mips. */
+/* Tests of sky.image: from the bytes of a PNG file to a panorama and its mipmaps. */
 #include "image/png.h"
 #include "render/sky/image.h"
 
@@ -32,8 +32,8 @@ static struct kd_sky_picture read_it(const struct kd_buffer *png, char credit[KD
     return picture;
 }
 
-/* Values of IEC 61966-2-1, computed elsewhere: 188 of 255 is 0.502886 of white, 10 is 0.00303527; 30000 of 65535 is
- * 0.177015. */
+/* Values of IEC 61966-2-1, computed by other means: 188 of 255 is 0.502886 of white, 10 is 0.00303527; 30000 of
+ * 65535 is 0.177015. */
 static void light(void **state)
 {
     (void)state;
@@ -60,7 +60,7 @@ static void light(void **state)
     kd_buffer_finish(&b);
 }
 
-/* Sides become powers of two, and no light is lost, or moved by more than a tenth of a texel. */
+/* Sides become powers of two; no light is lost, or moved by more than a tenth of a texel. */
 static void sizes(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void bad_files(void **state)
     refuse(off.data, off.size, "33 x 16 pixels");
     refuse("text", 4, "not a PNG file");
     refuse("", 0, "not a PNG file");
-    good.data[good.size - 20] ^= 8; /* pixels that only decoding finds damaged */
+    good.data[good.size - 20] ^= 8; /* damage that only decoding the pixels finds */
     refuse(good.data, good.size, "damaged PNG file");
     kd_buffer_finish(&square);
     kd_buffer_finish(&flat);
@@ -164,8 +164,8 @@ static void credits(void **state)
 
 enum { WIDTH = 512, HEIGHT = 256 };
 
-/* What is left of meridians, a wave of so many texels, in the row that a latitude has at a level: its amplitude, and
- * the row's mean. */
+/* What is left of a pattern along the meridians, a wave with a period of so many texels, in the row of that latitude
+ * at a level: its amplitude, and the row's mean. */
 static void wave(bool even, double period, double latitude, int level, double *amplitude, double *mean)
 {
     struct kd_sky_picture p = { WIDTH, HEIGHT, malloc(3 * sizeof(float) * WIDTH * HEIGHT), even };
@@ -192,8 +192,8 @@ static void wave(bool even, double period, double latitude, int level, double *a
     free(words);
 }
 
-/* At 86 degrees 32 texels are 2.2 of the equator's: none of it is left where texels are of 4, of both where they are
- * not narrower. */
+/* At 86 degrees 32 texels are as wide as 2.2 at the equator: nothing of that wave is left at the level whose texels
+ * are as wide as 4 of them; at level 0, or next to the equator, it is there. */
 static void poles(void **state)
 {
     (void)state;
@@ -201,11 +201,11 @@ static void poles(void **state)
     wave(true, 32, 86, 2, &amplitude, &mean);
     NEAR(amplitude, 0, 0.05);
     NEAR(mean, 1, 5e-3);
-    wave(true, 32, 86, 0, &amplitude, &mean); /* sin(x)/x of the mean over 14.3 texels */
+    wave(true, 32, 86, 0, &amplitude, &mean); /* sin(x)/x for the mean over 14.3 texels */
     NEAR(amplitude, 0.70, 0.03);
     wave(true, 32, 0.5, 2, &amplitude, &mean);
     NEAR(amplitude, 0.97, 0.03);
-    wave(false, 32, 86, 2, &amplitude, &mean); /* as a picture is that needs none of it */
+    wave(false, 32, 86, 2, &amplitude, &mean); /* as in a picture that needs no such averaging */
     NEAR(amplitude, 0.98, 0.02);
 }
 

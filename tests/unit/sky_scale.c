@@ -1,4 +1,4 @@
-/* The scale of the sky on a picture: lengths and places as they are measured on it. */
+/* Tests of the scale of the sky drawn on a picture: lengths and places measured in its pixels. */
 #include "image/legend.h"
 #include "image/sky_scale.h"
 
@@ -15,7 +15,7 @@ static struct kd_canvas canvas_of(uint32_t width, uint32_t height, int depth, in
 {
     const size_t bytes = (size_t)3 * width * height * (depth == 16 ? 2 : 1);
     struct kd_canvas canvas = { malloc(bytes), width, height,
-                                depth }; /* of exact size, so that a sanitizer sees a pixel too far */
+                                depth }; /* of exact size, so that a sanitizer notices a pixel written beyond the end */
     assert_non_null(canvas.pixels);
     memset(canvas.pixels, value, bytes);
     return canvas;
@@ -34,13 +34,13 @@ static void bars_are_round_and_fit(void **state)
         const struct kd_sky_scale scale = { uas, 0 };
         const double bar = kd_sky_scale_bar(&scale, 1000), most = 250 * uas,
                      first = bar / pow(10, floor(log10(bar) + 1e-9));
-        assert_true(bar <= most * (1 + 1e-12) && bar > most * 0.39); /* from 2 to 5 it is farthest */
+        assert_true(bar <= most * (1 + 1e-12) && bar > most * 0.39); /* the largest step is from 2 to 5 */
         assert_true(fabs(first - 1) < 1e-9 || fabs(first - 2) < 1e-9 || fabs(first - 5) < 1e-9);
     }
 }
 
-/* The highest line of ink is the bar, between its ends; the disk is as wide, and as high, as its diameter, to a
- * pixel. Nothing else is touched. */
+/* The topmost line of ink is the bar, between its ends; the beam's disk is as wide and high as its diameter, to a
+ * pixel. No other pixels change. */
 static void lengths_are_to_scale(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void lengths_are_to_scale(void **state)
     }
 }
 
-/* A beam as large as the picture is not drawn, nor anything in a picture that is too small. */
+/* A beam as large as the picture is not drawn, and nothing is drawn in a picture that is too small. */
 static void what_has_no_room_is_left_out(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Images of stars in maps of the sky that are written down here, and the names of stars by places of the literature. */
+/* Tests of images of stars with maps of the sky that are made up here, and of the names of stars by published
+ * places. */
 #include "render/sky/star_images.h"
 #include "render/sky/star_names.h"
 #include "render/sky/star.h"
@@ -28,8 +29,8 @@ static enum kd_status keep(void *user, const struct kd_star_image *image)
     return KD_OK;
 }
 
-/* A pinhole camera that looks along x, y to the left, z upwards, `wide` from the middle to the edge; side -1: in a
- * mirror. */
+/* A pinhole camera that looks along x, y to the left, z upwards, `wide` from the middle to the edge; side -1:
+ * mirrored. */
 static struct kd_vec seen_at(double x, double y, double wide, int side)
 {
     const double unit = tan(wide) / (WIDTH / 2.0), right = side * (x - WIDTH / 2.0) * unit,
@@ -54,9 +55,9 @@ static struct kd_sky_map map_of(const struct sky *sky)
     return (struct kd_sky_map) { .width = WIDTH, .height = HEIGHT, .coarse = 0.15, .of = sky, .row = row_of };
 }
 
-/* Each star that stands in the picture has one image, where the camera has it, of the pixel's own solid angle, cos^3
- * over the square of the distance; left is left, but for a mirror. Where the observer goes round, it goes by as the
- * star that is turned back. */
+/* Each star in the picture has one image, where the camera has it, with the pixel's own solid angle, cos^3 over the
+ * square of the distance; left stays left unless mirrored. If the observer circles, the star it matches is the one
+ * rotated back. */
 static void a_plain_camera(void **state)
 {
     (void)state;
@@ -100,8 +101,8 @@ static void a_plain_camera(void **state)
     }
 }
 
-/* A map that takes two halves of the picture to the same sky shows each star twice, the second time mirrored; behind
- * rays that do not escape, and between those that are too far apart, there are none. */
+/* A map that takes the two halves of the picture to the same sky shows each star twice, the second time mirrored;
+ * there are no images among rays that do not escape, nor between rays that are too far apart. */
 static void doubles_and_holes(void **state)
 {
     (void)state;
@@ -118,23 +119,23 @@ static void doubles_and_holes(void **state)
     assert_int_equal(seen.n, 2);
     assert_true(fabs(seen.of[0].x - 29.7) < 0.01 && !seen.of[0].mirrored &&
                 fabs(seen.of[1].x - (WIDTH - 30.7)) < 0.01 && seen.of[1].mirrored);
-    for (int i = 0; i < 2; i++) /* the triangle that it lies in */
+    for (int i = 0; i < 2; i++) /* the triangle that contains it */
         sky.rays[(40 + i) * WIDTH + 30].x = NAN;
     seen.n = 0;
     assert_int_equal(kd_star_images(&map, sky.stars, 1, keep, &seen), KD_OK);
     assert_int_equal(seen.n, 1);
-    fill(&sky, 1.45, 1); /* a pixel of 0.1 in the tangent */
+    fill(&sky, 1.45, 1); /* a pixel is 0.1 in the tangent */
     sky.stars[0] = seen_at(WIDTH / 2.0 + 0.3, HEIGHT / 2.0 + 0.4, 1.45, 1);
     seen.n = 0;
     assert_int_equal(kd_star_images(&map, sky.stars, 1, keep, &seen), KD_OK);
     assert_int_equal(seen.n, 1);
-    fill(&sky, 1.53, 1); /* and of 0.3, more than is taken */
+    fill(&sky, 1.53, 1); /* a pixel is 0.3, more than is accepted */
     assert_int_equal(kd_star_images(&map, sky.stars, 1, keep, &seen), KD_OK);
     assert_int_equal(seen.n, 1);
 }
 
-/* A sky folded along the column FOLD: x is bent as (x - FOLD)^2, so that a star so far on one side of the caustic
- * has two images at the root of it, and none on the other. */
+/* A sky folded along the column FOLD: x is mapped to (x - FOLD)^2, so that a star at some distance on one side of
+ * the caustic has two images at the square root of it, and none on the other side. */
 #define FOLD 70.37
 static struct kd_vec folded(double x, double y)
 {
@@ -149,7 +150,8 @@ static bool folded_exactly(const void *of, double x, double y, struct kd_vec *ou
     return true;
 }
 
-/* Both images of a star next to the caustic, one mirrored, however near to one another; none beyond it. */
+/* Both images of a star next to the caustic are found, one of them mirrored, however close to each other; none
+ * beyond it. */
 static void pairs_that_merge(void **state)
 {
     (void)state;
@@ -179,7 +181,7 @@ static void pairs_that_merge(void **state)
         }
 }
 
-/* Stars by their places, J2000, of SIMBAD. */
+/* Stars by their places, J2000, from SIMBAD. */
 static void names_are_of_their_stars(void **state)
 {
     (void)state;

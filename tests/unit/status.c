@@ -1,5 +1,5 @@
-/* Steps that can fail: each is taken once, none after the first that fails, and what is held is let go of either
- * way. */
+/* Tests of steps that can fail: each is taken once, none after the first that fails, and what is held is released in
+ * either case. */
 #include "base/error.h"
 
 #include <setjmp.h>
@@ -13,8 +13,8 @@
 #define N_STEPS 3
 
 struct walk {
-    int fails;          /* the step that does, N_STEPS: none */
-    int taken[N_STEPS]; /* how often */
+    int fails;          /* the step that fails; N_STEPS: none */
+    int taken[N_STEPS]; /* how often each was taken */
     int unref;
 };
 
@@ -26,9 +26,9 @@ static enum kd_status step(struct walk *walk, int i)
 
 static enum kd_status steps(struct walk *walk)
 {
-    enum kd_status status = KD_EBUSY; /* what it was before does not matter */
+    enum kd_status status = KD_EBUSY; /* the former value does not matter */
     for (int i = 0; i < N_STEPS; i++)
-        if (i % 2) /* the macro is one statement, so that the else is not of another if */
+        if (i % 2) /* the macro is one statement, so that the else belongs to this if */
             KD_TRY(step(walk, i));
         else
             KD_TRY(step(walk, i));
@@ -49,7 +49,7 @@ static void each_once_until_one_fails(void **state)
     }
 }
 
-/* What is quoted may be anything, and a sentence may end in the middle of a character. */
+/* Quoted text may be anything, and a message may be cut in the middle of a character. */
 static void errors_can_be_shown(void **state)
 {
     (void)state;
@@ -67,7 +67,7 @@ static void errors_can_be_shown(void **state)
     assert_int_equal(error.message[sizeof error.message - 2], '?');
 }
 
-/* A pointer says where, in RFC 6901's escapes: what is cut off of it leaves none half. */
+/* A pointer names a place with RFC 6901's escapes: if it is cut, no escape is cut in half. */
 static void pointers_are_cut_between_escapes(void **state)
 {
     (void)state;

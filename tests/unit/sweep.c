@@ -1,5 +1,5 @@
-/* Axes of a sweep: values, ranges, the order of scenes, names, refusals; which scenes follow one another for the
- * sake of their lens maps. */
+/* Tests of a sweep's axes: values, ranges, the order of scenes, names, refusals; and of the order that lets scenes
+ * share lens maps. */
 #include "render/accuracy/table.h"
 #include "render/output/gather.h"
 #include "render/plan/plan.h"
@@ -56,7 +56,7 @@ static void the_last_axis_is_the_fastest(void **state)
     kd_sweep_free(s);
 }
 
-/* Values as they are typed, by hand. */
+/* Values as they are typed, computed by hand. */
 static void ranges(void **state)
 {
     static const struct {
@@ -126,8 +126,8 @@ static void what_is_refused(void **state)
     }
 }
 
-/* A value may be good and a combination not; a style is set before what it sets; an axis makes the element that it
- * is of. */
+/* Each value may be valid and a combination not; a style is set before the fields it sets; an axis creates the list
+ * element it belongs to. */
 static void combinations(void **state)
 {
     struct kd_scene scene;
@@ -179,7 +179,7 @@ static void names_and_documents(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Places that have the same lens map, one after the other, of a sweep whose outermost axes leave it alone. */
+/* Scenes with the same lens map follow one another, in a sweep whose outermost axes do not change it. */
 static void those_that_share_a_lens_map_follow_one_another(void **state)
 {
     struct kd_sweep *s = good("{\"style.exposure\": [0, 1], \"camera.inclination_deg\": [10, 20, 30], "
@@ -188,7 +188,8 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     unsigned changes = 0;
     char seen[24] = "";
     (void)state;
-    assert_int_equal(kd_sweep_order_go_on(&order, s, 0), KD_OK); /* it is past that: a piece */
+    /* its deadline has passed already, so that only a piece is done */
+    assert_int_equal(kd_sweep_order_go_on(&order, s, 0), KD_OK);
     assert_null(order.frames);
     assert_int_equal(kd_sweep_order_go_on(&order, s, INFINITY), KD_OK);
     assert_non_null(order.frames);
@@ -203,7 +204,7 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     kd_sweep_free(s);
 }
 
-/* Lens maps that are shared are paid once. */
+/* A shared lens map is paid for once. */
 static void what_is_shared(void **state)
 {
     struct kd_sweep_order order = { 0 };
@@ -218,7 +219,7 @@ static void what_is_shared(void **state)
     kd_sweep_order_finish(&order);
 }
 
-/* On the plans of scenes: equal groups have equal lens maps, and whatever changes the map changes the group. */
+/* For the plans of scenes: equal groups have equal lens maps, and whatever changes the map changes the group. */
 static void groups_are_those_of_lens_maps(void **state)
 {
     static const char *const changes[][2] = {
@@ -258,7 +259,8 @@ static void groups_are_those_of_lens_maps(void **state)
     assert_true(same >= 4 && same < sizeof changes / sizeof *changes - 4);
 }
 
-/* What no axis says: a plan of another size, a scene with other layers. */
+/* Scenes of one cube must agree in what is no axis: refused are a plan of another size and a scene with other
+ * layers. */
 static void a_cube_has_one_shape(void **state)
 {
     struct kd_cube_shape shape;

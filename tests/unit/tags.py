@@ -50,7 +50,7 @@ def wrong(src, shaders):
 
 
 def self_test():
-    """Each kind of doubled name is found, what may stand twice is not."""
+    """Each kind of doubled name is found, a permitted repetition is not reported."""
     files = {
         "src/a.h": "struct kd_one { int a; };\nenum kd_two { KD_A };\nstruct kd_three { KD_FIELDS };\nstruct kd_four { int n; };\n",
         "src/b.h": "struct kd_one { int b; };\nstruct kd_two;\n/* struct kd_three { int none; }; */\nstruct own { int a; };\n",

@@ -1,4 +1,5 @@
-/* Texts as characters of an address: there and back, and whatever else comes is refused within the bounds. */
+/* Tests of texts encoded as characters of a URL: encoding and decoding, and refusal of anything else within bounded
+ * memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +29,7 @@ static void texts_come_back(void **state)
     }
 }
 
-/* By Python: base64.urlsafe_b64encode(zlib.compress(text, 9, -15)).rstrip(b"=") */
+/* Made by Python: base64.urlsafe_b64encode(zlib.compress(text, 9, -15)).rstrip(b"=") */
 static void codes_of_others_are_read(void **state)
 {
     (void)state;
@@ -51,8 +52,8 @@ static void what_is_no_code_is_refused(void **state)
         { "Kyh+", "must be base64url", KD_EINVAL },
         { "Kyh=", "must be base64url", KD_EINVAL },
         { "K", "must be base64url", KD_EINVAL },
-        { "KyhKLU4tsS3Ozc8vyTACAB", "must be base64url", KD_EINVAL },             /* bits that belong to no byte */
-        { "KyhKLU4tsU1PLEpPzCsp", "must be one deflated text", KD_EINVAL },       /* cut off */
+        { "KyhKLU4tsS3Ozc8vyTACAB", "must be base64url", KD_EINVAL },       /* bits left over after the last byte */
+        { "KyhKLU4tsU1PLEpPzCsp", "must be one deflated text", KD_EINVAL }, /* cut off */
         { "KyhKLU4tsU1PLEpPzCspTQQAAA", "must be one deflated text", KD_EINVAL }, /* a byte behind its end */
         { "YwAA", "must be one deflated text", KD_EINVAL },                       /* NUL */
         { longest, "longer than 2048", KD_ETOOBIG },

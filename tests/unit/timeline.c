@@ -1,5 +1,5 @@
-/* Scenes between keyframes, in what is not a matter of jobs or of sessions alone: paths of observers, distances by
- * ratios, what is refused. */
+/* Tests of scenes between keyframes, independent of jobs and sessions: paths of observers, interpolation of
+ * distances by ratios, refusals. */
 #include "scene_support.h"
 
 #include "scene/timeline.h"
@@ -42,7 +42,8 @@ static struct kd_scene at(const struct kd_timeline *t, double where)
     return scene;
 }
 
-/* Rain in Schwarzschild: r^(3/2) falls evenly with proper time, from 8 M, in 4/3 M from the horizon to the end. */
+/* Rain in Schwarzschild: r^(3/2) falls evenly with proper time, from 8 M; from the horizon to the end it takes 4/3
+ * M. */
 #define RAIN "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":8,\"observer\":\"infall\"}}"
 
 static void free_fall_by_proper_time(void **state)
@@ -71,7 +72,8 @@ static void free_fall_by_proper_time(void **state)
     kd_timeline_finish(&t);
 }
 
-/* At 10 M, where d(phi)/dtau = 1/(r^(3/2) sqrt(1 - 3/r)) without spin; and eased, halfway at half of the time. */
+/* An orbit at 10 M, where d(phi)/dtau = 1/(r^(3/2) sqrt(1 - 3/r)) without spin; and eased, halfway at half of the
+ * time. */
 static void an_orbit_by_proper_time(void **state)
 {
     (void)state;
@@ -95,7 +97,7 @@ static void an_approach_by_ratios(void **state)
     assert_true(fabs(at(&t, 0).camera.r - 1000) < 1e-9 && fabs(at(&t, 1).camera.r - 100) < 1e-11 &&
                 fabs(at(&t, 3).camera.r - 20) < 1e-11);
     assert_true(at(&t, 2).camera.r == 10 && at(&t, 4).camera.r == 40 && at(&t, 9).camera.r == 40);
-    assert_true(fabs(at(&t, 1).camera.fov_deg - 60) < 1e-12); /* an angle is none */
+    assert_true(fabs(at(&t, 1).camera.fov_deg - 60) < 1e-12); /* an angle is not interpolated by ratios */
     kd_timeline_finish(&t);
     t = made("{\"camera\":{\"field_m\":10}}", "[{\"at\":2,\"scene\":{\"camera\":{\"field_m\":40}}}]", "geometric");
     assert_true(fabs(at(&t, 1).camera.field_m - 20) < 1e-12 && isinf(at(&t, 1).camera.r));
@@ -109,7 +111,8 @@ static void an_approach_by_ratios(void **state)
     kd_timeline_finish(&t);
 }
 
-/* From one unit to the other the width goes on in M; while the hole changes it stays on the sky. */
+/* If the unit of the width changes, it is interpolated in M; if only the hole changes, the width stays the same on
+ * the sky. */
 static void a_field_in_microarcseconds(void **state)
 {
     (void)state;
@@ -161,7 +164,7 @@ static void what_is_no_path_is_refused(void **state)
             fail_msg("%s: %s %s", wrong[i].keys, error.pointer, error.message);
         assert_null(t.keys);
     }
-    /* Between keyframes: from a fall onto an orbit that is none with that clock. */
+    /* An error between two keyframes: from a fall to an orbit that does not exist with that clock. */
     struct kd_timeline t = made(RAIN,
                                 "[{\"at\":1,\"proper_time\":2},{\"at\":2,\"scene\":{\"camera\":{\"observer\":"
                                 "\"velocity\"}},\"proper_time\":0}]",
@@ -177,7 +180,7 @@ static void what_is_no_path_is_refused(void **state)
 
 enum { MANY = 10000, SOME = 1000, FEW = 20 };
 
-/* A turn of the camera in uneven steps, of up to 170 degrees each; turned[k]: its azimuth at key k, all turns
+/* A turn of the camera in uneven steps, of up to 170 degrees each; turned[k]: its azimuth at key k, with all turns
  * counted. */
 static struct kd_timeline turning(size_t n, enum kd_interpolation by, double *turned)
 {
@@ -195,7 +198,7 @@ static struct kd_timeline turning(size_t n, enum kd_interpolation by, double *tu
     return t;
 }
 
-/* The least of nine times, of this thread alone: others may be at work. */
+/* The shortest of nine measurements of this thread's time: other processes may be running. */
 static double seconds_of(const struct kd_timeline *t, int frames)
 {
     double least = INFINITY;
@@ -210,8 +213,8 @@ static double seconds_of(const struct kd_timeline *t, int frames)
     return least;
 }
 
-/* Angles that go the shorter way add up turns from the first key on, and yet a frame looks at the keys beside it
- * alone. */
+/* Angles that go the shorter way accumulate turns from the first key on, and yet a frame needs only the keys next to
+ * it. */
 static void a_great_many_keys(void **state)
 {
     (void)state;
@@ -229,13 +232,14 @@ static void a_great_many_keys(void **state)
         }
     const double slow = seconds_of(&t, 1000), quick = seconds_of(&few, 1000);
     print_message("a frame: %.1f us of %d keys, %.1f us of %d\n", slow * 1e3, MANY, quick * 1e3, SOME);
-    assert_true(slow < 5 * quick); /* neither fits a cache; in proportion it would be ten times */
+    /* neither fits in a cache; if the time were proportional to the keys it would be ten times */
+    assert_true(slow < 5 * quick);
     kd_timeline_finish(&t);
     kd_timeline_finish(&few);
     free(turned);
 }
 
-/* A curve is that of the keys beside it: two before, two after. */
+/* A curve depends only on the nearest keys: two before, two after. */
 static void curves_are_local(void **state)
 {
     (void)state;

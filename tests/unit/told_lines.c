@@ -1,9 +1,8 @@
-/* The error that a line profile tells against its true one, over a random sample of all that can be asked: at least
- * 999 of 1000 are within it. The true one is by triangles between rays (tests/oracle/line_triangles.h), ever more of
- * them until it is known to be less than the told one.
+/* Tests the error that a line profile states against its true error, over a random sample of all possible requests:
+ * at least 999 of 1000 must be within the stated error. The true one is found with triangles between rays
+ * (tests/oracle/line_triangles.h), more and more of them until its own uncertainty is below the stated error.
  *
- *     unit_told_lines [PROFILES [SEED]]      a long run: 2000 take some ten minutes
- */
+ *     unit_told_lines [PROFILES [SEED]]     a long run: 2000 take some ten minutes */
 #include "base/random.h"
 #include "physics/disk/lamppost.h"
 #include "physics/disk/line_profile.h"
@@ -60,7 +59,7 @@ static void ask_light(struct kd_random *random, struct kd_line_params *p, double
     p->photon_index = between(random, 1, 3.5);
 }
 
-/* Even bins as they are by default, or a few edges anywhere. */
+/* Even bins as by default, or a few edges at random places. */
 static void ask_edges(struct kd_random *random, struct asked *q)
 {
     double at = 0;
@@ -103,7 +102,7 @@ static double worst_of(const double *share, const double *want, int bins)
     return worst;
 }
 
-struct truth { double error, known; }; /* to how much it is known */
+struct truth { double error, known; }; /* known: the uncertainty of error */
 
 static struct truth truth_of(const struct asked *q, const double *share, double told)
 {

@@ -1,10 +1,9 @@
-/* The error that a disk's spectrum tells against its true one, over a random sample of spins, radii, limbs and
- * frequencies, 80 to 87 degrees, where the image bends most: at least 999 of 1000 are within it. The true one is by
- * rays of their own in place of the table, at more rings and directions, and by half as many of each it is known how
- * well.
+/* Tests the error that a disk's spectrum states against its true error, over a random sample of spins, radii, limb
+ * darkening and frequencies, at 80 to 87 degrees, where the image is most curved: at least 999 of 1000 must be
+ * within the stated error. The true one is found with rays traced individually instead of the table, with more rings
+ * and directions; its own uncertainty by repeating that with half as many of each.
  *
- *     unit_told_spectra [SPECTRA [SEED]]      a long run: 200 take some ten minutes
- */
+ *     unit_told_spectra [SPECTRA [SEED]]     a long run: 200 take some ten minutes */
 #include "base/random.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/thin_disk.h"
@@ -56,7 +55,7 @@ static struct asked ask(struct kd_random *random)
 
 static double places[3][2][AROUND];
 
-/* The slope along a ring, to the fourth order. */
+/* The slope along a ring, by differences of fourth order. */
 static double along(const double *x, int j, int n)
 {
     return (8 * (x[(j + 1) % n] - x[(j + n - 1) % n]) - (x[(j + 2) % n] - x[(j + n - 2) % n])) / (12 * 2 * M_PI / n);

@@ -1,4 +1,4 @@
-/* Jobs that take turns: one that computes for long lets others go first in the midst of its turn. */
+/* Tests of jobs that take turns: one that computes for long lets others go first in the middle of its turn. */
 #include "server/http/task_scheduler.h"
 
 #include "base/clock.h"
@@ -98,7 +98,7 @@ static void test_a_short_turn_comes_between_long_ones(void **state)
     kd_scheduler_destroy(turns);
 }
 
-/* A job whose turns several workers take begins no more of them while it waits than there are workers. */
+/* While it waits, a job whose turns are shared by several workers begins no more of them than there are workers. */
 static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void *destroy(void *turns)
     return NULL;
 }
 
-/* A turn that has paused ends with the queue, as one that is under way does. */
+/* A paused turn ends when the queue is destroyed, as one that is running does. */
 static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
 {
     (void)state;
@@ -142,7 +142,7 @@ static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
         jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
         kd_scheduler_push(turns, &jobs[i]);
     }
-    while (atomic_load(&computing) <= kd_cores()) /* then one of them at least has paused */
+    while (atomic_load(&computing) <= kd_cores()) /* then at least one of them has paused */
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
     assert_int_equal(pthread_create(&thread, NULL, destroy, turns), 0);
     nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL); /* the queue is closing, and turns are under way */

@@ -1,5 +1,5 @@
-/* Two threads that never sleep, on one core, wait half of the time each: what the kernel says of that is what
- * passes' costs are freed of. */
+/* Two threads that never sleep, on one core, wait half of the time each: tests the kernel's figure of waiting, which
+ * is subtracted from the measured costs of passes. */
 #include "base/cpu_pressure.h"
 
 #include <pthread.h>
@@ -17,7 +17,7 @@ static void *spin(void *user)
     struct timespec t = { 0 };
     while (t.tv_nsec < 100000000 && !t.tv_sec) /* 0.1 s of its own processor time */
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    pthread_barrier_wait(user); /* a thread that has ended is not counted any more */
+    pthread_barrier_wait(user); /* a thread that has ended is no longer counted */
     pthread_barrier_wait(user);
     return NULL;
 }
@@ -57,7 +57,7 @@ static void shared_core(void **state)
 static void nothing_known(void **state)
 {
     (void)state;
-    struct kd_cpu_pressure future = { 1e30, 1e30 }; /* as when threads have ended */
+    struct kd_cpu_pressure future = { 1e30, 1e30 }; /* larger totals than now, as when threads have ended since */
     assert_true(kd_cpu_pressure_share(&future) == 1);
 }
 

@@ -7,8 +7,8 @@ import daemon
 
 class Alone(Browser):
     def covers(self, page):
-        """Whether nothing but the picture is seen: it has the window's size, at its own aspect ratio, and is what lies
-        at any point of it."""
+        """Whether only the picture is visible: it has the window's size, at its own aspect ratio, and is the topmost
+        element at any point of it."""
         return page.evaluate("""() => {
             const stage = document.getElementById('stage'), box = stage.getBoundingClientRect(), picture = document.getElementById('picture');
             const points = [[0.02, 0.02], [0.5, 0.5], [0.98, 0.02], [0.02, 0.98], [0.97, 0.9]];
@@ -48,7 +48,7 @@ class Alone(Browser):
         self.assertNotEqual(float(self.field(page, "camera.azimuth_deg")), 0)
 
     def test_buttons_come_with_the_pointer(self):
-        """And with the keyboard's focus; what was not seen is not pressed."""
+        """And with the keyboard's focus; a button that was not visible is not pressed by the key that shows it."""
         page = self.open()
         page.keyboard.press("f")
         shown = lambda: page.evaluate('() => getComputedStyle(document.querySelector(".buttons")).opacity') == "1"

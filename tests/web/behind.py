@@ -30,7 +30,7 @@ TINY = {"image": {"width": 64, "height": 36}, "motion": {"time_rate": 1}}
 
 
 class Behind(browser.Browser):
-    """What holds behind each of them. base is the address that a browser has."""
+    """Tests that hold behind each proxy. base is the address that a browser uses."""
 
     options, headers, query = (), {}, ""
 
@@ -77,7 +77,7 @@ class Behind(browser.Browser):
             connection.close()
 
     def session(self, scene):
-        """Opens one, and closes it with the test; where it is, its token."""
+        """Opens one, and closes it with the test; returns its address and its token."""
         status, body, headers = self.ask("POST", "v1/sessions", scene)
         self.assertEqual(status, 201, body)
         at = urllib.parse.urljoin(self.prefix + "/v1/sessions", headers["Location"])
@@ -115,7 +115,7 @@ class Behind(browser.Browser):
         self.assertEqual(self.ask("PATCH", at, {"camera": {"azimuth_deg": 50}})[0], 403)
 
     def stream(self, path, marker, n, **headers):
-        """The bytes of a stream up to the n-th marker, none of which waits for the stream to end."""
+        """The bytes of a stream up to the n-th marker, which must arrive without waiting for the end of the stream."""
 
         def read(answer):
             got = b""
@@ -159,7 +159,7 @@ class Behind(browser.Browser):
 
 
 class Forwards:
-    """A proxy that passes on what comes, as it comes, and leads the prefix alone to the page."""
+    """A proxy that passes everything on unchanged, and leads the bare prefix to the page."""
 
     moves, streams = True, {}
 
@@ -190,7 +190,7 @@ class Passed(Forwards, Behind):
 
 
 class Jupyter(Behind):
-    """Its user has come with the token of Jupyter, and has a cookie since then."""
+    """The user has logged in with Jupyter's token, and has had a cookie since."""
 
     moves, streams = False, {"Accept": "text/event-stream"}  # any other answer it keeps until that has ended
     token = "b1a" * 8

@@ -54,7 +54,7 @@ def value(cell):
 
 
 def rows(schema, before="", group=None):
-    """(path, row, group) of each field of a schema; of a list the rows of its first element."""
+    """(path, row, group) of each field of a schema; for a list the rows of its first element."""
     for name, spec in schema["properties"].items():
         if before + name == "image.tile":
             continue  # the page shows whole pictures
@@ -75,12 +75,12 @@ def paths(document, before=""):
             yield before + name, value
 
 
-# in a link: a disk that rests, and light that stays where it is
+# a scene in a link that stays as it is: a disk at rest, without slow light
 SMOOTH = "disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0"
 
 
 class Browser(unittest.TestCase):
-    """Tests that share a server and a browser; each page has a context of its own."""
+    """Tests that share a server and a browser; each page has a browser context of its own."""
 
     @classmethod
     def setUpClass(cls, *options):
@@ -98,7 +98,7 @@ class Browser(unittest.TestCase):
             raise AssertionError(f"kerrd exited with {code}")
 
     def leave(self, context):
-        """A page that is left ends its session; chromium-headless-shell closes one without telling it."""
+        """Leaving a page ends its session; chromium-headless-shell closes a page without telling it."""
         for page in context.pages:
             page.goto("about:blank", wait_until="commit")
         context.close()
@@ -107,7 +107,7 @@ class Browser(unittest.TestCase):
         self.complaints, self.requests, self.frames, self.contexts, self.expected = [], [], [], [], ""
 
     def tearDown(self):
-        # Before the pages close: what a browser says of requests that a closing page drops is no complaint.
+        # Before the pages close: messages about requests dropped by a closing page are not errors.
         for context in self.contexts:
             for page in context.pages:
                 page.evaluate("0")
@@ -132,8 +132,8 @@ class Browser(unittest.TestCase):
         return page
 
     def context(self, gallery=False, **options):
-        """Small pictures of presets are asked for where gallery says so: they would come at any moment, and beside what
-        a test counts."""
+        """Small pictures of presets are requested only if gallery is set: otherwise they would come at any moment,
+        and disturb what a test counts."""
         options.setdefault("viewport", {"width": 1000, "height": 640})
         context = self.browser.new_context(**options)
         if not gallery:
@@ -197,7 +197,7 @@ class Browser(unittest.TestCase):
         }""")
 
     def rows(self, page, selector):
-        """The texts of a table's cells, row by row, at one moment: a table of what is live is soon replaced."""
+        """The texts of a table's cells, row by row, at one moment, because a live table is soon replaced."""
         return page.evaluate(
             "within => [...document.querySelectorAll(within + ' tbody tr')].map(row => [...row.cells].map(c => c.textContent))",
             selector,
@@ -217,18 +217,18 @@ class Browser(unittest.TestCase):
         page.wait_for_selector(AT_REST)
 
     def there(self, page, words, selector, text=False):
-        """Waits for words that come after what brings them; text: also where they are in what is folded up."""
+        """Waits for words to appear; text: also in what is folded up."""
         read = page.text_content if text else page.inner_text
         self.assertTrue(daemon.eventually(lambda: words in read(selector)), f"{words!r} in {read(selector)!r}")
 
     def linked(self, page, *parts):
-        """The address follows a moment after what is done."""
+        """The address changes shortly after an action."""
         self.assertTrue(
             daemon.eventually(lambda: page.evaluate("0") or all(part in page.url for part in parts)), page.url
         )
 
     def quiet(self, page, ms=500):
-        """Waits until a page has asked for nothing for so long."""
+        """Waits until a page has requested nothing for that long."""
 
         def still():
             before = len(self.requests)

@@ -19,7 +19,7 @@ def code_of(text):
 
 
 class Page(http.server.SimpleHTTPRequestHandler):
-    """A site of its own; each page is what its query says."""
+    """A site of its own; each page contains what its query says."""
 
     bodies = {}
 
@@ -83,7 +83,7 @@ class Embed(Browser):
         )
 
     def canvas(self, page):
-        """A number made of the live picture; None: there is none."""
+        """A checksum of the live picture; None: there is none."""
         return page.evaluate("""() => {
             const canvas = document.querySelector('kerr-hole').shadowRoot.querySelector('canvas');
             if (canvas.hidden) return null;

@@ -21,8 +21,8 @@ class Falling(Browser):
         return [json.loads(q.post_data) for q in self.requests if q.method == "PATCH"]
 
     def named(self, page):
-        """Images of stars, which the page asks for when a pointer moves over the picture; not before it has what it
-        takes."""
+        """Lists images of stars, which the page requests when a pointer moves over the picture, but not before it
+        has everything that this needs."""
 
         def asked():
             for x in (100, 120):
@@ -34,8 +34,8 @@ class Falling(Browser):
         return asked().response().json()["images"]
 
     def rain_time(self, r):
-        """Ingoing Kerr-Schild time of rain without spin, from r on, but for its end: dt = dT + dr/(1 + (r/2)^(1/2)),
-        where Painleve's T is its own."""
+        """The ingoing Kerr-Schild time of rain without spin, from r on, up to its end: dt = dT + dr/(1 +
+        (r/2)^(1/2)), where Painleve's T is rain's own time."""
         x = math.sqrt(r / 2)
         return 4 * x**3 / 3 + 4 * x - 4 * math.log(1 + x)
 
@@ -127,7 +127,7 @@ class Falling(Browser):
         self.assertFalse(page.is_visible("#fall"), "who changes the observer has the camera")
 
     def test_a_fall_that_the_server_goes_on_with(self):
-        """It stands and goes on by the button; what is said, linked and saved is of the place that is seen."""
+        """The button stops and continues it; what is shown, linked and saved is for the place that is seen."""
         page = self.open(
             "lang=en&preset=infall&motion.proper_time_rate=0.3",  # slow: a busy machine shows few pictures of it
             "#stage[data-final]",
@@ -145,7 +145,7 @@ class Falling(Browser):
         page.click("#play")
         went_on = daemon.eventually(lambda: self.camera_r(page) < r - 0.5)
         self.assertTrue(went_on, f"it goes on from r {r}: {self.seen(page, stood)}")
-        # By number: two requests are under way at once, and the browser tells of their answers in any order.
+        # By number, because two requests are running at once and the browser may report their answers in any order.
         frames = sorted(self.frames[stood:], key=lambda frame: int(frame.headers["kerrd-frame"]))
         places = [float(frame.headers["kerrd-clock"].split()[0][2:]) for frame in frames]
         self.assertGreater(places[0], r - 4)
@@ -159,7 +159,7 @@ class Falling(Browser):
         self.assertTrue(put, f"and from where it is put: {self.seen(page, stood)}")
 
     def seen(self, page, since):
-        """What a failed test tells of the page and of its session: the frames after `since`, and the patches."""
+        """What a failed test reports of the page and of its session: the frames after `since`, and the patches."""
         return {
             "r": self.camera_r(page),
             "status": page.inner_text("#status"),
@@ -203,7 +203,7 @@ class Falling(Browser):
         self.assertFalse(self.open("lang=en").is_visible("#look"), "from far there is nothing to look around at")
 
     def test_a_star_says_its_name(self):
-        """Where the server says that an image is, the picture has its brightest point; the pointer there is told its
+        """Where the server places an image the picture has its brightest point; a pointer there is shown the star's
         name."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial",
@@ -253,7 +253,7 @@ class Falling(Browser):
         self.assertFalse(page.is_visible("#star"), lost)
 
     def test_a_name_stays_while_the_picture_turns(self):
-        """The pointer rests where a star comes by: its mark goes with it, at the pace of the picture."""
+        """The pointer rests where a star passes: the star's mark moves with it, at the pace of the picture."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5",
             wait="#stage[data-final]",
@@ -270,7 +270,7 @@ class Falling(Browser):
             and 60 < i["y"] < high - 60
             and math.hypot(i["x_by_azimuth"], i["y_by_azimuth"]) > 3
         )
-        # The star goes past the pointer, and then has no mark: the page itself notes each one.
+        # The star moves past the pointer, and then has no mark: the page itself records each mark.
         page.evaluate(
             """() => {
                 window.marks = [];

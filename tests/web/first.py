@@ -28,8 +28,8 @@ class First(Browser):
         return page
 
     def test_it_is_gas_that_turns_before_stars(self):
-        """As it comes: stars between which it is black, a disk, and more of another when it has turned; one at rest has
-        all pixels of the window."""
+        """With the default scene: black between the stars, a disk, and other parts of the gas after some time; a
+        picture at rest has all pixels of the window."""
         for lang, width, height in (("en", 1440, 900), ("it", 390, 844)):
             page = self.page(self.context(viewport={"width": width, "height": height}))
             page.goto(self.base + f"#lang={lang}")
@@ -78,8 +78,8 @@ class First(Browser):
             self.assertGreater(black, 80)
 
     def test_its_picture_is_ahead_of_the_page(self):
-        """Its session is opened, and its picture shown, before the rest of the page is there, which then goes on with
-        both; in a window that widens it not."""
+        """Its session is opened, and its picture shown, before the rest of the page is loaded, which then uses both;
+        not in a window that widens the field."""
         context = self.context(viewport={"width": 800, "height": 600})
         page, opened, held = self.page(context), [], []
         page.on(
@@ -136,7 +136,7 @@ class First(Browser):
         self.assertTrue(daemon.eventually(lambda: page.text_content("#play") == "Play"))
 
     def test_a_preset_after_another_has_its_own_colours(self):
-        """A style that is named sets its colours anew at the server: those that both scenes have are said again."""
+        """A named style sets its colours anew at the server: those that both scenes share must be sent again."""
         page = self.open()
         names = [preset["name"] for preset in self.daemon.get("/v1/presets").json()["presets"]]
         scenes = {name: self.daemon.get("/v1/presets/" + name).json() for name in names}
@@ -159,8 +159,8 @@ class First(Browser):
         )
 
     def test_the_quality_of_pictures_follows_the_line(self):
-        """A simulated line of so many bytes a second, on which one picture follows the other, of sizes that were
-        measured of the default at 670 x 500."""
+        """A simulated line of limited bytes a second, on which pictures follow one another, with sizes measured for
+        the default scene at 670 x 500."""
         page = self.open()
         paces = page.evaluate(
             """async lines => {
@@ -241,7 +241,7 @@ class First(Browser):
         self.assertEqual(self.cut(page), [])
 
     def cut(self, page):
-        """Words of cards that are not seen whole."""
+        """Words on cards that are partly hidden."""
         return page.evaluate("""() => [...document.querySelectorAll('#gallery :is(b, span)')].filter(({ scrollHeight, clientHeight, scrollWidth, clientWidth }) =>
             scrollHeight > clientHeight + 1 || scrollWidth > clientWidth).map(node => node.textContent)""")
 

@@ -17,7 +17,7 @@ SIZE = {"width": 700, "height": 460}
 
 class Hand(Browser):
     def card(self, page, act):
-        """What the card says once an act has been answered."""
+        """The text of the card once an action has been answered."""
         page.evaluate('() => delete document.getElementById("pixel").dataset.asked')
         act()
         page.wait_for_selector("#pixel[data-asked]")
@@ -38,7 +38,7 @@ class Hand(Browser):
 
     def test_from_the_disk(self):
         """Face on and without spin light that bends by a quarter of a turn leaves from r = (1 + b^2)^(1/2) - 1, by
-        Beloborodov's approximation (2002), at g = (1 - 3/r)^(1/2)."""
+        Beloborodov's approximation (2002), with g = (1 - 3/r)^(1/2)."""
         page = self.open(FACE_ON, viewport=SIZE)
         wide = page.locator("#stage").bounding_box()["width"]
         name = self.tap(page, 0.3 * wide, 0)
@@ -146,8 +146,8 @@ class Hand(Browser):
         self.assertEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
 
     def test_a_sheet_on_a_telephone(self):
-        """Three heights by key, tap and drag; the picture stays in sight. A finger that goes sideways below the picture
-        turns over to the next preset."""
+        """Three heights by key, tap and drag; the picture stays visible. A swipe sideways below the picture shows
+        the next preset."""
         page = self.open(
             "lang=en&preset=gas-stars",
             "#stage[data-final]",
@@ -248,8 +248,8 @@ class Hand(Browser):
         )
 
     def test_undo_leaves_nothing_in_the_address(self):
-        """Not the time that a preset let go on, nor where it turned the camera to, nor the width that fits the
-        window."""
+        """Neither the time that has passed in a preset, nor the direction to which it turned the camera, nor the
+        width that fits the window."""
         state = lambda: sorted(page.evaluate("location.hash").removeprefix("#").split("&"))
         for preset, has, height in (
             ("jet", "time=", 640),
@@ -264,7 +264,7 @@ class Hand(Browser):
             self.linked(page, has)
             page.wait_for_selector("#undo:enabled")
             page.click("#undo")
-            # The width that fits the window may, or may not yet, stand in the address before.
+            # The address may, or may not yet, have contained the width that fits the window.
             self.assertTrue(
                 daemon.eventually(lambda: "preset=default" in state() and not set(state()) - set(before)),
                 (state(), before),
@@ -308,8 +308,8 @@ class Hand(Browser):
             self.assertLess(told["path"]["least_r"], 5, "a ray of the critical curve")
 
     def test_what_there_is_to_see(self):
-        """Five views and five texts, and then all is as it was; the line that says what this is goes with the first
-        touch."""
+        """Five views and five texts, after which everything is as before; the line that introduces the page
+        disappears with the first touch."""
         page = self.page(self.context(viewport={"width": 900, "height": 520}))
         page.goto(self.base + "#lang=en&pause=1")
         page.wait_for_selector(AT_REST)
@@ -351,8 +351,8 @@ class Hand(Browser):
         )
 
     def test_the_shown_picture_goes_along_until_the_next_comes(self):
-        """Pictures are held back in the page, those that are on their way as well: what lies under the pointer comes
-        along all the same, and what comes nearer grows."""
+        """Pictures are held back in the page, including those on their way: what is under the pointer moves along
+        all the same, and what comes nearer grows."""
         HOLD = """(() => { const real = window.fetch; window.hold = false;
             window.fetch = async (...asked) => { const answer = await real(...asked);
                 while (window.hold && String(asked[0]).includes('/frame')) await new Promise(done => setTimeout(done, 20));

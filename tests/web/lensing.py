@@ -10,7 +10,7 @@ from browser import AT_REST, FINE, KERRD, READY, SMOOTH, VIEWS, Browser, main, p
 
 import daemon
 
-# bytes of all that a visit to every view loads, as sent, without pictures and what a playground tells as it goes
+# bytes of everything that a visit to every view loads, as sent, without pictures and the updates of a playground
 BUDGET = 350_000
 
 
@@ -156,8 +156,8 @@ class Lensing(Browser):
             self.assertEqual(float(self.field(page, "spacetime.spin")), end)
 
     def test_sliders_over_decades_go_by_factors(self):
-        """From one position to the next a value grows by a few per cent, wherever it stands; angles and signs stay
-        linear."""
+        """From one position to the next a value grows by a few per cent, over the whole range; angles and values
+        with a sign stay linear."""
         page = self.open()
         slide = lambda path, at: page.evaluate(
             """([path, at]) => {
@@ -219,8 +219,8 @@ class Lensing(Browser):
         self.assertEqual(self.pixels(again), self.pixels(page))
 
     def test_a_style_sets_its_fields(self):
-        """As in a document: but for what a link or a hand says. A link keeps also what is as by default, which the
-        style would change."""
+        """As in a document: except for fields that a link or the user sets. A link also contains values that equal
+        the default, because the style would change them."""
         page = self.open("lang=en&style.name=dngr&style.bloom=0.25")
         self.open_groups(page)
 
@@ -256,8 +256,8 @@ class Lensing(Browser):
         self.assertEqual(sent()["style"]["tone_map"], "aces")
 
     def test_a_measured_ring_lies_over_the_picture(self):
-        """M87* and Sgr A* open as the telescope showed them, and the ring with its error is there to scale; a slider
-        takes ring and beam away."""
+        """M87* and Sgr A* open as the telescope showed them, with the measured ring and its error drawn to scale; a
+        slider removes ring and beam."""
         for name, spread, error in (("m87", 42, 3), ("sgra", 51.8, 2.3)):
             page = self.open(f"lang=en&preset={name}")
             page.wait_for_selector("#overlay .over-ring path >> nth=2", state="attached")
@@ -305,8 +305,8 @@ class Lensing(Browser):
         page.wait_for_selector("#overlay .over-ring", state="detached")
 
     def test_photon_rings_have_axes(self):
-        """Orders stand where their light is: of a small disk at 20 M and its like each e^-gamma nearer to the curve; a
-        wheel takes fewer decades."""
+        """Orders are drawn where their light is: for light of a small disk at 20 M each is closer to the curve than
+        the one before by e^-gamma; the wheel reduces the number of decades."""
         page = self.open("lang=en&preset=photon-rings", "#stage[data-final]")
         page.wait_for_selector("#overlay .order >> nth=5", state="attached")
         names, places, high = (
@@ -325,8 +325,8 @@ class Lensing(Browser):
         self.assertTrue(daemon.eventually(lambda: float(self.field(page, "camera.ring_decades_min")) > least))
 
     def test_the_style_of_a_radio_telescope(self):
-        """Its fields are there with it; what makes no sense without false colours hides, and is told of where it is in
-        the way."""
+        """Its fields appear with it; controls that make no sense without false colours are hidden otherwise, and
+        where one of them prevents a change that is explained."""
         self.expected = "422"  # of the bar without its colours
         page = self.open("lang=en&preset=edge-on")
         self.open_groups(page)
@@ -387,7 +387,7 @@ class Lensing(Browser):
         )
 
     def test_a_link_is_a_preset_with_fields_over_it(self):
-        """As ?preset=gargantua&camera.r=30 is for the server, which says here what that is."""
+        """As the server interprets ?preset=gargantua&camera.r=30, which states the result here."""
         over = "spacetime.spin=0.5&style.name=eht&disk.doppler=false&camera.azimuth_deg=0"
         told = subprocess.run(
             [
@@ -430,8 +430,8 @@ class Lensing(Browser):
         self.assertEqual(json.loads(again.input_value("#scene-text")), json.loads(page.input_value("#scene-text")))
 
     def test_a_low_window_holds_the_whole_hole(self):
-        """As much is seen upwards as in a window of 16:9; who chooses a width has it, and a link without one says
-        none."""
+        """The same height is visible as in a window of 16:9; a width chosen by the user stays, and a link without
+        one has none."""
         shape = lambda page: page.evaluate(
             '() => document.getElementById("stage").clientWidth / document.getElementById("stage").clientHeight'
         )
@@ -460,7 +460,7 @@ class Lensing(Browser):
         self.assertEqual(wide(), 33)
 
     def test_a_field_in_microarcseconds(self):
-        """The width in M is shown as what it comes to, and follows the mass; a wheel goes on from it."""
+        """The width in M is shown with its result, and follows the mass; the wheel continues from it."""
         page = self.open(f"lang=en&{SMOOTH}&camera.field_uas=40")
         self.open_groups(page)
         scale = self.physics("scale", mass_msun=1e8, distance_pc=260000)["m_uas"]
@@ -491,7 +491,7 @@ class Lensing(Browser):
         self.assertEqual((saved[:4], saved[16:24]), (b"\x89PNG", (1280).to_bytes(4, "big") + (720).to_bytes(4, "big")))
 
     def test_ticks_are_along_the_electric_field(self):
-        """A toroidal field face on, far from a hole that does not turn, polarises along the radius."""
+        """A toroidal field seen face on, far from a hole without spin, polarises along the radius."""
         view = "lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=60&disk.outer=20&disk.taper=0&over=polarization"
         page = self.open(view)
         self.open_groups(page)
@@ -591,8 +591,8 @@ class Lensing(Browser):
         self.assertGreater(bright["lit_outside"] / bright["outside"], 0.3, bright)
 
     def lines_lie_on_the_disk(self, page, within=1e9):
-        """Between the direct images of its edges the picture is lit; outside all images of its outer edge it is black.
-        within: what is looked at, by half the shorter side."""
+        """Between the direct images of its edges the picture is lit; outside all images of its outer edge it is
+        black. within: the area that is examined, in units of half the shorter side."""
         page.wait_for_selector("#overlay .over-orders path", state="attached")
         seen = page.evaluate(
             """async within => {

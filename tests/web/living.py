@@ -94,7 +94,7 @@ class Living(Browser):
         )
 
     def test_whatever_varies_can_be_set_going(self):
-        """As the server says of the scene, which knows what shines; the page knows none of it."""
+        """The server reports for the scene what shines and varies; the page does not know this itself."""
         page = self.open(SMOOTH + "&lang=en")
         there = lambda: (page.is_visible("#play"), page.is_visible('[data-path="time"]'))
         self.assertEqual(there(), (False, False))
@@ -112,8 +112,8 @@ class Living(Browser):
         )
 
     def test_a_list_grows(self):
-        """A group of controls for each spot and for the next one; what is saved and sent knows their order, whichever
-        is lit first."""
+        """A group of controls for each spot and for the next one; what is saved and sent has their order, whichever
+        is switched on first."""
         page = self.open("lang=en&spots.2.brightness=4&spots.2.r=14", FINE)
         self.open_groups(page)
         groups = lambda: [g for g in page.locator("#fields summary").all_inner_texts() if g.startswith("Spot ")]
@@ -226,7 +226,7 @@ class Living(Browser):
         loop.locator("tbody tr >> nth=3").wait_for()
 
         def turned():
-            """Whether a row tells of much polarised light."""
+            """Whether a row of the table shows strongly polarised light."""
             rows = [[value(cell) for cell in row[1:3]] for row in self.rows(page, "#light figure:has(#loop-caption)")]
             return any(math.hypot(*row) > 1 for row in rows)
 

@@ -33,8 +33,8 @@ class Orbits(Browser):
         self.assertIn("42.98″", page.inner_text("#orbit-facts"))
 
     def test_less_angular_momentum_turns_it_into_a_plunge(self):
-        """The integrals of motion begin as those of the orbit that is shown; L then goes through the separatrix without
-        a blank."""
+        """The constants of motion start as those of the orbit shown; L then passes the separatrix without a blank
+        picture."""
         page = self.open("lang=en&view=orbits", "#orbit-picture .front")
         page.wait_for_selector("#orbit-facts >> text=bound")
         before = self.facts(page)
@@ -157,7 +157,7 @@ class Orbits(Browser):
 
     def test_nothing_that_a_hand_does_is_refused(self):
         """Dragged through the hole and beyond the picture, thrown into it, past the separatrix and away: the console
-        stays empty, and each answer is drawn."""
+        has no errors, and each answer is drawn."""
         page = self.open("lang=en&view=orbits", "#orbit-picture .body[cx]", reduced_motion="reduce")
         box = page.locator("#orbit-picture svg").bounding_box()
         middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
@@ -210,12 +210,12 @@ class Orbits(Browser):
             )
 
     def worded(self, page, pattern):
-        """Waits for the words beside the orbit in the picture, which say "computing" whenever it is found anew."""
+        """Waits for the words beside the orbit in the picture, which are "computing" whenever it is computed again."""
         read = lambda: page.text_content("#over-orbit-words")
         self.assertTrue(daemon.eventually(lambda: re.search(pattern, read())), f"{pattern!r} in {read()!r}")
 
     def test_it_is_shown_in_the_picture(self):
-        """A circle in the plane of the disk is where the overlay of the disk's own circles has it; it follows the
+        """A circle in the plane of the disk is drawn where the overlay has the disk's own circles; it follows the
         camera, and can be switched off."""
         view = f"lang=en&{SMOOTH}&spacetime.spin=0.5&disk.inner=9&orbit.spin=0.5&orbit.p=9&orbit.e=0&orbit.inclination_deg=0"
         page = self.open(view + "&view=orbits", READY["orbits"])
@@ -250,7 +250,7 @@ class Orbits(Browser):
         self.shot(page, "orbit-lensed-inclined")
 
     def test_a_whirl_is_no_chords(self):
-        """Seen from the axis neighbouring points stand a few degrees apart round the hole, and no line crosses its
+        """Seen along the axis neighbouring points are a few degrees apart round the hole, and no line crosses its
         shadow."""
         page = self.open(
             f"lang=en&{SMOOTH}&spacetime.spin=0.9&camera.inclination_deg=1&camera.field_m=40&over=orbit&orbit.orbit=zoom-whirl",
@@ -276,7 +276,7 @@ class Orbits(Browser):
         self.shot(page, "orbit-whirl")
 
     def apart(self, page):
-        """How far the points of the orbit are from the first line of the orders, in pixels, at worst."""
+        """The largest distance of the orbit's points from the first line of the overlay of orders, in pixels."""
         return page.evaluate("""() => {
             const points = node => [...node.getAttribute('d').matchAll(/[ML]([-\\d.]+) ([-\\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)]),
                 orbit = points(document.querySelector('#overlay .over-orbit path')), line = points(document.querySelector('#overlay .over-orders path'));

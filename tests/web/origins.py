@@ -13,7 +13,8 @@ import browser
 import daemon
 
 TOKEN = "render-0123456789abcdef"
-# What the page's scripts do, by the server's address and an access token: an object that says what they have seen.
+# What the page's scripts do, given the server's address and an access token: returns an object with what they could
+# see.
 SCRIPT = """async ([server, token]) => {
   const seen = {}, headers = { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' };
   const scene = { image: { width: 64, height: 36 } };
@@ -48,7 +49,7 @@ SCRIPT = """async ([server, token]) => {
 
 
 class Page(http.server.SimpleHTTPRequestHandler):
-    """A site of its own, of one empty page."""
+    """A site of its own, with one empty page."""
 
     def do_GET(self):
         self.send_response(200)

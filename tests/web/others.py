@@ -120,7 +120,8 @@ class WebKit:
 
 
 class SlowLine(threading.Thread):
-    """A line to a port of this machine: 150 ms each way, and so many bytes a second for all connections together."""
+    """A line to a port of this machine: 150 ms each way, and a limited number of bytes a second for all connections
+    together."""
 
     late_s, bytes_s = 0.15, 1e6 / 8
 
@@ -147,8 +148,8 @@ class SlowLine(threading.Thread):
         await asyncio.gather(self.carry(reader, far_writer), self.carry(far_reader, writer), return_exceptions=True)
 
     async def carry(self, reader, writer):
-        """Bytes leave in the order in which they came, each piece once the line is free and its way is done; what is on
-        its way holds up nothing that follows."""
+        """Bytes leave in the order in which they came, each piece once the line is free and its delay is over; a
+        piece on its way does not hold up those that follow."""
         way = asyncio.Queue(64)
 
         async def arrive():
@@ -266,7 +267,7 @@ class Others(unittest.TestCase):
                 self.wait(f"return !!document.querySelector('{ready}')")
 
     def test_small_windows(self):
-        """As wide as a telephone, or the narrowest that this browser has; and 1440 x 900 at 200 %."""
+        """As narrow as a telephone, or the narrowest that this browser allows; and 1440 x 900 at 200 %."""
         self.start((500, 844))
         for size in ((500, 844), (720, 450)):
             self.browser.resize(*size)

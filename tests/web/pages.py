@@ -8,7 +8,7 @@ from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 
 import daemon
 
-# Controls that stick out of the page, and buttons that lie over one another.
+# Controls that extend beyond the page, and buttons that overlap.
 CROWDED = """() => {
     const shown = [...document.querySelectorAll('button, a.button, select, summary, label, input')].filter(n => n.checkVisibility() && !n.closest('[aria-hidden=true]'));
     const box = n => n.getBoundingClientRect(), text = n => n.outerHTML.slice(0, 80);
@@ -39,8 +39,8 @@ class Pages(Browser):
         self.shot(self.open("lang=it&over=shadow,flamm&camera.inclination_deg=75", FINE), "lensing-it")
 
     def test_each_choice_has_its_word(self):
-        """Of each field with choices, in Italian; in English nothing stands as a program writes it: with an underscore,
-        or a name of letters and numbers with a hyphen."""
+        """For each field with choices, in Italian; in English no word is shown as in the program: with an
+        underscore, or a name of letters and digits with a hyphen."""
         schema = self.schema()
         choices = [
             (path, word)
@@ -121,7 +121,7 @@ class Pages(Browser):
         )
 
     def test_what_shines_is_told_in_italian(self):
-        """Whatever emitter there is: what it is called, what is seen of it, and what a button of its is called."""
+        """For every emitter: its name, the description of what is visible, and the name of its button."""
         page, seen = self.open("lang=it"), []
         buttons = [spec["x-button"]["title"] for _, spec, _ in rows(self.schema()) if "x-button" in spec]
         for scene in (
@@ -194,7 +194,7 @@ class Pages(Browser):
                     )
 
     def test_colours_of_the_system(self):
-        """Where they are forced, what is chosen still looks other than what is not, and a chart keeps its ground."""
+        """With forced colours a chosen item still looks different from others, and a chart keeps its background."""
         page = self.open("lang=en&view=playground&play.paused=1", READY["playground"], forced_colors="active")
         ground = lambda of: page.locator(of).first.evaluate("node => getComputedStyle(node).backgroundColor")
         for chosen, other in (
@@ -225,7 +225,7 @@ class Pages(Browser):
             )
 
     def test_four_times_the_size(self):
-        """A window of 1280 × 1024 at 400 %: the hole is seen, and what can be pressed lies within the picture or beside
+        """A window of 1280 × 1024 at 400 %: the hole is visible, and every control is within the picture or beside
         it."""
         page = self.open("lang=it", viewport={"width": 320, "height": 256}, device_scale_factor=4)
         covered, beyond = page.evaluate("""() => {

@@ -13,7 +13,7 @@ SIZES = ((390, 844), (1024, 700), (1440, 900))
 
 class Panel(Browser):
     def test_numbers_beside_a_word_have_their_bounds(self):
-        """What may be a word too is a number all the same: "infinity" or 0.01 to 1e7."""
+        """A field that takes a word as well still has its bounds as a number: "infinity" or 0.01 to 1e7."""
         told = self.open().evaluate("""async () => { const { Scene } = await import("./web/scene.js"), scene = await Scene.load();
             return [...scene.fields.values()].filter(f => f.word).map(f => [f.path, f.type, f.minimum, f.maximum, f.word]); }""")
         wanted = {
@@ -41,7 +41,7 @@ class Panel(Browser):
                 self.assertEqual(box.input_value(), goal, key)
 
     def test_what_is_being_typed_stays(self):
-        """A window that becomes another one changes the field of view, and not the number that somebody types."""
+        """Resizing the window changes the field of view, but not the number that the user is typing."""
         page = self.open(SMOOTH, "#stage[data-final]", viewport={"width": 500, "height": 400})
         self.open_groups(page)
         box = '[data-path="camera.inclination_deg"] input[type=number]'
@@ -54,8 +54,8 @@ class Panel(Browser):
         self.assertTrue(daemon.eventually(lambda: "camera.inclination_deg=33" in page.evaluate("location.hash")))
 
     def test_each_field_stands_in_its_group(self):
-        """In front where the field table says so, else behind a summary; what starts and stops time has its fields
-        beside it."""
+        """In front where the field table says so, otherwise behind a summary; the button that starts and stops time
+        has its fields beside it."""
         page, schema = self.open(), self.schema()
         self.assertEqual(tuple(schema["x-groups"]), GROUPS)
         there = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
@@ -110,7 +110,7 @@ class Panel(Browser):
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or page.url == address), "a link is of the scene")
 
     def test_help_names_no_paths(self):
-        """A help calls other fields by their labels, and points to no file of the source."""
+        """Help refers to other fields by their labels, and to no file of the source."""
         for lang, quoted in (("en", "“"), ("it", "«")):
             page = self.open("lang=" + lang)
             helps = page.locator("#fields [data-path] > .help").all_text_contents()
@@ -210,7 +210,7 @@ class Panel(Browser):
         self.assertTrue(page.is_disabled('[data-path="image.samples"] input[type=range]'))
 
     def test_a_sky_and_an_observer_have_their_own_fields(self):
-        """And a sentence that says what is chosen, in each language another one."""
+        """And a sentence that describes the choice, different in each language."""
         page, told = self.open("lang=en&camera.r=30&sky.model=grid&pause=1"), {}
         self.open_groups(page)
         sky = {
@@ -375,7 +375,7 @@ class Panel(Browser):
         self.assertEqual(passes & set(shown), set())
 
     def test_layouts(self):
-        """At no size does anything stand over anything else, or out of the window."""
+        """At no size does anything overlap anything else, or extend beyond the window."""
         for width, height in SIZES:
             for lang in ("en", "it"):
                 with self.subTest(width=width, lang=lang):

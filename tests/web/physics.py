@@ -30,8 +30,8 @@ class Physics(Browser):
         self.linked(page, "qnm.spin=0.95")
 
     def test_what_a_scene_adds_up_to(self):
-        """Line, spectrum and visibilities of the scene that is shown: asked for when one is chosen, again when the
-        scene has changed, and kept as CSV."""
+        """Line, spectrum and visibilities of the scene shown: requested when one is chosen, again when the scene has
+        changed, and saved as CSV."""
         page = self.open(SMOOTH + "&lang=en&spacetime.spin=0.5&camera.inclination_deg=40")
         page.click("#integrals > summary")
         figure = "#integral-plot figure"
@@ -171,7 +171,7 @@ class Physics(Browser):
         self.assertEqual(page.locator("#curve-qnm a[href*=wav]").count(), 0)
 
     def test_each_curve_is_explained(self):
-        """In both languages: three to six sentences or so under each, and how it follows, folded."""
+        """In both languages: about three to six sentences under each, and the derivation, folded."""
         told = {}
         for lang in ("en", "it"):
             page = self.open(f"lang={lang}&view=physics", "#curves .card:last-child canvas")
@@ -221,7 +221,7 @@ class Physics(Browser):
         self.assertLess(self.drawn(page, "#curve-kerr canvas")["coloured"], before["coloured"] - 200)
 
     def test_a_browser_that_has_no_language(self):
-        """WebKit under LANG=C says "c", which Intl refuses."""
+        """WebKit under LANG=C reports the language "c", which Intl refuses."""
         for view in ("physics", "orbits"):
             context = self.context()
             context.add_init_script('Object.defineProperty(Navigator.prototype, "language", { get: () => "c" })')

@@ -19,7 +19,7 @@ class Playground(Browser):
         return self.open("view=playground&" + fragment, THERE, **options)
 
     def address(self):
-        """Of the newest playground that a page has begun."""
+        """Of the newest playground that a page has started."""
         return [
             r.response().json()["id"]
             for r in self.requests
@@ -30,7 +30,7 @@ class Playground(Browser):
         return self.daemon.request("GET", "/v1/playground/" + self.address()).json()
 
     def bodies(self):
-        """By id: place, velocity, mass, radius, temperature, from the packed rows."""
+        """By id: position, velocity, mass, radius, temperature, from the packed rows."""
         packed = self.daemon.request("GET", f"/v1/playground/{self.address()}/bodies").body
         n, words = struct.unpack_from("<II", packed)
         return {
@@ -58,8 +58,8 @@ class Playground(Browser):
         return [float(page.input_value(f"#play-{what}-{axis}")) for axis in "xyz"]
 
     def test_a_body_is_thrown_by_a_drag(self):
-        """It is where the drag began with the velocity that the arrow is long; what the page foretells is where the
-        server has it later."""
+        """It starts where the drag began, with the velocity given by the arrow's length; the path predicted by the
+        page is where the server has it later."""
         page = self.open_play()
         self.pause(page)
         before, (x, y) = self.bodies(), self.stage(page)
@@ -105,7 +105,7 @@ class Playground(Browser):
 
     @staticmethod
     def beside(p, a, b):
-        """The distance of a point from a stretch."""
+        """The distance of a point from a line segment."""
         along = [y - x for x, y in zip(a, b)]
         share = min(max(sum((q - x) * d for q, x, d in zip(p, a, along)) / (sum(d * d for d in along) or 1), 0), 1)
         return math.dist(p, [x + share * d for x, d in zip(a, along)])
@@ -232,7 +232,7 @@ class Playground(Browser):
         self.shot(page, "playground", full_page=True)
 
     def test_a_star_was_torn_and_falls_back(self):
-        """And a snapshot from the command line goes on in the page, with what has come back until then."""
+        """And a snapshot from the command line continues in the page, with the debris that has returned so far."""
         made = subprocess.run(
             [
                 KERRD,
@@ -296,7 +296,7 @@ class Playground(Browser):
         self.assertGreaterEqual(again["t"] if "t" in again else again["state"]["t"], was["t"])
 
     def test_the_chirp_is_heard_where_somebody_wants_it(self):
-        """No sound before a gesture; what was switched on stays on, and so does the silence."""
+        """No sound before a gesture; once switched on it stays on, and once off it stays off."""
         count = "window.opened = 0; { const Real = AudioContext; window.AudioContext = class extends Real { constructor() { super(); window.opened++; } }; }"
         context = self.context(viewport={"width": 1200, "height": 900})
         context.add_init_script(count)
@@ -349,8 +349,8 @@ class Playground(Browser):
         self.assertGreater(len(texts), 30)
 
     def test_what_one_sees_is_said(self):
-        """Of each preset, in both languages; without a link both pictures are shown where there is room, and time goes
-        on at once."""
+        """For each preset, in both languages; without a link both pictures are shown where there is room, and time
+        runs at once."""
         for lang in ("en", "it"):
             page = self.open(
                 "view=playground&lang=" + lang, "#play-plane[data-bodies]", viewport={"width": 1440, "height": 900}
@@ -398,7 +398,7 @@ class Playground(Browser):
         self.assertFalse(page.is_visible("#play-lensed"))
 
     def test_what_was_left_goes_on(self):
-        """A playground that nobody watches ends; who comes back finds it as it was left."""
+        """A playground that nobody watches ends; a user who comes back finds it as it was."""
         self.expected = "404"
         page = self.open_play("lang=en&play.preset=emri&play.paused=1")
         page.fill("#play-at-y", "15")

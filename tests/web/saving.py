@@ -88,7 +88,7 @@ class Saving(Browser):
         )
 
     def test_as_large_as_the_window_it_is_what_is_seen(self):
-        """Gas, glare and automatic exposure included: to the pixel."""
+        """Including gas, glare and automatic exposure: equal to the pixel."""
         page = self.open("lang=en&preset=gas&pause=1", FINE, viewport={"width": 700, "height": 420})
         seen = self.pixels(page)
         self.choose(page, "window")
@@ -104,7 +104,7 @@ class Saving(Browser):
         self.assertEqual(self.pixels(page), seen)
 
     def test_sizes(self):
-        """What the choices ask for; the real pictures would take minutes."""
+        """The sizes that the choices request; the real pictures would take minutes."""
         page = self.open()
         page.route("**/v1/jobs", lambda route: route.fulfill(status=202, json={"id": "0" * 16, "token": "t"}))
         page.route(
@@ -137,7 +137,8 @@ class Saving(Browser):
         self.assertEqual((asked["window-3840"][0], asked["window-7680"][0]), (3840, 7680))
 
     def test_what_is_left_follows_from_what_was_done(self):
-        """No number before there is a basis; then that of the pace so far, whatever the server reckons."""
+        """No number until there is something to base it on; then from the pace so far, whatever the server
+        estimates."""
         page = self.open()
         left = page.evaluate("""async () => {
             const { remaining } = await import('./web/remaining.js');
@@ -171,7 +172,7 @@ class Saving(Browser):
         page.click("#save-cancel")
 
     def test_what_is_saved_is_what_is_seen(self):
-        """The window's own size to the rounding of a level, and a larger one once it is averaged down."""
+        """At the window's own size to the rounding of a level, and at a larger one when it is averaged down."""
         for preset in ("gargantua", "living-disk"):
             page = self.open(f"lang=en&pause=1&preset={preset}", FINE)
             seen = page.evaluate(
@@ -273,7 +274,7 @@ class Saving(Browser):
         self.assertEqual(len(self.jobs()), 1)
 
     def film(self, page):
-        """Of the real size and length a film takes a minute: what is asked for is made smaller on its way."""
+        """At its real size and length a film takes a minute: the request is made smaller on its way."""
         page.evaluate('() => { document.getElementById("take").open = true; }')
         page.wait_for_selector('#film-spin-takes:text-matches("^(about|some) ")')
 
@@ -287,7 +288,7 @@ class Saving(Browser):
         page.route("**/v1/jobs", smaller)
 
     def made(self, page, button):
-        """The keyframes that were asked for, and the pictures' scenes."""
+        """The keyframes of the request, and the pictures' scenes."""
         with page.expect_download() as download:
             page.click(button)
         self.assertEqual(download.value.suggested_filename, f"kerrd-{button.removeprefix('#film-')}-1280x720.zip")

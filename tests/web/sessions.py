@@ -32,7 +32,7 @@ class Sessions(Browser):
             self.assertIsNone(page.get_attribute("#status", "data-wrong"))
 
     def test_what_a_finer_picture_lacks_is_told(self):
-        """Where it takes the server long: below the picture in words, in both languages, and as a bar at its edge."""
+        """If it takes the server long: in words below the picture, in both languages, and as a bar at its edge."""
         for lang, words in (("en", "finer picture: 40 %, 8 s to go"), ("it", "immagine più fine: 40 %, mancano 8 s")):
             page = self.page(self.context())
             page.route(
@@ -58,7 +58,7 @@ class Sessions(Browser):
             )
 
     def test_what_the_first_picture_lacks_is_told(self):
-        """Where it will stand, in both languages, with a bar; of one that follows another, below that."""
+        """Where the picture will be, in both languages, with a bar; for one that follows another, below that one."""
         told = lambda frame: (
             lambda route: (
                 route.fulfill(json={"frame": frame, "rendering": {"fraction": 0.25, "remaining_s": 3.2}})
@@ -119,14 +119,14 @@ class Sessions(Browser):
         self.assertEqual((len(gone), len(opened())), (1, 2))
 
     def test_a_session_that_ends_while_nobody_looks(self):
-        """It is opened anew when somebody does, of the size that the window then has."""
+        """It is opened anew when a user looks again, with the size that the window then has."""
         page = self.open()
         self.expected = "404"
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         page.click("nav [data-view=physics]")
         page.wait_for_selector(READY["physics"])
-        # A poll that is under way is told of it; where the last picture came as the view was left there is none, and
-        # the page learns it afterwards.
+        # A poll that is running is told of it; if the last picture came just as the user left the view there is none,
+        # and the page learns it later.
         self.daemon.request("DELETE", "/v1/sessions/" + own["id"], headers={"Authorization": "Bearer " + own["token"]})
         page.wait_for_timeout(300)
         page.click("nav [data-view=lensing]")
@@ -156,8 +156,8 @@ class Sessions(Browser):
                 page.unroute(fails)
                 if view != "physics":  # that one goes by itself
                     page.click(f'{told} button:has-text("Try again")')
-                    # A browser may remember that a module did not come (Chromium 150 does, 156 does not): the next try
-                    # by hand loads the page anew.
+                    # A browser may remember that a module could not be loaded (Chromium 150 does, 156 does not): the
+                    # user's next try reloads the page.
                     again = lambda: page.evaluate('told => document.querySelector(told + " button")?.click()', told)
                     self.assertTrue(
                         daemon.eventually(
@@ -182,7 +182,7 @@ class Sessions(Browser):
             away()
 
             def still():
-                """Whether a second passes without a picture: one that was under way may come before."""
+                """Whether a second passes without a picture: one that was already on its way may come first."""
                 before = pictures()
                 page.wait_for_timeout(1000)
                 return pictures() == before
@@ -193,8 +193,8 @@ class Sessions(Browser):
             self.assertTrue(daemon.eventually(lambda: pictures() > before + 5))
 
     def test_a_picture_that_is_too_much_work_comes_smaller_and_says_so(self):
-        """Of a scene that the server takes no picture of the size of this window of, the page asks for half of it; of
-        another scene for all of it again."""
+        """If the server accepts no picture of a scene at this window's size, the page requests half of it; for
+        another scene the full size again."""
         sizes, scene, refused = (
             [],
             {},
@@ -231,8 +231,8 @@ class Sessions(Browser):
         self.assertTrue(daemon.eventually(lambda: "(1/" not in page.inner_text("#status")))
 
     def test_a_drag_over_a_long_line(self):
-        """Changes go with requests for pictures, several of which are under way; what the server then has is what the
-        page shows, and the last picture is exact."""
+        """Changes are sent with requests for pictures, several of which are running; in the end the server has what
+        the page shows, and the last picture is exact."""
         page = self.open("lang=en&preset=default&pause=1")
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         page.context.new_cdp_session(page).send(

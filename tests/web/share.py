@@ -10,18 +10,18 @@ import daemon
 
 class Share(Browser):
     def share(self, page):
-        """The link that the card shows."""
+        """The link shown on the card."""
         page.click("#send")
         page.wait_for_selector("#sending-link")
         return page.input_value("#sending-link")
 
     def seen(self, page):
-        """Waits for the picture that others will see."""
+        """Waits for the preview picture that others will see."""
         width = "document.querySelector('#sending img').naturalWidth"
         self.assertTrue(daemon.eventually(lambda: page.evaluate(width) == 600))
 
     def scene(self, page):
-        """What the page shows, but for the size of its window."""
+        """The scene that the page shows, without the size of its window."""
         scene = json.loads(page.input_value("#scene-text"))
         for name in "width", "height":
             scene["image"].pop(name)
@@ -44,7 +44,7 @@ class Share(Browser):
         self.assertEqual(other.url, "about:blank", "the page of the link is no stop on the way back")
 
     def test_the_width_of_the_window_is_not_sent(self):
-        """A window lower than 16:9 widens the field by itself; the link has the preset's."""
+        """A window lower than 16:9 widens the field by itself; the link has the preset's field."""
         page = self.open("lang=en&preset=edge-on&pause=1", viewport={"width": 1400, "height": 500})
         code = self.share(page).rsplit("/", 1)[1]
         self.assertLess(len(code), 40, "the name of the preset and no more")

@@ -1,4 +1,4 @@
-"""What clients/web did not write is what vendored.json says it is: vendored.py FOLDER"""
+"""Tests that files of clients/web by others are what vendored.json says they are: vendored.py FOLDER"""
 
 import hashlib
 import json

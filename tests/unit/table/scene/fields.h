@@ -1,5 +1,5 @@
-/* Another scene than kerrd's, which stands in the place of src/scene/fields.h where tests/unit/scene_table.c is
- * compiled: two lists of different lengths with rows of each kind, and assets in a section, in lists and in the
+/* A table of fields of another scene than kerrd's, used instead of src/scene/fields.h when tests/unit/scene_table.c
+ * is compiled: two lists of different lengths with rows of each kind, and assets in a section, in lists and in the
  * document itself. */
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
