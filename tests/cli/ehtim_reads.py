@@ -4,6 +4,7 @@ total flux to 1e-6, the angular scale."""
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -11,6 +12,7 @@ import compared
 import support
 
 PYTHON = pathlib.Path(__file__).resolve().parents[2] / "venv-ehtim/bin/python"
+TUTORIAL = pathlib.Path(__file__).resolve().parents[2] / "docs/tutorials/ehtim.md"
 NUMBERS = pathlib.Path(__file__).with_name("ehtim_numbers.json")
 M_UAS = 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16) * math.degrees(1) * 3.6e9  # G m_sun/c^2 = 1476.625 m
 READER = """
@@ -109,11 +111,11 @@ print(json.dumps([[z.real, z.imag] for z in v]))
                 timeout=200,
             )
             self.assertEqual(done.returncode, 0, done.stderr)
-            for (theirs_re, theirs_im), re, im in zip(
+            for (theirs_re, theirs_im), real, imaginary in zip(
                 json.loads(done.stdout.splitlines()[-1]), columns["re"], columns["im"]
             ):
-                self.assertAlmostEqual(re / columns["re"][0], theirs_re, delta=1e-5)
-                self.assertAlmostEqual(im / columns["re"][0], -theirs_im, delta=1e-5)
+                self.assertAlmostEqual(real / columns["re"][0], theirs_re, delta=1e-5)
+                self.assertAlmostEqual(imaginary / columns["re"][0], -theirs_im, delta=1e-5)
 
     def test_flux_and_polarisation(self):
         """Stokes I, Q, U and V in Jy a pixel, each where it belongs; the flux is that which the file tells."""
@@ -149,6 +151,20 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         self.assertAlmostEqual(*found["angles"], delta=1e-4)
         self.assertGreater(found["fraction"], 0)
         self.assertEqual(found["rate"], 1)
+
+    def test_the_tutorial(self):
+        """The last step of docs/tutorials/ehtim.md, which tests/http/documents.py runs only where ehtim is installed."""
+        text = TUTORIAL.read_text()
+        options = re.search(r"^kerrd (render .*) --stats -o sgra\.fits", text, re.M)[1].split()
+        program = re.search(r"^cat > load\.py << 'END'\n(.*?)^END$", text, re.M | re.S)[1]
+        self.good(*options, "-o", self.path("a.fits"))
+        done = subprocess.run(
+            [PYTHON, "-I", "-c", program, self.path("a.fits")], capture_output=True, text=True, timeout=200
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(
+            done.stdout, r"SGRA, 223 GHz, 64 x 64 pixels of \d+\.\d\d uas\nflux 2\.6\d Jy, linear .* 1\d\.\d %\n"
+        )
 
     def test_numbers_that_are_compared_where_ehtim_is_not(self):
         """tests/cli/files.py compares them: flux, polarisation, and where the light's middle is, east to the left."""

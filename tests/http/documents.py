@@ -1,5 +1,6 @@
 """The commands that the documentation shows, run as they stand; skipped where there is no device or no curl."""
 
+import importlib.util
 import os
 import pathlib
 import re
@@ -10,6 +11,7 @@ import unittest
 
 import daemon
 
+CLIENT = all(importlib.util.find_spec(name) for name in ("httpx", "numpy", "PIL"))
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURL = """#!/bin/bash
 exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
@@ -30,6 +32,7 @@ LEFT_OUT = {
     "python -c": "the client is not installed here; tests/python/client.py runs it",
     "podman ": "an image; scripts/matrix container makes it",
     "docker ": "a daemon of the system",
+    "kerrd film fall.json -o fall.mp4": "takes ffmpeg; the suite film makes films",
     "kubectl ": "a cluster",
     "sudo ": "a GPU of NVIDIA, and root",
     "systemctl ": "a system with systemd; scripts/boot starts one",
@@ -40,6 +43,8 @@ LEFT_OUT = {
     "curl -C - -O http://HOST": "the same; tests/http/films.py goes on with half a film",
     "curl -H 'Idempotency-Key: ": "the same; tests/http/once.py sends requests twice",
 }
+if not (ROOT / "venv-ehtim/bin/python").exists():
+    LEFT_OUT["venv-ehtim/bin/python "] = "ehtim is not installed; scripts/matrix ehtim runs it"
 # What takes minutes is begun, so that what it is called with is right, and ended after some seconds.
 BEGUN = {
     "kerrd playground --preset disruption --time 3200": "161 pictures of a torn star",
@@ -89,10 +94,22 @@ class Documents(unittest.TestCase):
         curl = programs.joinpath("curl")
         curl.write_text(CURL.format(curl=shutil.which("curl"), port=cls.daemon.port))
         curl.chmod(0o755)
-        for name in "docs", "clients", "data", "venv":  # as in the folder of the repository, which documents speak from
+        for name in (
+            "docs",
+            "clients",
+            "data",
+            "venv",
+            "venv-ehtim",
+        ):  # as in the folder of the repository, which documents speak from
             pathlib.Path(cls.folder.name, name).symlink_to(ROOT / name)
         pathlib.Path(cls.folder.name, "milky-way.png").symlink_to(ROOT / "docs/default.png")  # any picture
-        cls.environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+        packages = filter(None, (str(ROOT / "clients/python/src"), os.environ.get("PYTHONPATH")))
+        cls.environment = {
+            **os.environ,
+            "PATH": f"{programs}:{os.environ['PATH']}",
+            "PYTHONPATH": os.pathsep.join(packages),
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
 
     @classmethod
     def tearDownClass(cls):
@@ -203,6 +220,17 @@ class Documents(unittest.TestCase):
         self.run_all("docs/sweeps.md", 3)
         folder = pathlib.Path(self.folder.name)
         self.assertEqual(folder.joinpath("cube.npz").read_bytes(), folder.joinpath("same.npz").read_bytes())
+
+    @unittest.skipUnless(CLIENT, "the client's packages are not installed; scripts/setup --browser installs them")
+    def test_tutorial_picture(self):
+        pictures = "hole.png", "above.png", "slow.png", *(f"spin-{spin}.png" for spin in ("0", "0.5", "0.9", "0.998"))
+        self.made("docs/tutorials/picture.md", 5, *pictures)
+
+    def test_tutorial_ehtim(self):
+        self.made("docs/tutorials/ehtim.md", 5, "sgra.fits", "sgra.png", "visibility.csv")
+
+    def test_tutorial_film(self):
+        self.made("docs/tutorials/film.md", 4, "fall.zip", "blurred.zip", "fall/000011.png")
 
 
 if __name__ == "__main__":
