@@ -9,6 +9,7 @@ ITEM = re.compile(r"(?:[-*]|\d+\.) ")
 CODE = re.compile(r"(`+)(?:.*?[^`])?\1(?!`)", re.S)
 DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
 INLINE = re.compile(r"(?<![\\$\w])\$(?=[^\s$])([^$\n]*?[^\s$\\])\$(?![\w$])")
+FUNCTION = re.compile(r"(<mi>(?:sin|cos|tan|ln|log|exp|max|min)</mi>)(?=<m[inr])")  # needs a space before its argument
 MARK = "kerrdformula{}x"  # stands for a formula until the page is HTML
 formulas = []
 
@@ -25,7 +26,8 @@ def on_config(config):
 
 def put_aside(display):
     def one(found):
-        formulas.append(converter.convert(found[1].strip(), display="block" if display else "inline"))
+        formula = converter.convert(found[1].strip(), display="block" if display else "inline")
+        formulas.append(FUNCTION.sub(r'\1<mspace width="0.17em"/>', formula))
         return MARK.format(len(formulas) - 1)
 
     return one
@@ -57,7 +59,12 @@ def as_python_markdown(text):
             if listed and 2 <= depth < 4:
                 line = " " * (2 * depth if ITEM.match(bare) else 4) + bare
             starts = ITEM.match(bare) and not (listed and ITEM.match(before.lstrip()))
-            if depth == 0 and before.strip() and (starts or bare.startswith("|")) and before[:1] not in "|-*0123456789 ":
+            if (
+                depth == 0
+                and before.strip()
+                and (starts or bare.startswith("|"))
+                and before[:1] not in "|-*0123456789 "
+            ):
                 out.append("")
         elif listed and line.startswith("  ") and not line.startswith("    "):
             line = "  " + line
