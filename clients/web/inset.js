@@ -12,8 +12,8 @@ export function buildInset() {
       tabindex: 0,
       role: 'img',
       'aria-label': t(
-        'The path of this ray past the hole; drag or arrow keys turn it',
-        'Il percorso di questo raggio accanto al buco; si gira trascinando o con le frecce',
+        'The path of this ray past the hole to you; drag or arrow keys turn it',
+        'Il percorso di questo raggio accanto al buco fino a te; si gira trascinando o con le frecce',
       ),
     }),
     context = node.getContext('2d'),
@@ -51,6 +51,27 @@ export function buildInset() {
     );
     Object.assign(context, { strokeStyle: colour, lineWidth: width });
     context.stroke();
+  }
+
+  // Inside the picture, wherever its place is.
+  function name(text, [right, up], scale) {
+    const most = wide / 2 - 4 - context.measureText(text).width,
+      x = Math.min(Math.max(right * scale + 6, 4 - wide / 2), most),
+      y = Math.min(Math.max(-up * scale - 6, 14 - high / 2), high / 2 - 5);
+    Object.assign(context, { strokeStyle: '#000c', lineWidth: 3, fillStyle: '#ece8e1' });
+    context.strokeText(text, x, y);
+    context.fillText(text, x, y);
+  }
+
+  // Where the ray comes in from the observer, what it first meets, and the hole.
+  function names(points, scale, horizon) {
+    const inside = ([right, up]) => Math.abs(right * scale) < wide / 2 && Math.abs(up * scale) < high / 2,
+      from = points.find(inside),
+      gas = answer.crossings.find(({ seen }) => seen);
+    context.font = '600 12px system-ui, sans-serif';
+    name(t('hole', 'buco'), [0, -1.2 * horizon - 14 / scale], scale);
+    if (gas) name('gas', onPlane(gas.r, gas.azimuth), scale);
+    if (from) name(t('you', 'tu'), from, scale);
   }
 
   function draw() {
@@ -102,6 +123,7 @@ export function buildInset() {
       context.arc(right * scale, -up * scale, seen ? 3 : 1.5, 0, 2 * Math.PI);
       context.fill();
     }
+    names(points, scale, wider(horizon));
   }
 
   function turn(right, up) {

@@ -1,15 +1,18 @@
-// "What is this light?": where the light of one pixel comes from, in words, with its ray bending past the hole beside
-// it. A tap asks, and so do arrow keys, which move the cross. Opened by its button or key the card follows the pointer,
-// and asks where that rests, until one of the two pins it.
+// "What is this light?": where the light of one pixel comes from, in sentences, with its ray bending past the hole
+// beside them and the numbers folded below. A tap asks, and so do arrow keys, which move the cross. Opened by its
+// button or key the card follows the pointer, and asks where that rests, until one of the two pins it.
 import { byId, el, latest } from './dom.js';
-import { number, said, t, tell } from './i18n.js';
+import { duration, number, said, t, tell } from './i18n.js';
 import { buildInset } from './inset.js';
+import { light_m_s, sun_m } from './scene.js';
 import { ask } from './server.js';
 import { hasNames, nameOf, starsIn } from './stars.js';
 
-const rest_ms = 200; // that a pointer stays before it asks
+const rest_ms = 80; // that a pointer stays before it asks
+const late_ms = 150; // after which words of another place are no longer there
 const change_ms = 400; // that the scene is as it is
 const star_px = 6;
+const sideways = 0.01; // M, of L/E: light that leaves so is of gas that comes no nearer
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
 // What makes the pixel independent of the rest of the picture, of which none is then rendered: the card shows light as
@@ -77,34 +80,107 @@ const images = [
 ];
 const orderOf = order => `${images[Math.min(order, 2)]} (${t('order', 'ordine')} ${order})`;
 
-// A sentence for each of them, and facts.
-function wording(source, { title, far, star }) {
-  const { kind, points } = source;
-  if (kind === 'end')
+// What the shift does to light. Over all frequencies its brightness goes by g⁴.
+function shifted(g) {
+  const per_cent = number(100 * Math.abs(g - 1), 2),
+    by = g ** (g > 1 ? 4 : -4),
+    times = number(by, 2);
+  if (Math.abs(g - 1) < 0.005) return t('Its light arrives as it was sent.', 'La sua luce arriva come è partita.');
+  return g > 1
+    ? t(
+        `Its light is ${per_cent} % bluer and ${times} times brighter.`,
+        `La sua luce è più blu del ${per_cent} % e ${times} volte più intensa.`,
+      )
+    : t(
+        `Its light is ${per_cent} % redder and ${times} times fainter.`,
+        `La sua luce è più rossa del ${per_cent} % e ${times} volte più debole.`,
+      );
+}
+
+// second: M as a time.
+function when(delay, { far, second }) {
+  const time = duration(Math.abs(delay) * second);
+  if (!far) return t(`It left ${time} ago.`, `È partita ${time} fa.`);
+  return delay < 0
+    ? t(
+        `It arrives ${time} before light from the hole’s place would.`,
+        `Arriva ${time} prima di quella che verrebbe dal posto del buco.`,
+      )
+    : t(
+        `It arrives ${time} after light from the hole’s place would.`,
+        `Arriva ${time} dopo quella che verrebbe dal posto del buco.`,
+      );
+}
+
+function round(order) {
+  if (!order) return null;
+  return order === 1
+    ? t(
+        'It is the second image: light that went half way round the hole.',
+        'È la seconda immagine: luce che ha fatto mezzo giro attorno al buco.',
+      )
+    : t(
+        `It is the photon ring: light that went ${order} times half way round the hole.`,
+        `È l’anello di fotoni: luce che ha fatto ${order} mezzi giri attorno al buco.`,
+      );
+}
+
+// Gas of the plane goes round towards +φ: light along with it, which has a positive L, leaves forwards.
+function motion({ kind, lambda }) {
+  if (kind !== 'crossing' || Math.abs(lambda) < sideways) return '';
+  return lambda > 0
+    ? t(', coming towards you', ', che viene verso di te')
+    : t(', going away from you', ', che si allontana da te');
+}
+
+// Sentences for each of them, and facts.
+function wording(source, place) {
+  const { title, far, star, lambda } = place,
+    { kind, points, g, delay, r } = source,
+    sentences = (...all) => all.filter(Boolean).join(' ');
+  if (kind === 'end') {
+    const name = star ? nameOf(star) : points ? t('Starlight', 'Luce di stelle') : t('The sky', 'Il cielo');
     return {
-      head: star ? nameOf(star) : points ? t('Starlight', 'Luce di stelle') : t('The sky', 'Il cielo'),
+      head: sentences(
+        t(`${name}, behind the hole or beside it.`, `${name}, dietro il buco o accanto.`),
+        !far && g != null && shifted(g),
+      ),
       facts: skyFacts(source, star),
     };
+  }
   if (kind === 'along')
     return {
-      head: title,
+      head: sentences(
+        t(`${title}, all along the line of sight.`, `${title}, lungo tutta la linea di vista.`),
+        delay != null && when(delay, place),
+      ),
       facts: [
         [t('Optical depth', 'Profondità ottica'), number(source.optical_depth, 3)],
-        ...(source.delay != null ? [ago(source.delay, far)] : []),
+        ...(delay != null ? [ago(delay, far)] : []),
       ],
     };
   return {
-    head: t(`${title}, at r = ${length(source.r)}`, `${title}, a r = ${length(source.r)}`),
+    head: sentences(
+      t(
+        `${title}, ${number(r, 3)} M from the hole${motion({ kind, lambda })}.`,
+        `${title}, a ${number(r, 3)} M dal buco${motion({ kind, lambda })}.`,
+      ),
+      g > 0 && shifted(g),
+      round(source.order),
+      delay != null && when(delay, place),
+    ),
     facts: [
+      ['r', length(r)],
       [t('Image', 'Immagine'), orderOf(source.order)],
       ['φ', angle(source.azimuth)],
-      ...(source.delay != null ? [ago(source.delay, far)] : []),
-      ...(source.g != null
+      ...(delay != null ? [ago(delay, far)] : []),
+      ...(g != null
         ? [
             [
               t('Frequency ratio g', 'Rapporto di frequenze g'),
-              `${number(source.g, 3)}, ${source.g > 1 ? t('bluer', 'più blu') : t('redder', 'più rossa')}`,
+              `${number(g, 3)}, ${g > 1 ? t('bluer', 'più blu') : t('redder', 'più rossa')}`,
             ],
+            [t('Brightness, g⁴', 'Intensità, g⁴'), number(g ** 4, 3)],
           ]
         : []),
       ...(source.temperature != null
@@ -128,11 +204,11 @@ function skyFacts({ theta, azimuth, g }, star) {
 function none({ end }) {
   if (end.fate === 'captured')
     return t(
-      'No light: followed back, this ray falls into the hole',
-      'Nessuna luce: seguito all’indietro, questo raggio cade nel buco',
+      'No light: followed back, this ray falls into the hole.',
+      'Nessuna luce: seguito all’indietro, questo raggio cade nel buco.',
     );
-  if (end.fate === 'escaped') return t('Dark sky', 'Cielo buio');
-  return t('No light', 'Nessuna luce');
+  if (end.fate === 'escaped') return t('Dark sky: nothing shines there.', 'Cielo buio: là nulla splende.');
+  return t('No light.', 'Nessuna luce.');
 }
 
 // size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), places in the stage, and
@@ -157,11 +233,20 @@ export function buildPixel(stage, scene, size) {
       },
       '×',
     );
-  card.replaceChildren(close_button, head, facts, others, inset.node, error, fault);
+  const numbers = el(
+    'details',
+    { id: 'pixel-numbers' },
+    el('summary', {}, t('The numbers', 'I numeri')),
+    facts,
+    others,
+    error,
+  );
+  card.replaceChildren(close_button, head, inset.node, numbers, fault);
   // { u, v }: shares of the picture, which stay what they are where the window turns or shrinks; null: closed
   let at = null,
     pinned = false,
-    timer = 0;
+    timer = 0,
+    late = 0;
 
   const placed = () => ({ x: at.u * stage.clientWidth, y: at.v * stage.clientHeight });
 
@@ -181,7 +266,13 @@ export function buildPixel(stage, scene, size) {
       }, // prettier-ignore
       [first, ...rest] = all,
       { head: words, facts: rows } = first
-        ? wording(first, { title: titled(first.name), far, star: first.points ? star : null })
+        ? wording(first, {
+            title: titled(first.name),
+            far,
+            star: first.points ? star : null,
+            lambda: answer.constants.lambda,
+            second: (scene.get('spacetime.mass_msun') * sun_m) / light_m_s,
+          })
         : { head: none(answer), facts: answer.end.fate === 'escaped' ? skyFacts(answer.end) : [] };
     head.textContent = words;
     facts.replaceChildren(...rows.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))));
@@ -203,11 +294,15 @@ export function buildPixel(stage, scene, size) {
             `Le sue distanze r differiscono di ${number(picture, 2)} dalla forma chiusa.`,
           )
         : '';
+    numbers.hidden = !rows.length && !also.length;
     inset.show(answer, scene.get('spacetime.spin'));
   }
 
+  const seeks = () => t('Following this light back …', 'Si segue questa luce all’indietro …');
   const find = latest(async () => {
     if (!at) return;
+    clearTimeout(late);
+    late = setTimeout(() => (head.textContent = seeks()), late_ms);
     const { width, height } = size(),
       x = Math.min(at.u * width, width - 0.01),
       y = Math.min(at.v * height, height - 0.01);
@@ -226,6 +321,7 @@ export function buildPixel(stage, scene, size) {
     } catch (wrong) {
       tell(fault, wrong.message);
     }
+    clearTimeout(late);
     card.dataset.asked = 'true';
   });
 
@@ -238,7 +334,7 @@ export function buildPixel(stage, scene, size) {
   }
 
   function look(where, pin) {
-    if (!at) head.textContent = t('Following this light back …', 'Si segue questa luce all’indietro …');
+    if (!at) head.textContent = seeks();
     at = { u: where.x / stage.clientWidth, v: where.y / stage.clientHeight };
     pinned = pin;
     card.hidden = cross.hidden = false;
@@ -250,6 +346,7 @@ export function buildPixel(stage, scene, size) {
   function close() {
     at = null;
     clearTimeout(timer);
+    clearTimeout(late);
     card.hidden = cross.hidden = true;
   }
 

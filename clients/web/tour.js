@@ -1,13 +1,19 @@
-// "Look around": five things to see on a black hole, each with a view of its own and a few sentences. What was seen
-// before comes back.
-import { byId, el, still } from './dom.js';
+// "Look around": five things to see on a black hole, each with a view of its own, a ring round its place in the picture
+// and a few sentences. What was seen before comes back.
+import { byId, el, latest, still } from './dom.js';
 import { t } from './i18n.js';
 import { startAgain } from './presets.js';
+import { physics } from './server.js';
 
 const flight_ms = 1400;
 const least_ms = 60; // between two places on the way
 
-// name, view, overlays, words. Lengths and angles of the view are those that are flown through.
+// Places: a direction of the critical curve, from the right over the top; of a ring of gas its radius and its azimuth
+// less the observer's, 180 behind the hole and 270 where gas comes towards us.
+const edge = angle_deg => ['shadow', { angle_deg }];
+const gas = (r, phi_deg) => ['redshift', { r, phi_deg }];
+
+// name, view, overlays, words, place. Numbers of the view are flown through.
 const stops = [
   [
     t('The shadow', 'L’ombra'),
@@ -17,6 +23,7 @@ const stops = [
       'Light that comes closer than a certain distance never comes out again. For a hole without spin that distance is √27 ≈ 5.2 M, two and a half times the radius of its horizon: the line round the dark is the edge of this shadow, and it hides more than the hole itself, for the hole bends light towards it.',
       'La luce che passa più vicino di una certa distanza non ne esce più. Per un buco senza spin la distanza è √27 ≈ 5,2 M, due volte e mezzo il raggio del suo orizzonte: la linea attorno al buio è il bordo di quest’ombra, più grande del buco stesso, perché il buco piega la luce verso di sé.',
     ),
+    edge(270),
   ],
   [
     t('The photon ring', 'L’anello di fotoni'),
@@ -26,6 +33,7 @@ const stops = [
       'Inside the disk’s own image stands a thin bright line. Its light went at least half way round the hole before it came to us; in it are further lines, of light that went round more often. Without spin each is e^π ≈ 23 times thinner than the one before, and they crowd at the edge of the shadow.',
       'Dentro l’immagine del disco sta una linea sottile e luminosa. La sua luce ha fatto almeno mezzo giro attorno al buco prima di venire a noi; in essa vi sono altre linee, di luce che ha girato più volte. Senza spin ognuna è e^π ≈ 23 volte più sottile della precedente, e si affollano al bordo dell’ombra.',
     ),
+    edge(135),
   ],
   [
     t('The far side', 'Il lato lontano'),
@@ -35,6 +43,7 @@ const stops = [
       'The disk is flat, and nearly edge on. The arch above the hole is the part of it that lies behind: its light starts upwards and is bent over the top to us. The thinner arch below is the underside of the same part.',
       'Il disco è piatto, e visto quasi di taglio. L’arco sopra il buco è la parte che sta dietro: la sua luce parte verso l’alto ed è piegata sopra il buco fino a noi. L’arco più sottile in basso è la faccia inferiore della stessa parte.',
     ),
+    gas(12, 180),
   ],
   [
     t('Beaming', 'La luce in avanti'),
@@ -44,6 +53,7 @@ const stops = [
       'The gas goes round at up to about half the speed of light. On the left it comes towards us: its light is shifted to the blue by a factor g and is brighter by g⁴. On the right it goes away, redder and fainter. Click on both sides to read g.',
       'Il gas gira fino a circa metà della velocità della luce. A sinistra viene verso di noi: la sua luce è spostata verso il blu di un fattore g ed è più intensa di g⁴. A destra si allontana, più rossa e più debole. Tocca i due lati per leggere g.',
     ),
+    gas(9, 270),
   ],
   [
     t('Frame dragging', 'Il trascinamento dello spazio'),
@@ -53,9 +63,11 @@ const stops = [
       'A hole that spins drags space round with it. Light that goes along gets by closer than light that goes against: the shadow is flat on the side that turns towards us, and shifted. The disk reaches in further, too, for orbits along with the spin are stable closer to the hole.',
       'Un buco che ruota trascina con sé lo spazio. La luce che gira nel suo verso può passare più vicina di quella che gira contro: l’ombra è piatta dal lato che viene verso di noi, e spostata. Anche il disco giunge più dentro, perché le orbite nel verso dello spin sono stabili più vicino al buco.',
     ),
+    edge(180),
   ],
 ];
 
+const round = 'camera.azimuth_deg';
 const eased = x => x * x * (3 - 2 * x);
 
 export function buildTour(stage, scene) {
@@ -67,6 +79,8 @@ export function buildTour(stage, scene) {
     next = el('button', { type: 'button', onclick: () => (here + 1 < stops.length ? go(here + 1) : end()) }),
     leave = el('button', { type: 'button', onclick: () => end() }, t('End the tour', 'Fine del giro'));
   box.replaceChildren(name, words, el('p', { class: 'row' }, back, next, leave, at));
+  const ring = el('div', { id: 'tour-ring', 'aria-hidden': 'true', hidden: true });
+  stage.append(ring);
   let here = 0,
     before = null, // the scene, and the lines over it
     flight = 0;
@@ -84,7 +98,7 @@ export function buildTour(stage, scene) {
         path,
         to,
         from: scene.get(path),
-        glides: path.startsWith('camera.') && typeof scene.get(path) === 'number',
+        glides: [to, scene.get(path)].every(value => typeof value === 'number'),
         length: path === 'camera.field_m',
       })),
       begun = performance.now();
@@ -100,13 +114,37 @@ export function buildTour(stage, scene) {
       const x = still.matches ? 1 : Math.min((performance.now() - begun) / flight_ms, 1);
       scene.change(place(eased(x)));
       if (x < 1) setTimeout(step, least_ms);
-      else box.dataset.arrived = here + 1;
+      else (box.dataset.arrived = here + 1), point();
     }
+    ring.hidden = true;
     step();
   }
 
+  // Round the pixel that shows what the words are of. Only an observer at infinity has a plane to point into.
+  const point = latest(async () => {
+    const now = flight,
+      [name, place] = stops[here][4],
+      get = path => scene.get(path);
+    ring.hidden = true;
+    if (!before || get('camera.r') !== 'infinity' || get('camera.roll_deg')) return;
+    const hole = { spin: get('spacetime.spin'), inclination_deg: get('camera.inclination_deg') },
+      { values } = await physics(name, { ...hole, ...place }).catch(() => ({ values: {} })),
+      [alpha, beta] = [values.alpha, values.beta].map(value => [value].flat()[0]);
+    if (now !== flight || !before || box.dataset.arrived !== String(here + 1) || alpha == null) return;
+    const { clientWidth: width, clientHeight: height } = stage,
+      field = get('camera.field_m'),
+      [u, v] = [
+        0.5 + (alpha - get('camera.centre_alpha')) / field,
+        0.5 - ((beta - get('camera.centre_beta')) / field) * (width / height),
+      ];
+    ring.style.left = `${100 * u}%`;
+    ring.style.top = `${100 * v}%`;
+    ring.hidden = false;
+  });
+
   function go(to) {
     here = to;
+    delete box.dataset.arrived;
     const [title, view, over, text] = stops[here];
     name.textContent = title;
     words.textContent = text;
@@ -116,6 +154,7 @@ export function buildTour(stage, scene) {
     const rest = Object.fromEntries(
       stops.flatMap(([, others]) => Object.keys(others)).map(path => [path, usual.get(path)]),
     );
+    rest[round] = usual.get(round);
     fly({ ...rest, ...view });
     draw(over);
   }
@@ -124,6 +163,11 @@ export function buildTour(stage, scene) {
   async function begin() {
     if (before) return;
     before = { document: scene.document({}, true), held: scene.held, lines: lines() };
+    // From where the camera is, if that is a place on the way.
+    const from =
+      scene.get('camera.r') === 'infinity'
+        ? Object.fromEntries(['camera.inclination_deg', 'camera.field_m', round].map(path => [path, scene.get(path)]))
+        : {};
     try {
       await startAgain(scene);
     } catch (error) {
@@ -132,6 +176,7 @@ export function buildTour(stage, scene) {
     }
     scene.hold(true); // pictures at rest are the finest
     usual = new Map([...scene.fields.keys()].map(path => [path, scene.get(path)]));
+    scene.change(from);
     box.hidden = false;
     go(0);
     next.focus();
@@ -139,13 +184,16 @@ export function buildTour(stage, scene) {
 
   function end() {
     flight++;
-    box.hidden = true;
+    box.hidden = ring.hidden = true;
     scene.replace(before.document);
     scene.hold(before.held);
     draw(before.lines);
     before = null;
     stage.focus();
   }
+  scene.addEventListener('move', () => (ring.hidden = true));
+  scene.addEventListener('change', () => before && box.dataset.arrived && point());
+  new ResizeObserver(() => before && box.dataset.arrived && point()).observe(stage);
   // Wherever the focus is; but first Esc closes what lies over the tour.
   document.addEventListener(
     'keydown',

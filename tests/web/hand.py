@@ -1,6 +1,9 @@
 """What is done by hand: asking what a light is, taking back, keys: hand.py KERRD FOLDER (browser.py)."""
 
+import json
 import math
+import re
+import urllib.request
 
 from browser import AT_REST, SMOOTH, Browser, main, value
 
@@ -20,6 +23,10 @@ class Hand(Browser):
         page.wait_for_selector("#pixel[data-asked]")
         return page.inner_text("#pixel .name")
 
+    def radius(self, words):
+        """The first length in M of a sentence."""
+        return value(re.search(r"(\S+) M ", words)[1])
+
     def fact(self, page, name):
         return page.locator("#pixel dl div", has_text=name).locator("dd").inner_text()
 
@@ -35,8 +42,14 @@ class Hand(Browser):
         page = self.open(FACE_ON, viewport=SIZE)
         wide = page.locator("#stage").bounding_box()["width"]
         name = self.tap(page, 0.3 * wide, 0)
-        r, b = value(name.split()[-2]), 40 * 0.3
-        self.assertTrue(name.startswith("Thin disk, at r = "), name)
+        r, b = self.radius(name), 40 * 0.3
+        self.assertTrue(name.startswith("Thin disk, "), name)
+        g = math.sqrt(1 - 3 / r)
+        self.assertIn(f"Its light is {100 * (1 - g):.2g} % redder and {g**-4:.2g} times fainter.", name)
+        self.assertIn("light from the hole’s place would.", name)
+        self.assertNotIn("towards you", name, "face on it does neither")
+        self.assertFalse(page.is_visible("#pixel dl"), "numbers are folded")
+        page.click("#pixel-numbers > summary")
         self.assertAlmostEqual(r / (math.sqrt(1 + b * b) - 1), 1, delta=0.015)
         self.assertAlmostEqual(
             float(self.fact(page, "Frequency ratio").split(",")[0]), math.sqrt(1 - 3 / r), delta=0.002
@@ -53,7 +66,7 @@ class Hand(Browser):
         camera = self.field(page, "camera.azimuth_deg")
         page.focus("#stage")
         further = self.card(page, lambda: page.keyboard.press("Shift+ArrowRight"))
-        self.assertAlmostEqual((value(further.split()[-2]) - r) * wide / 40 / 20, 1, delta=0.2)
+        self.assertAlmostEqual((self.radius(further) - r) * wide / 40 / 20, 1, delta=0.2)
         self.assertEqual(self.field(page, "camera.azimuth_deg"), camera, "the keys move the cross alone")
         page.keyboard.press("Escape")
         self.assertFalse(page.is_visible("#pixel") or page.is_visible("#cross"))
@@ -67,7 +80,7 @@ class Hand(Browser):
         cross = lambda: page.evaluate('(({ style }) => [style.left, style.top])(document.getElementById("cross"))')
         at = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])
         name = self.card(page, lambda: page.mouse.move(*at(0.8, 0.5)))
-        self.assertTrue(name.startswith("Thin disk, at r = "), name)
+        self.assertTrue(name.startswith("Thin disk, "), name)
         followed = cross()
         self.assertEqual(followed[0][:2], "80")
         self.card(page, lambda: page.mouse.click(*at(0.7, 0.5)))
@@ -75,11 +88,21 @@ class Hand(Browser):
         page.mouse.move(*at(0.9, 0.4))
         self.assertEqual(cross()[0][:2], "70", "pinned")
 
+    def test_which_way_gas_goes(self):
+        """On the left it comes towards the observer, and its light is bluer; on the right it goes away."""
+        page = self.open(FACE_ON.replace("inclination_deg=0", "inclination_deg=70"), viewport=SIZE)
+        wide = page.locator("#stage").bounding_box()["width"]
+        left = self.tap(page, -0.25 * wide, 0)
+        page.keyboard.press("Escape")  # the card lies there
+        right = self.tap(page, 0.25 * wide, 0)
+        self.assertRegex(left, r"from the hole, coming towards you\. Its light is \S+ % bluer and \S+ times brighter\.")
+        self.assertRegex(right, r"from the hole, going away from you\. Its light is \S+ % redder")
+
     def test_of_nothing(self):
         page = self.open(FACE_ON, viewport=SIZE)
         page.focus("#stage")
         self.assertEqual(
-            self.card(page, lambda: page.keyboard.press("i")), "No light: followed back, this ray falls into the hole"
+            self.card(page, lambda: page.keyboard.press("i")), "No light: followed back, this ray falls into the hole."
         )
         box = page.locator("#stage").bounding_box()
         page.keyboard.press("i")
@@ -103,7 +126,8 @@ class Hand(Browser):
         for u, v in ((0.8, 0.45), (0.8, 0.55)):
             x, y = box["x"] + u * box["width"], box["y"] + v * box["height"]
             name = self.card(page, lambda: page.touchscreen.tap(x, y))
-            self.assertTrue(name.startswith("Disco sottile, a r = "), name)
+            self.assertRegex(name, r"^Disco sottile, a \S+ M dal buco")
+            self.assertRegex(name, r"La sua luce è più rossa del \S+ % e \S+ volte più debole\.")
             self.assertEqual(page.locator("#stage").bounding_box(), box, "the picture stays where it was touched")
             size = asked[-1].post_data_json["image"]
             across, down = (float(part) for part in asked[-1].url.partition("at=")[2].replace("%2C", ",").split(","))
@@ -259,6 +283,30 @@ class Hand(Browser):
         self.assertTrue(daemon.eventually(lambda: page.input_value("#preset") == "gas-stars"))
         self.assertFalse(page.is_visible("#pixel"))
 
+    def points_at(self, page, stop):
+        """The ring of the tour lies on what its words are of: gas as the server finds it in that pixel, or the edge."""
+        u, v = page.evaluate("""() => { const ring = document.getElementById('tour-ring');
+            return [ring.style.left, ring.style.top].map(x => parseFloat(x) / 100); }""")
+        scene = json.loads(page.input_value("#scene-text"))
+        width, height = page.evaluate(
+            "[document.getElementById('stage').clientWidth, document.getElementById('stage').clientHeight]"
+        )
+        scene["image"] = {"width": width, "height": height, "samples": 1}
+        scene["style"] = {**scene.get("style", {}), "exposure": 0, "bloom": 0}
+        at = urllib.request.Request(
+            f"{self.base}v1/pixel?at={u * width:.2f},{v * height:.2f}",
+            json.dumps(scene).encode(),
+            {"Content-Type": "application/json"},
+        )
+        with urllib.request.urlopen(at) as answer:
+            told = json.load(answer)
+        direct = told["crossings"][0] if told["crossings"] else None
+        if stop in (2, 3):
+            self.assertAlmostEqual(direct["r"], (12, 9)[stop - 2], delta=0.3, msg=f"stop {stop + 1}")
+            self.assertEqual(direct["g"] > 1, stop == 3)
+        else:
+            self.assertLess(told["path"]["least_r"], 5, "a ray of the critical curve")
+
     def test_what_there_is_to_see(self):
         """Five views and five texts, and then all is as it was; the line that says what this is goes with the first
         touch."""
@@ -291,6 +339,8 @@ class Hand(Browser):
                     page.input_value('[data-path="spacetime.spin"] input[type=number]'),
                 )
             )
+            page.wait_for_selector("#tour-ring:visible")
+            self.points_at(page, i)
             self.shot(page, f"tour-{i + 1}")
             page.click("#tour button:nth-child(2)")
         self.assertEqual([len(set(column)) for column in zip(*seen)], [5, 5, 2])
