@@ -4,7 +4,7 @@ import { persistent } from './again.js';
 import { light } from './curves-light.js';
 import { matter } from './curves-matter.js';
 import { entitle } from './describe.js';
-import { byId, el } from './dom.js';
+import { byId, el, still } from './dom.js';
 import { buildForm } from './form.js';
 import { lang, t } from './i18n.js';
 import { plot } from './plot.js';
@@ -88,7 +88,55 @@ function card(chart, known) {
     reading(id),
     el('details', {}, el('summary', {}, t('Where this comes from', 'Da dove viene')), sources),
   );
-  return { node, draw };
+  return { node, draw, title: chart.title, words: plain(`${id} ${chart.name} ${node.textContent}`) };
+}
+
+const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase();
+
+// The names of all curves, each leading to its card, and a search through what is written on the cards.
+function index(cards) {
+  const box = el('input', { type: 'search', id: 'curve-find', autocomplete: 'off', spellcheck: 'false' }),
+    told = el('p', { class: 'help', role: 'status' });
+  const entries = cards.map(({ node, title }) => {
+    const heading = node.querySelector('h2');
+    heading.tabIndex = -1;
+    return el(
+      'li',
+      {},
+      el(
+        'button',
+        {
+          type: 'button',
+          onclick: () => (
+            node.scrollIntoView({ behavior: still.matches ? 'auto' : 'smooth' }), heading.focus({ preventScroll: true })
+          ),
+        },
+        title,
+      ),
+    );
+  });
+  box.addEventListener('input', () => {
+    const wanted = plain(box.value).split(/\s+/).filter(Boolean);
+    let found = 0;
+    cards.forEach(({ node, words }, i) => {
+      const fits = wanted.every(word => words.includes(word));
+      node.hidden = entries[i].hidden = !fits;
+      found += fits;
+    });
+    told.textContent = !wanted.length
+      ? ''
+      : !found
+        ? t(`No curve has “${box.value.trim()}”.`, `Nessuna curva ha «${box.value.trim()}».`)
+        : found === 1
+          ? t('One curve.', 'Una curva.')
+          : t(`${found} curves.`, `${found} curve.`);
+  });
+  return [
+    el('label', { for: box.id }, t('Find a curve', 'Cerca una curva')),
+    box,
+    told,
+    el('div', { role: 'navigation', 'aria-label': t('Curves', 'Curve') }, el('ul', {}, entries)),
+  ];
 }
 
 export async function openPhysics() {
@@ -101,6 +149,7 @@ export async function openPhysics() {
         quantities.find(q => q.name === c.name),
       ),
     );
+  byId('curve-index').replaceChildren(...index(cards));
   byId('curves').replaceChildren(...cards.map(c => c.node));
   entitle('physics', t(`${cards.length} curves`, `${cards.length} curve`));
   for (const c of cards) await c.draw(); // one after the other: pictures come first

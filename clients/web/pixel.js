@@ -162,8 +162,8 @@ function wording(source, place) {
   return {
     head: sentences(
       t(
-        `${title}, ${length(r)} from the hole${motion({ kind, lambda })}.`,
-        `${title}, a ${length(r)} dal buco${motion({ kind, lambda })}.`,
+        `${title}, ${number(r, 3)} M from the hole${motion({ kind, lambda })}.`,
+        `${title}, a ${number(r, 3)} M dal buco${motion({ kind, lambda })}.`,
       ),
       g > 0 && shifted(g),
       round(source.order),

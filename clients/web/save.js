@@ -64,18 +64,22 @@ export function buildSave(scene, size, changed) {
       written: t('drawn, being written', 'disegnata, la si scrive'),
       before: n => t(`${n} before it`, `${n} prima di questa`),
     },
-    async take({ id, name }, wanted) {
-      const picture = await (await ask(`v1/jobs/${id}/result`)).blob();
+    async take({ id, name, caption }, wanted) {
+      const bare = await (await ask(`v1/jobs/${id}/result`)).blob(),
+        picture = caption ? await (await import('./poster.js')).captioned(bare, ...caption) : bare;
       if (wanted()) offer(got, picture, name);
     },
   });
 
   start.addEventListener('click', () => {
     if (![...own.querySelectorAll('input')].every(box => own.hidden || box.reportValidity())) return;
-    const over = picked(scene, size);
+    const over = picked(scene, size),
+      { caption } = start.dataset;
+    delete start.dataset.caption;
     got.hidden = true;
     job.begin(() => ({ scene: scene.document(over) }), {
       name: fileName([link.get('preset')], over['image.width'], over['image.height']) + '.png',
+      caption: caption && JSON.parse(caption),
     });
   });
   for (const control of [sizes, byId('save-width'), byId('save-height')]) control.addEventListener('change', showSize);

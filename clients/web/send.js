@@ -1,5 +1,6 @@
 // "Share": the address of the scene to send on, with what others see of it before they open it, and a poster.
 import { byId, el } from './dom.js';
+import { describe } from './describe.js';
 import { t, tell } from './i18n.js';
 import { linkedTime } from './scene.js';
 import { postJson } from './server.js';
@@ -33,16 +34,34 @@ const absolute = address => new URL(address, new URL(asked, location.href)).href
 const frameOf = ({ embed, title }) =>
   `<iframe src="${absolute(embed)}" title="${title}" style="border:0;width:100%;aspect-ratio:16/9" loading="lazy" allowfullscreen></iframe>`;
 
-// "Save picture" does it, in the panel, which tells how far it is.
-function makePoster(card) {
-  const size = byId('save-size');
+// What the panel does, it tells there: how far it is, and a button that ends it.
+function inPanel(card, told, cancel) {
   card.close();
   byId('take').open = true;
+  byId(told).scrollIntoView({ block: 'center' });
+  byId(cancel).focus();
+}
+
+// "Save picture" does it, with a line below the picture.
+function makePoster(card, scene, url) {
+  const size = byId('save-size');
   size.value = poster;
   size.dispatchEvent(new Event('change'));
+  byId('save').dataset.caption = JSON.stringify([describe(scene), url]);
   byId('save').click();
-  byId('save-told').scrollIntoView({ block: 'center' });
-  byId('save-cancel').focus();
+  inPanel(card, 'save-told', 'save-cancel');
+}
+
+// Of what moves by itself, else once round the hole, else with another spin: the first film that would show something.
+async function makeFilm(card) {
+  const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
+  byId('take').open = true; // that builds them
+  while (!document.querySelector(films[0])) await new Promise(resolve => setTimeout(resolve, 50));
+  films
+    .map(id => document.querySelector(id))
+    .find(({ disabled }) => !disabled)
+    ?.click();
+  inPanel(card, 'film-told', 'film-cancel');
 }
 
 // What others see in the place of the link.
@@ -56,7 +75,7 @@ function previewOf({ code, title, about }) {
   return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
 }
 
-function fill(card, shared) {
+function fill(card, shared, scene) {
   const url = absolute(shared.url),
     field = el('input', { id: 'sending-link', readonly: true, value: url, spellcheck: 'false' }),
     done = el('span', { role: 'status' });
@@ -82,7 +101,16 @@ function fill(card, shared) {
           { type: 'button', onclick: () => copy(frameOf(shared), done, field) },
           t('Copy code for a page', 'Copia il codice per una pagina'),
         ),
-      el('button', { type: 'button', onclick: () => makePoster(card) }, t('Save a poster, 4K', 'Salva un poster, 4K')),
+      el(
+        'button',
+        { type: 'button', onclick: () => makePoster(card, scene, url) },
+        t('Save a poster, 4K', 'Salva un poster, 4K'),
+      ),
+      el(
+        'button',
+        { type: 'button', onclick: () => makeFilm(card) },
+        t('Make a film, five seconds', 'Fai un film, cinque secondi'),
+      ),
       done,
     ),
   );
@@ -105,7 +133,7 @@ export async function send(scene) {
   try {
     const shared = await postJson(asked, documentOf(scene));
     told.remove();
-    fill(card, shared);
+    fill(card, shared, scene);
   } catch (error) {
     tell(told, error.message).className = 'fault';
   }

@@ -190,6 +190,35 @@ class Physics(Browser):
             self.assertNotEqual(text, told["it"][name])
             self.assertLess(abs(len(text) / len(told["it"][name]) - 1), 0.35, name)
 
+    def test_an_index_and_a_search(self):
+        for lang, words, curve, none in (
+            ("en", "ringdown", "curve-qnm", "No curve has “xyzzy”."),
+            ("it", "redshift", "curve-redshift", "Nessuna curva ha «xyzzy»."),
+        ):
+            page = self.open(f"lang={lang}&view=physics", "#curves .card:last-child canvas")
+            titles = page.locator("#curves .card > h2").all_inner_texts()
+            self.assertGreater(len(titles), 10)
+            self.assertEqual(page.locator("#curve-index li button").all_inner_texts(), titles)
+            page.locator("#curve-index li button").last.click()
+            self.assertEqual(page.evaluate("document.activeElement.textContent"), titles[-1])
+            self.assertTrue(
+                daemon.eventually(
+                    lambda: page.evaluate(
+                        "document.activeElement.getBoundingClientRect().bottom <= innerHeight && document.activeElement.getBoundingClientRect().top >= 0"
+                    )
+                )
+            )
+            page.fill("#curve-find", words)
+            shown = page.locator("#curves .card:visible").evaluate_all("all => all.map(n => n.id)")
+            self.assertIn(curve, shown)
+            self.assertLess(len(shown), len(titles))
+            self.assertEqual(page.locator("#curve-index li:visible").count(), len(shown))
+            page.fill("#curve-find", "xyzzy")
+            self.there(page, none, "#curve-index [role=status]")
+            self.assertEqual(page.locator("#curves .card:visible").count(), 0)
+            page.fill("#curve-find", "")
+            self.assertEqual(page.locator("#curves .card:visible").count(), len(titles))
+
     def test_what_turns_light_back(self):
         page = self.open("lang=en&view=physics&null-potential.b=6", "#curve-null-potential canvas")
         note = page.locator("#curve-null-potential .plot > .help")

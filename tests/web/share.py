@@ -1,5 +1,6 @@
 """A scene sent on from the page: share.py KERRD FOLDER (browser.py)."""
 
+import base64
 import json
 import re
 
@@ -93,6 +94,35 @@ class Share(Browser):
         with page.expect_download() as download:
             page.get_by_role("button", name="Save a poster, 4K").click()
         self.assertEqual(download.value.suggested_filename, "kerrd-smooth-3840x2160.png")
+        data = download.value.path().read_bytes()
+        self.assertTrue(b"tEXtkerrd:scene" in data, "it holds its scene")
+        # A line of light letters near the lower edge, and nothing like it near the upper one.
+        light = page.evaluate(
+            """async data => {
+            const image = await createImageBitmap(new Blob([Uint8Array.from(atob(data), c => c.charCodeAt(0))]));
+            const canvas = new OffscreenCanvas(image.width, image.height);
+            const context = canvas.getContext('2d', { willReadFrequently: true });
+            context.drawImage(image, 0, 0);
+            const count = y => context.getImageData(0, y, 1920, 160).data.filter((x, i) => i % 4 === 1 && x > 200).length;
+            return [image.width, image.height, count(2000), count(0)];
+        }""",
+            base64.b64encode(data).decode(),
+        )
+        self.assertEqual((light[0], light[1], light[3]), (3840, 2160, 0))
+        self.assertGreater(light[2], 2000)
+
+    def test_a_film_begins(self):
+        """Of a scene that looks the same from all sides and in which nothing moves it is one of another spin."""
+        page = self.open("lang=en&preset=smooth&pause=1")
+        asked = []
+        page.on("request", lambda request: request.url.endswith("/v1/jobs") and asked.append(request.post_data_json))
+        self.share(page)
+        page.get_by_role("button", name="Make a film, five seconds").click()
+        page.wait_for_selector("#film-cancel:visible")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or asked))
+        self.assertEqual(asked[0]["keyframes"][0]["scene"], {"spacetime": {"spin": 0.998}})
+        page.click("#film-cancel")
+        self.there(page, "Cancelled.", "#film-told")
 
     def test_an_asset_is_refused_in_words(self):
         self.expected = "422"
