@@ -63,5 +63,7 @@ void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, cons
                                                  .objectType = type,
                                                  .objectHandle = handle,
                                                  .pObjectName = name };
+    kd_vk_loader_lock();
     vk->fn.SetDebugUtilsObjectNameEXT(vk->device, &info); /* a name that is lost costs nothing */
+    kd_vk_loader_unlock();
 }

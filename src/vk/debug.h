@@ -20,7 +20,7 @@ enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_
                                   struct kd_error *error);
 void kd_vk_debug_finish(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance);
 
-/* Names an object for messages and captures; no effect without debug utils. */
+/* Names an object for messages and captures; no effect without validation. */
 void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 #define KD_VK_HANDLE(handle) ((uint64_t)(handle))

@@ -47,6 +47,24 @@ done:
     return status;
 }
 
+static enum kd_status create(struct kd_vk *vk, const VkDeviceCreateInfo *info, struct kd_error *error)
+{
+    kd_vk_loader_lock();
+    enum kd_status status =
+        kd_vk_result_error(error, vk->fn.CreateDevice(vk->physical.handle, info, NULL, &vk->device), "vkCreateDevice");
+    if (!status)
+        status = kd_vk_functions_device(&vk->fn, vk->device, error);
+    kd_vk_loader_unlock();
+    return status;
+}
+
+static void destroy(struct kd_vk *vk)
+{
+    kd_vk_loader_lock();
+    vk->fn.DestroyDevice(vk->device, NULL);
+    kd_vk_loader_unlock();
+}
+
 /* Enables the required features and all optional ones that exist; users check kd_vk_info before relying on these. */
 static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
 {
@@ -80,15 +98,14 @@ static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
                                       .pQueueCreateInfos = &queue,
                                       .enabledExtensionCount = n_extensions,
                                       .ppEnabledExtensionNames = extensions };
-    KD_VK_TRY(&vk->fn, CreateDevice, vk->physical.handle, &info, NULL, &vk->device);
-    KD_TRY(kd_vk_functions_device(&vk->fn, vk->device, error));
+    KD_TRY(create(vk, &info, error));
     vk->fn.GetDeviceQueue(vk->device, vk->physical.family, 0, &vk->queue);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_QUEUE, KD_VK_HANDLE(vk->queue), "queue");
 done:
     if (!status)
         return KD_OK;
     if (vk->device && vk->fn.DestroyDevice)
-        vk->fn.DestroyDevice(vk->device, NULL);
+        destroy(vk);
     vk->device = VK_NULL_HANDLE; /* later code relies on this: a device has all its functions */
     return status;
 }
@@ -153,7 +170,7 @@ static void close_device(struct kd_vk *vk)
         kd_vk_submit_finish(vk);
     kd_vk_cache_finish(vk);
     kd_vk_heap_finish(vk);
-    vk->fn.DestroyDevice(vk->device, NULL);
+    destroy(vk);
 }
 
 void kd_vk_destroy(struct kd_vk *vk)

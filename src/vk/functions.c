@@ -1,8 +1,15 @@
 #include "vk/functions.h"
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <stddef.h>
 #include <string.h>
+
+static pthread_mutex_t loader = PTHREAD_MUTEX_INITIALIZER;
+
+void kd_vk_loader_lock(void) { pthread_mutex_lock(&loader); }
+
+void kd_vk_loader_unlock(void) { pthread_mutex_unlock(&loader); }
 
 void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 

@@ -113,6 +113,13 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
 enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);
 
+/* Held by all threads while they create or destroy an instance or a device, load its functions, or name an object.
+ * Vulkan lets an application do these at once on different devices; the loader does not: it keeps one list of all
+ * devices of the process, which it changes without a lock (KhronosGroup/Vulkan-Loader issue 2018, up to 1.4.341 at
+ * least). */
+void kd_vk_loader_lock(void);
+void kd_vk_loader_unlock(void);
+
 /* For tests only: called after each step to replace members (tests/gpu/fake_device.h). Otherwise NULL. */
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 

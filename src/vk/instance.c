@@ -67,7 +67,9 @@ static enum kd_status check_validation(const struct kd_vk_functions *fn, struct 
 
 static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCreateInfo *info, struct kd_error *error)
 {
+    kd_vk_loader_lock();
     VkResult result = instance->fn.CreateInstance(info, NULL, &instance->handle);
+    kd_vk_loader_unlock();
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
         return kd_error_set(error, KD_EDEVICE,
                             "no Vulkan device: no driver is installed, or none works here; " KD_VK_INSTALL);
@@ -102,8 +104,8 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
 
     const char *extensions[4];
     uint32_t n = 0;
-    bool debug_utils = has_extension(fn, NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
-                       (validate && has_extension(fn, VALIDATION_LAYER, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    bool debug_utils = validate && (has_extension(fn, NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+                                    has_extension(fn, VALIDATION_LAYER, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     bool portability = has_extension(fn, NULL, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     if (debug_utils)
         extensions[n++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
@@ -161,7 +163,9 @@ void kd_vk_instance_finish(struct kd_vk_instance *instance)
     if (!instance->handle)
         return;
     kd_vk_debug_finish(&instance->debug, &instance->fn, instance->handle);
+    kd_vk_loader_lock();
     if (instance->fn.DestroyInstance)
         instance->fn.DestroyInstance(instance->handle, NULL);
+    kd_vk_loader_unlock();
     instance->handle = NULL;
 }

@@ -1,5 +1,10 @@
 /* Listing and choosing the devices of this machine. */
 #include "support.h"
+#include "vk/functions.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <unistd.h>
 
 static struct kd_vk_info *infos;
 static size_t n_infos;
@@ -96,11 +101,116 @@ static void for_pipelines_alone(void **state)
     kd_vk_destroy(vk);
 }
 
+enum { OPENERS = 3, OPENINGS = 6 };
+
+static struct kd_vk_functions real;
+static atomic_int inside, most;
+
+/* Counts the threads that are within the functions below. */
+static void enter(void)
+{
+    int now = atomic_fetch_add(&inside, 1) + 1, before = atomic_load(&most);
+    while (now > before && !atomic_compare_exchange_weak(&most, &before, now))
+        ;
+    usleep(2000);
+}
+
+static VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo *info,
+                              const VkAllocationCallbacks *allocator, VkDevice *device)
+{
+    enter();
+    VkResult result = real.CreateDevice(physical, info, allocator, device);
+    atomic_fetch_sub(&inside, 1);
+    return result;
+}
+
+static void destroy_device(VkDevice device, const VkAllocationCallbacks *allocator)
+{
+    enter();
+    real.DestroyDevice(device, allocator);
+    atomic_fetch_sub(&inside, 1);
+}
+
+static VkResult create_instance(const VkInstanceCreateInfo *info, const VkAllocationCallbacks *allocator,
+                                VkInstance *instance)
+{
+    enter();
+    VkResult result = real.CreateInstance(info, allocator, instance);
+    atomic_fetch_sub(&inside, 1);
+    return result;
+}
+
+static void destroy_instance(VkInstance instance, const VkAllocationCallbacks *allocator)
+{
+    enter();
+    real.DestroyInstance(instance, allocator);
+    atomic_fetch_sub(&inside, 1);
+}
+
+static void count(struct kd_vk_functions *fn)
+{
+    fn->CreateInstance = create_instance;
+    fn->DestroyInstance = fn->DestroyInstance ? destroy_instance : NULL;
+    fn->CreateDevice = fn->CreateDevice ? create_device : NULL;
+    fn->DestroyDevice = fn->DestroyDevice ? destroy_device : NULL;
+}
+
+/* Opens and closes a device several times. NULL: all went well. */
+static void *open_and_close(void *user)
+{
+    (void)user;
+    for (int i = 0; i < OPENINGS; i++) {
+        struct kd_vk *vk;
+        struct kd_error reason;
+        if (kd_vk_create(&(struct kd_vk_params) { .device = "auto", .cache_dir = "", .pipelines_only = true }, &vk,
+                         &reason))
+            return "a device could not be opened";
+        kd_vk_destroy(vk);
+    }
+    return NULL;
+}
+
+/* The loader crashes where two threads change its list of devices (vk/functions.h). */
+static void one_at_a_time(void **state)
+{
+    struct kd_vk *vk;
+    pthread_t threads[OPENERS];
+    (void)state;
+    OK(open_as("auto", &vk, &error));
+    real = vk->fn;
+    kd_vk_functions_hook = count;
+    for (int i = 0; i < OPENERS; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, open_and_close, NULL), 0);
+    for (int i = 0; i < OPENERS; i++) {
+        void *failure;
+        assert_int_equal(pthread_join(threads[i], &failure), 0);
+        if (failure)
+            fail_msg("%s", (const char *)failure);
+    }
+    kd_vk_functions_hook = NULL;
+    assert_int_equal(atomic_load(&most), 1);
+    kd_vk_destroy(vk);
+}
+
+/* Without validation nothing is named: the loader would walk its list of devices for each name. */
+static void names_only_for_validation(void **state)
+{
+    struct kd_vk *vk;
+    (void)state;
+    OK(open_as("auto", &vk, &error));
+    assert_null(vk->fn.SetDebugUtilsObjectNameEXT);
+    kd_vk_destroy(vk);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(listed), cmocka_unit_test(by_index_and_name),
-                                        cmocka_unit_test(automatic), cmocka_unit_test(refused),
-                                        cmocka_unit_test(for_pipelines_alone) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(listed),
+                                        cmocka_unit_test(by_index_and_name),
+                                        cmocka_unit_test(automatic),
+                                        cmocka_unit_test(refused),
+                                        cmocka_unit_test(for_pipelines_alone),
+                                        cmocka_unit_test(one_at_a_time),
+                                        cmocka_unit_test(names_only_for_validation) };
     if (skip_without_device() || kd_vk_list(&infos, &n_infos, NULL))
         return SKIPPED;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
