@@ -57,8 +57,8 @@
 #include "transfer.spv.h"
 #include "transfer_march.spv.h"
 #include "transfer_march_pieces.spv.h"
-#include "transfer_march_tell.spv.h"
-#include "transfer_tell.spv.h"
+#include "transfer_march_probe.spv.h"
+#include "transfer_probe.spv.h"
 #include "transfer_texels.spv.h"
 
 #include <pthread.h>
@@ -185,18 +185,18 @@ static const struct kd_vk_pipeline_params sources[] = {
                                     sizeof(struct kd_slice),
                                     { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM,
                                       KD_EMIT_BUFFERS } },
-    [KD_KERNEL_TRANSFER_TELL] = { "transfer, told",
-                                  kd_spv_transfer_tell,
-                                  sizeof kd_spv_transfer_tell,
-                                  KD_OWN_BINDING + KD_OWN_COUNT,
-                                  sizeof(struct kd_slice),
-                                  { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_MARCH_TELL] = { "march, told",
-                               kd_spv_transfer_march_tell,
-                               sizeof kd_spv_transfer_march_tell,
-                               KD_OWN_BINDING + KD_OWN_COUNT,
-                               sizeof(struct kd_slice),
-                               { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_TRANSFER_PROBE] = { "transfer, told",
+                                   kd_spv_transfer_probe,
+                                   sizeof kd_spv_transfer_probe,
+                                   KD_OWN_BINDING + KD_OWN_COUNT,
+                                   sizeof(struct kd_slice),
+                                   { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_MARCH_PROBE] = { "march, told",
+                                kd_spv_transfer_march_probe,
+                                sizeof kd_spv_transfer_march_probe,
+                                KD_OWN_BINDING + KD_OWN_COUNT,
+                                sizeof(struct kd_slice),
+                                { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_LAYERS] = { "layers",
                            kd_spv_layers,
                            sizeof kd_spv_layers,

@@ -31,8 +31,8 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* likewise */
-    KD_KERNEL_TRANSFER_TELL,   /* one ray, reported emitter by emitter; and in volumes */
-    KD_KERNEL_MARCH_TELL,
+    KD_KERNEL_TRANSFER_PROBE,  /* one ray, reported emitter by emitter; and in volumes */
+    KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
     KD_KERNEL_MARCH,        /* the same two for scenes with volumes */
     KD_KERNEL_MARCH_PIECES, /* the first, for rays that continue from a stored state */

@@ -101,7 +101,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     const bool march = marches(p, makes);
     const enum kd_kernel kernel =
         makes == KD_MAKES_PIECES ? KD_KERNEL_MARCH_PIECES
-        : makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
+        : makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_PROBE : KD_KERNEL_TRANSFER_PROBE
         : makes < 0 ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0)
         : march     ? KD_KERNEL_LAYERS_MARCH
                     : KD_KERNEL_LAYERS;
