@@ -196,6 +196,7 @@ class Names(Case):
             (["transfer-function"], tabled, table),
             (["spectrum"], tabled, table),
             (["visibility"], tabled, table),
+            (["compare"], tabled, table),
             (["orbit", "--case", "isco"], tabled, table),
             (["physics", "kerr"], tabled, table),
             (["rays", "--trace", "--ray", "1,2"], tabled, ["a.npy", "a.md"]),

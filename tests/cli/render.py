@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pty
+import resource
 import signal
 import socket
 import stat
@@ -175,6 +176,25 @@ class Pictures(Case):
         scene = b'{"image":{"width":64,"height":36},"spacetime":{"spin":0.5}}'
         self.good("render", self.write("scene.json", scene), "-o", self.path("a.png"))
         self.assertEqual(self.good("render", "-", "-o", "-", stdin=scene), self.read("a.png"))
+
+    def test_a_fits_file_by_any_of_its_names(self):
+        for name in "a.fits", "a.fit", "a.fts", "a.FIT":
+            self.good("render", *SMALL, "--set", "image.layers=intensity", "-o", self.path(name))
+            self.assertTrue(self.read(name).startswith(b"SIMPLE  =                    T"), name)
+            self.assertEqual(self.read(name), self.read("a.fits"), name)
+
+    def test_a_limit_of_the_size_of_a_file(self):
+        """A picture that grows past it is an error, not a signal, and leaves no half file. What the device's library
+        keeps in files of its own stays out of it."""
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        for name in "a.png", "a.npy", "a.fits":
+            said = run("render", *SMALL, "--set", "image.layers=intensity", "-o", self.path(name), preexec_fn=limit)
+            self.assertEqual((said.returncode, said.stdout), (1, b""), said)
+            self.assertIn(b"File too large", said.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_picture_renders_itself_again(self):
         for depth in "8", "16":

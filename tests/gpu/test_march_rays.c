@@ -95,6 +95,43 @@ static void test_wide(void **state)
     kd_frame_finish(&frame);
 }
 
+/* An extremal hole, and an observer who falls near it: a ray that grazes the horizon has light all the same, through
+ * every kind of gas that fills space. */
+static void test_extremal(void **state)
+{
+    (void)state;
+    static const char *const volumes[] = {
+        "\"model\":\"uniform\"",
+        "\"model\":\"torus\",\"inner\":20,\"outer\":90,\"torus_radius\":30",
+        "\"model\":\"gold\"",
+        "\"model\":\"riaf\"",
+    };
+    for (size_t k = 0; k < sizeof volumes / sizeof *volumes; k++) {
+        char json[512];
+        struct kd_scene scene;
+        kd_scene_smooth(&scene);
+        snprintf(json, sizeof json,
+                 "{\"spacetime\":{\"spin\":-0.999999999999},\"camera\":{\"r\":3,\"observer\":\"infall\","
+                 "\"inclination_deg\":120,\"yaw_deg\":45},\"disk\":{\"model\":\"none\"},"
+                 "\"volume\":{%s},\"style\":{\"exposure\":0,\"bloom\":0},"
+                 "\"image\":{\"width\":36,\"height\":36,\"layers\":[\"rgb\",\"intensity\"]}}",
+                 volumes[k]);
+        OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+        struct kd_frame frame = rendered(&scene);
+        uint32_t untold = 0, lit = 0;
+        for (uint32_t i = 0; i < frame.width * frame.height; i++) {
+            untold += !isfinite(intensity(&frame)[i]);
+            lit += intensity(&frame)[i] > 0;
+        }
+        printf("%s: %u of %u pixels have no light, %u are lit, %llu rays were given up\n", volumes[k], untold,
+               frame.width * frame.height, lit, (unsigned long long)frame.accuracy.lost);
+        assert_int_equal(frame.accuracy.lost, 0);
+        assert_int_equal(untold, 0);
+        assert_true(lit > frame.width * frame.height / 3);
+        kd_frame_finish(&frame);
+    }
+}
+
 /* A tile of a tall turbulent disk at the finest setting: its rays take thousands of steps. */
 static struct kd_scene tall(int width, int samples, int left, int top, int columns, int rows)
 {
@@ -162,7 +199,7 @@ static void test_pieces(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_mean), cmocka_unit_test(test_wide),
-                                        cmocka_unit_test(test_pieces) };
+                                        cmocka_unit_test(test_pieces), cmocka_unit_test(test_extremal) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -75,6 +75,36 @@ class Limits(unittest.TestCase):
             self.assertEqual(server.stop(), 0)
 
 
+class Stop(unittest.TestCase):
+    def test_large_renders_that_are_accepted_end_with_the_server(self):
+        """Eight pictures of some seconds each, and a second to wait for them: each has an answer, and the server ends.
+        What is asked of it is the order of events, so that a slow machine takes longer and passes all the same."""
+        large = "/v1/render?image.width=1920&image.height=1080&image.samples=4&accuracy.profile=high&time="
+        with tempfile.TemporaryFile("w+") as log:
+            server = daemon.Daemon("--drain-seconds", 1, stderr=log)
+            self.addCleanup(server.process.kill)
+            self.assertEqual(server.get(TARGET).status, 200)  # its kernels are there
+            with concurrent.futures.ThreadPoolExecutor(8) as clients:
+                asked = [clients.submit(server.get, f"{large}{time}") for time in range(8)]
+                self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"] == 8))
+                server.terminate()
+                answers = [each.result() for each in asked]
+            self.assertEqual(server.wait(), 0)
+            log.seek(0)
+            said = log.read()
+        ended = [answer for answer in answers if answer.status != 200]
+        self.assertTrue(ended, "a machine that makes eight of them within a second needs larger ones here")
+        for answer in ended:
+            self.assertEqual((answer.status, answer.json()["type"]), (503, "urn:kerrd:problem:stopping"))
+            self.assertIn("before this was done", answer.json()["detail"])
+            self.assertTrue(answer.header("Retry-After"))
+        told = re.search(r"stopping: (\d) accepted works are unfinished.* after 1 s is ended \(--drain-seconds\)", said)
+        self.assertTrue(told, said)
+        over = re.search(r"stopping: (\d) works are not done after 1 s and are ended", said)
+        self.assertTrue(over, said)
+        self.assertTrue(len(ended) <= int(over[1]) <= int(told[1]) <= 8, said)
+
+
 class Hangup(unittest.TestCase):
     def test_a_terminal_that_closes_stops_it(self):
         for ignored in (False, True):  # as nohup has it
