@@ -172,7 +172,7 @@ const refusals = [
     'there is no {}: the list has {} element, and the next free index is {}',
     'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}',
   ],
-  ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
+  ['too many open sessions (limit {})', 'troppe sessioni aperte (limite {})'],
   [
     '{} is {}, which follows bound orbits only, and this one is to plunge',
     '{} è {}, che segue solo orbite legate, e questa deve cadere',
