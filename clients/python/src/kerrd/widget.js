@@ -179,7 +179,7 @@ function numberControl({ path, positions, low, high, unit, word, first, kind }, 
     show(scene.get(path));
   }
   box.addEventListener('change', taken);
-  box.addEventListener('keydown', event => event.key === 'Enter' && taken()); // in JupyterLab Enter causes no change event
+  box.addEventListener('keydown', event => event.key === 'Enter' && taken()); // JupyterLab suppresses the change event
   check?.addEventListener('change', () => give(check.checked ? word : first));
   const distance = (a, b) => Math.abs(a - b);
   function show(value) {
