@@ -2,7 +2,7 @@
 import { latest } from './dom.js';
 import { ask_kerr, heavy, predict, reference } from './predict.js';
 
-const beyond = 8; // a predicted path ends at so many times the radius that is seen
+const beyond = 8; // a predicted path ends at this multiple of the visible radius
 
 // aims(): what is aimed at; mass(): the mass of a new body. Returns the speed of a circular orbit at a place, and a
 // function that draws the predicted path.

@@ -44,8 +44,8 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// What is said of a picture's size. all: it has all the pixels of a picture at rest; narrow: it has fewer than were to
-// be kept in motion.
+// What the page states on a picture's size. all: it has all the pixels of a picture at rest; narrow: it has fewer than
+// were to be kept in motion.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {
