@@ -77,7 +77,7 @@ def haproxy_cost(path, n=4000, rounds=5):
 
 
 def pictures(rng, measured):
-    """A function that makes a picture's work, with the measured frequencies; and the mean seconds of one."""
+    """A function that draws a picture's work from the measured ones; and the mean seconds of one."""
     samples, beyond, estimated = measured["samples_s"], measured["beyond_s"], measured["estimates"]
     weights = [weight for *_, weight in queueing_check.MIX]
     mean = sum(w * statistics.mean(took) for w, took in zip(weights, samples)) / sum(weights) + beyond

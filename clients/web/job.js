@@ -29,10 +29,11 @@ function memory(key) {
 
 export const remembered = key => Boolean(memory(key).read()?.id);
 
-// key: of the entry in sessionStorage. starts: buttons, disabled while a job runs; cancel: another button; bar: of
-// progress; told and fault: elements for sentences. words: { done, cancelled, written, before(n) }. take(job) fetches
-// the result and may return a sentence; seen(status, job) is called at each poll and may return a promise. Returns {
-// begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is stored with the job.
+// key: of the entry in sessionStorage. starts: buttons, disabled while a job runs; cancel: the button that cancels it;
+// bar: of progress; told and fault: elements for sentences. words: { done, cancelled, written, before(n) }. take(job)
+// fetches the result and may return a sentence; seen(status, job) is called at each poll and may return a promise.
+// Returns { begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is stored with the
+// job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
   const kept = memory(key);
   let job = null,

@@ -18,7 +18,7 @@ const showsAzimuth = scene => scene.varies.includes('moves_with_azimuth');
 const withButton = scene => [...scene.fields.values()].filter(({ button, path }) => button && !/\.[1-9]/.test(path));
 const seeds = scene => [...scene.fields.keys()].filter(path => path.endsWith('.seed') && meansSomething(scene, path));
 
-// A button sets its field, and resets it when pressed again. Setting it starts time if time stands still.
+// A button sets its field, and resets it when pressed again. Setting it also gives time a rate, if it has none.
 function buildButton(scene, { path, button, type, default: usual }, rate) {
   const isOn = () => (type === 'choice' ? scene.get(path) === button.value : scene.get(path) !== usual);
   const node = el('button', {

@@ -9,8 +9,8 @@ function differences(before, after) {
   return patch;
 }
 
-// A patch (RFC 7396) from one document to another. A changed list is sent whole. Naming a style resets all its fields
-// that the patch does not set; so when the name changes, the whole style is sent.
+// A patch (RFC 7396) from one document to another. A changed list is sent whole. A patch that names a style also
+// applies the style's values to the fields that it does not set; so when the name changes, the whole style is sent.
 export function mergePatch(before, after) {
   const patch = differences(before, after);
   if (patch.style?.name !== undefined) patch.style = { ...patch.style, ...after.style };

@@ -2,8 +2,8 @@
 const decades = 30; // ratio of a range's ends from which on its slider is logarithmic
 const positions = 1000;
 
-// The scale of a range, and its inverse; null: linear. If the range begins at 0, it is linear below a hundredth of the
-// default and logarithmic above.
+// The scale of a range, and its inverse; null: linear. A wide range is logarithmic; if it begins at 0, it is linear
+// below a hundredth of the default.
 function spread({ minimum: low, maximum: high, unit, type, default: usual }) {
   if (unit === 'degrees' || low < 0) return null;
   if (low > 0) return high / low > decades ? [x => Math.log(x / low), u => low * Math.exp(u)] : null;

@@ -16,7 +16,7 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
-Open: TypeAlias = Any  # type of keywords beside **changes: with any other one, type checkers refuse **{"camera.r": 60}
+Open: TypeAlias = Any  # in types of keywords beside **changes: without it, type checkers refuse **{"camera.r": 60}
 T = TypeVar("T")
 
 
