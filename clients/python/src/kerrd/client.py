@@ -133,7 +133,7 @@ class Client:
         self, scene: SceneLike = None, *, tile: int | Open = 2048, preset: str | Open | None = None, **changes: Any
     ) -> NDArray[np.uint8]:
         """Renders a picture of any size from tiles of at most tile x tile pixels: uint8 of shape (height, width, 3),
-        the same bytes as of one picture, without seams.
+        the same pixels as of one picture, without seams.
 
         A tile cannot have exposure "auto", samples "auto", bloom or a beam (docs/scene.md): Problem names all that the
         scene has of these. kerrd.dask.stitched does the same on many machines.
@@ -231,14 +231,17 @@ class Client:
         return told
 
     def transfer_function(self, **settings: Any) -> answers.TransferFunction:
+        """Cunningham's transfer function f(g*, r) of a thin disk, near and far side. `columns` are arrays."""
         told: answers.TransferFunction = self._run(calls.integral("transfer-function", settings))
         return told
 
     def spectrum(self, **settings: Any) -> answers.DiskSpectrum | answers.VolumeSpectrum:
+        """The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. `columns` are arrays."""
         told: answers.DiskSpectrum | answers.VolumeSpectrum = self._run(calls.integral("spectrum", settings))
         return told
 
     def visibility(self, **settings: Any) -> answers.Visibilities:
+        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` are arrays."""
         told: answers.Visibilities = self._run(calls.integral("visibility", settings))
         return told
 
@@ -267,10 +270,12 @@ class Client:
         return told
 
     def device(self) -> answers.Device:
+        """The server's device: name, driver, precision, limits, and nanoseconds for each kind of work."""
         told: answers.Device = self._run(calls.get("/v1/device"))
         return told
 
     def schema(self) -> dict[str, Any]:
+        """The JSON Schema of a scene."""
         told: dict[str, Any] = self._run(calls.get("/v1/schema"))
         return told
 
@@ -416,7 +421,7 @@ class Session:
 
     def __iter__(self) -> Iterator[Frame]:
         """Yields frames as they come. For a scene at rest it stops after the final one, or at once if that has been
-        received; for a moving scene it never stops."""
+        received. For a moving scene it does not stop, unless nothing visible moves."""
         while self.moves or self._final < self.revision:
             frame = self.frame(self.frame_wait)
             if frame is not None:
@@ -453,6 +458,7 @@ class Job:
         _close(self.client, "jobs", self.id, self.token)
 
     def status(self) -> answers.Job:
+        """The job's state and progress."""
         return self.client._run(calls.job(self.id))
 
     def wait(self, *, progress: bool = False, every: float = 0.1) -> Job:

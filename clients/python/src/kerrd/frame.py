@@ -134,6 +134,7 @@ class Frame:
 
     @property
     def accuracy(self) -> dict[str, float | str]:
+        """Errors of the picture, from the header Kerrd-Accuracy."""
         return figures(self.headers.get("kerrd-accuracy"))
 
     @property
@@ -143,22 +144,27 @@ class Frame:
 
     @property
     def timing(self) -> dict[str, float]:
+        """Milliseconds of each pass, of `total` and of `encode`."""
         return passes(self.headers.get("server-timing"))
 
     @property
     def etag(self) -> str:
+        """The header ETag, or "" without one."""
         return self.headers.get("etag", "")
 
     @property
     def quality(self) -> dict[str, float | str]:
+        """Of a session's frame, the header Kerrd-Quality; else empty."""
         return figures(self.headers.get("kerrd-quality"))
 
     @property
     def number(self) -> int:
+        """The number of a session's frame; else 0."""
         return int(self.headers.get("kerrd-frame", 0))
 
     @property
     def revision(self) -> int:
+        """The revision of the scene that a session's frame shows; else 0."""
         return int(self.headers.get("kerrd-revision", 0))
 
     @property
