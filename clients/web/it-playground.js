@@ -1,5 +1,5 @@
-// This is in Italian what the server says of its playgrounds; it.js has the rest. It is fetched when that view is
-// opened in Italian.
+// Italian translations of the server's texts about playgrounds, loaded when that view is opened in Italian; it.js has
+// the rest.
 export const values = { 'paczynski-wiita': 'Paczyński–Wiita', kerr: 'Kerr' };
 
 export const presets = {

@@ -1,5 +1,5 @@
-// These are in Italian the sentences with which the server refuses something, or says what is seen.
-// What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
+// Italian translations of the server's refusals and of its descriptions of what is seen, by the pattern of the
+// sentence: {} stands for a value with its unit, {…} for a list.
 const refusals = [
   [
     '{} names an asset of this server, which a link does not hold; it must be null',
@@ -202,7 +202,7 @@ const refusals = [
     'una griglia di materia è un file NPZ di array: {} è {}; deve essere {}',
   ],
   ['a grid of matter is an NPZ file of arrays: {…}', 'una griglia di materia è un file NPZ di array (in inglese): {}'],
-  // what is seen of emitters
+  // descriptions of emitters
   [
     'Matter from a grid of numbers from {} to {}, at {} GHz.',
     'Materia da una griglia di numeri, da {} a {}, a {} GHz.',

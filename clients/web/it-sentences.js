@@ -1,4 +1,4 @@
-// This is in Italian what is approximated in a picture, the names of what shines, and what the numbers of a curve are.
+// Italian translations of approximations, of the names of emitters, and of the descriptions of a curve's values.
 export const sentences = {
   'camera: each eye of a pair is an observer of the same kind at the same time, displaced from the middle to first order in camera.eye_distance in the local frame; the axes are parallel as in flat space':
     'camera: ogni occhio di una coppia è un osservatore a sé, dello stesso tipo, accanto al mezzo secondo il primo ordine di camera.eye_distance nel riferimento locale, allo stesso tempo; i loro assi sono paralleli come nello spazio piatto',
