@@ -203,8 +203,7 @@ export const sentences = {
     'volume: il toro di Fishbone e Moncrief 1976, in equilibrio senza il suo campo magnetico, messo solo per la sua pressione; le temperature di ioni ed elettroni sono in un solo rapporto',
   'volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; it is shown at one time and does not change while light passes':
     'volume: la materia fra i nodi di una griglia è presa dai nodi vicini, densità e temperatura dai loro logaritmi; sta ferma, com’era a un istante, mentre la luce passa',
-  'volume: volume.grid is not set: there is no matter':
-    'volume: nessun file di griglia è indicato: non c’è materia',
+  'volume: volume.grid is not set: there is no matter': 'volume: nessun file di griglia è indicato: non c’è materia',
   'volume: synchrotron light by the fits of Pandya et al. 2016, which are good to a few percent within their range; the electrons are isotropic':
     'volume: luce di sincrotrone secondo le formule di Pandya et al. 2016, buone a qualche percento dove valgono; gli elettroni vanno ugualmente in ogni direzione',
   'volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy; smaller pictures find it, which the estimated time leaves out; answers give the factor as density_scale':

@@ -240,9 +240,7 @@ class Owned(Case):
     def delayed(self, job, server=None):
         """The first status that says why the job waits. One answer: a second later the job may run again."""
         seen = []
-        self.assertTrue(
-            eventually(lambda: seen.append(self.status(job, server)) or "delayed" in seen[-1]), seen[-3:]
-        )
+        self.assertTrue(eventually(lambda: seen.append(self.status(job, server)) or "delayed" in seen[-1]), seen[-3:])
         return seen[-1]
 
     def stream(self, one, rest, accept="*/*", timeout=20):
