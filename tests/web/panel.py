@@ -329,7 +329,7 @@ class Panel(Browser):
                 ("Tone map" if lang == "en" else "tone_map", "style.tone_map"),
                 ("camera.roll_deg", "camera.roll_deg"),
                 ("roll deg", "camera.roll_deg"),
-                ("knee", "style.bloom"),
+                ("smooth transition", "style.bloom"),
                 ("kerr–schild tao", "accuracy.engine"),
             ):
                 page.fill("#find", words)
