@@ -1,5 +1,5 @@
-/* Arena: records which bytes of a range are free. Offsets only, no memory. First fit in address order; neighbours
- * coalesce. Not thread-safe. */
+/* Arena: records which bytes of a range are free. It deals with offsets only, not with memory. It takes the first gap
+ * that fits, in order of addresses; adjacent gaps are merged. Not thread-safe. */
 #ifndef KD_VK_ARENA_H
 #define KD_VK_ARENA_H
 
@@ -10,7 +10,7 @@
 struct kd_vk_span { uint64_t begin, end; };
 
 struct kd_vk_arena {
-    struct kd_vk_span *free; /* sorted; spans never touch one another */
+    struct kd_vk_span *free; /* sorted; no two of them touch */
     size_t n_free, capacity;
     size_t live; /* number of allocations */
     uint64_t size;

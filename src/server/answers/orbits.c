@@ -1,4 +1,4 @@
-/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed meanwhile. */
+/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed during the integration. */
 #include "server/answers/orbits.h"
 
 #include "orbit/feed.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
-/* unsent bytes of a stream at which the integration pauses; it continues at a quarter of this */
+/* unsent bytes of a stream at which the integration pauses; it continues when a quarter of this is left */
 #define FULL (1u << 20)
 #define BYTES_PER_SAMPLE 220 /* estimates for the size of an answer as text */
 #define BYTES_PER_ORBIT 2400
@@ -29,7 +29,7 @@ struct kd_orbits_job {
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
-    struct kd_request *owner; /* valid in the first turn only, while the request is suspended */
+    struct kd_request *owner; /* valid in the first slice only, while the request is suspended */
     struct kd_orbit_request request;
     struct kd_orbit_feed feed;
     double submitted_ms, begun_ms, deadline_ms, queue_ms, run_ms;
@@ -67,7 +67,7 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     job->mhd = NULL;
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
-    if (wake) /* the scheduler still has it; if it is being finished, nothing is parked */
+    if (wake) /* the job is still in the scheduler; if it is about to finish, it is not parked */
         kd_scheduler_wake(job->server->turns, &job->turns);
     unref(job);
 }
@@ -122,7 +122,7 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
     return status;
 }
 
-/* Whether `out` has room for another piece; frees the part that was sent. Called with the lock. */
+/* Whether `out` has room for what another slice produces; frees the part that was sent. Called with the lock. */
 static bool has_room(struct kd_orbits_job *job)
 {
     if (job->format != KD_ORBIT_NDJSON)
@@ -202,7 +202,7 @@ static void done(struct kd_scheduler_job *turns)
     unref(job);
 }
 
-/* Appends an error to the stream, since the status line was sent before. Called with the lock. */
+/* Appends an error to the stream, since the status line is already sent. Called with the lock. */
 static void say_in_stream(struct kd_orbits_job *job)
 {
     struct kd_problem problem = kd_problem_from(&job->error);
@@ -270,7 +270,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        /* sets the deadline to that of the integration */
+        /* sets the deadline for the answer to that of the integration */
         request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);

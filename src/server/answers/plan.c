@@ -1,5 +1,5 @@
-/* POST /v1/plan: cost of rendering a scene, or all scenes of a sweep, for which the body is that of a job with axes.
- * Workers plan the scenes of a sweep in slices. */
+/* POST /v1/plan: cost of rendering a scene, or all scenes of a sweep. For a sweep the body is that of a job with axes,
+ * and workers plan the scenes in slices. */
 #include "render/output/cost.h"
 #include "scene/scan.h"
 #include "server/asset/store.h"

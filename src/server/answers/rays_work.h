@@ -1,5 +1,5 @@
-/* Computes requests for rays. Workers parse a request, trace it in slices on all free threads, or on the device in
- * turns given by the render queue, and add up the results. */
+/* Computes requests for rays. Workers parse a request. They trace its rays in slices on all free threads, or the render
+ * queue lets it trace them on the device from time to time. Workers then add up the results. */
 #ifndef KD_SERVER_ANSWERS_RAYS_WORK_H
 #define KD_SERVER_ANSWERS_RAYS_WORK_H
 
@@ -22,7 +22,7 @@ struct kd_rays_job {
     double traced_from_ms;
     _Atomic size_t begun; /* rays handed to workers */
     struct kd_render_job device;
-    size_t traced, turn; /* rays on the device: finished, and in the next turn */
+    size_t traced, turn; /* rays on the device: finished, and in the next call */
 };
 
 /* Makes a job. Set `request` and `npy`, then submit it. Returns NULL with *refused if it is not admitted. */

@@ -18,7 +18,7 @@ struct kd_asset {
     double used_ms;
     unsigned references; /* including the store's own */
     enum kd_asset_state state;
-    struct kd_scheduler_job removal; /* for kd_asset_store_remove_later */
+    struct kd_scheduler_job removal; /* job that removes the asset's files (kd_asset_store_remove_later) */
     struct kd_asset_store *store;
     struct kd_asset *next;
     uint8_t bytes[];
@@ -30,7 +30,7 @@ struct kd_asset_store {
     pthread_mutex_t lock; /* for all members below; never held while a file is written or removed */
     int folder;           /* descriptor; -1: no folder */
     struct kd_asset *first;
-    uint64_t checking;      /* bytes used by checks under way */
+    uint64_t checking;      /* memory in bytes that checks under way use */
     _Atomic unsigned count; /* count and bytes are written with the lock and read without */
     _Atomic uint64_t bytes;
 };
@@ -41,7 +41,7 @@ struct kd_asset *kd_asset_make(struct kd_asset_store *store, const struct kd_ass
 
 /* Called with the lock. */
 void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset);
-/* Removes it from the list and drops the store's reference. */
+/* Removes an asset from the list and drops the store's reference. */
 void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset);
 void kd_asset_unref(struct kd_asset *asset);
 struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash); /* in any state */

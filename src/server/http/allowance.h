@@ -14,7 +14,7 @@ struct kd_allowance {
     unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];
-        double ms, at_ms; /* contents of the bucket at the time at_ms; at_ms 0: full */
+        double ms, at_ms; /* contents of the bucket at the time at_ms; at_ms 0: the bucket is full */
     } places[KD_ALLOWANCE_CLIENTS];
 };
 

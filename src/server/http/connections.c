@@ -142,7 +142,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of one's client, including one. handed_on: without those that have not sent anything yet. */
+/* Counts the connections of the client of `one`, including `one` itself. handed_on: omits those that have not sent
+ * anything yet. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -271,7 +272,8 @@ bool kd_connections_full(struct kd_connections *all)
     return full;
 }
 
-/* In these stages nothing of an answer has been sent, so a complete answer can be written to the socket directly. */
+/* Answers a request that is late with 408. In these stages nothing of an answer has been sent, so a complete answer can
+ * be written to the socket directly. */
 static void answer_late(const struct kd_connection *one)
 {
     if (one->stage == KD_STAGE_HEADER)
@@ -280,8 +282,8 @@ static void answer_late(const struct kd_connection *one)
         kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive", NULL);
 }
 
-/* Discards what has arrived, at most 1 MiB a sweep because the lock is held. False at the end or beyond
- * LINGER_BYTES. */
+/* Discards the bytes that have arrived, at most 1 MiB in one sweep because the lock is held. Returns false if the
+ * client has closed its end, or has sent more than LINGER_BYTES. */
 static bool empty(struct kd_connection *one)
 {
     enum { READS = 64 };
@@ -303,7 +305,7 @@ static void empty_lingering(struct kd_connections *all, double now)
     }
 }
 
-/* A request that has arrived but that its daemon has not read yet is not late. */
+/* Whether a request has arrived that its daemon has not read yet. Such a request is not late. */
 static bool waits_for_us(const struct kd_connection *one)
 {
     int unread = 0;

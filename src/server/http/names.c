@@ -25,7 +25,8 @@ void kd_names_free(char **names)
     free(names);
 }
 
-/* Writes an address as a URL has it; "" for other families and for addresses that are valid on one interface only. */
+/* Writes an address as it is written in URLs; "" for other families and for addresses that are valid on one interface
+ * only. */
 static void text_of(const struct sockaddr *address, int family, char out[80])
 {
     char text[INET6_ADDRSTRLEN] = "";

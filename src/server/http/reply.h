@@ -9,12 +9,12 @@
 #include "server/http/problem.h"
 #include "server/http/request.h"
 
-/* Makes a response of the buffer's bytes and takes them over: the buffer is empty afterwards, also on failure. Returns
- * NULL on failure. */
+/* Makes a response and moves the buffer's bytes into it. The buffer is empty afterwards, even on failure. Returns NULL
+ * on failure. */
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
-/* The same for text. It is compressed by gzip if the client accepts that and the text is long enough. */
+/* Like kd_reply_take, for text. It is compressed by gzip if the client accepts that and the text is long enough. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* Makes a response of bytes that outlive it. type NULL: no content, so no Content-Type. */
+/* Makes a response of bytes that outlive the response. type NULL: no content, so no Content-Type. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
 /* Makes a response without a body for HEAD and 304 where the length of GET's answer is unknown. Closes the
  * connection. */

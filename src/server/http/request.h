@@ -35,13 +35,13 @@ struct kd_request {
     bool spent;                       /* Authorization holds the access token, so it holds no other token */
     const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;
-    struct kd_once once;          /* hashes of its Idempotency-Key and content */
-    struct sha256_ctx taken;      /* running hash of target and body, if it has a key */
+    struct kd_once once;          /* hashes of the request's Idempotency-Key and content */
+    struct sha256_ctx taken;      /* running hash of target and body, if the request has a key */
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
     size_t body_mark;                              /* size of body when its deadline was last extended */
     const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
-    struct kd_render_job *job;                     /* render under way; owned */
+    struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* it has waited for a thumbnail */
     struct kd_orbits_job *orbits;                  /* orbits being computed; holds a reference */

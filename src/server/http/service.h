@@ -1,9 +1,9 @@
 /* State shared by the parts of the HTTP service. Private to src/server.
  *
  * Threads: the front (front.h) accepts connections. One libmicrohttpd thread runs the handlers of the health routes,
- * another all other handlers ("the HTTP thread"). The render queue has render threads and encoders, the task scheduler
- * (turns.h) its workers. The reaper (reaper.h) enforces deadlines, detects clients that have disconnected, and runs the
- * shutdown. */
+ * another all other handlers ("the HTTP thread"). The render queue has render threads and encoders. The task scheduler
+ * (task_scheduler.h) has workers. The reaper (reaper.h) enforces deadlines, detects clients that have disconnected, and
+ * runs the shutdown. */
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
@@ -20,20 +20,21 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX         /* bytes of one body; others: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
-#define KD_BODIES_MAX ((size_t)192 << 20)     /* bytes of all bodies being received */
-#define KD_BODIES_SHARE ((size_t)96 << 20)    /* of these, of one client; leaves room for the largest body of another */
+#define KD_BODY_MAX KD_SCENE_JSON_MAX     /* bytes of one body, except KD_RAYS_BODY_MAX and KD_ORBIT_BODY_MAX */
+#define KD_BODIES_MAX ((size_t)192 << 20) /* bytes of all bodies being received */
+/* the most of these that one client may hold; leaves room for the largest body of another */
+#define KD_BODIES_SHARE ((size_t)96 << 20)
 #define KD_BODIES_SMALL ((size_t)16 << 20)    /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX */
 #define KD_REPLIES_MAX (512u << 20)           /* bytes of all answers not yet sent; a single answer may exceed it */
 #define KD_REPLIES_RESERVE ((size_t)64 << 20) /* reserve beyond KD_REPLIES_MAX for small answers */
 #define KD_REPLIES_SMALL ((size_t)4 << 20)    /* largest size of a small answer */
 #define KD_HEADER_POOL (32u << 10)            /* bytes of a connection for its header and read buffer */
-#define KD_IDLE_S 30u                         /* closes a kept-alive connection without traffic */
-#define KD_SESSION_IDLE_MS 60000u             /* ends a session without viewers */
+#define KD_IDLE_S 30u                         /* a kept-alive connection without traffic is closed after this time */
+#define KD_SESSION_IDLE_MS 60000u             /* a session without viewers ends after this time */
 #define KD_PLAYS_BYTES ((size_t)1 << 30)      /* memory of all playgrounds */
 #define KD_JOBS_KEPT 64u                      /* jobs stored, finished ones included */
-#define KD_JOB_LONGEST_S (24 * 3600.0)        /* estimated time of all frames of a job */
-#define KD_JOB_KEEP_S (24 * 3600.0)           /* deletes a finished job */
+#define KD_JOB_LONGEST_S (24 * 3600.0)        /* largest estimated time of all frames of a job */
+#define KD_JOB_KEEP_S (24 * 3600.0)           /* a finished job is deleted after this time */
 #define KD_JOB_BYTES ((uint64_t)16 << 30)     /* disk space of all jobs */
 #define KD_ASSETS 64u                         /* assets stored */
 #define KD_ASSETS_BYTES ((uint64_t)256 << 20) /* their bytes */
@@ -45,7 +46,7 @@
 enum kd_phase {
     KD_SERVING,
     KD_DRAINING, /* /readyz fails; everything else is served */
-    KD_REFUSING, /* new renders are refused; accepted ones finish */
+    KD_REFUSING, /* new renders are refused; those accepted before finish */
     KD_CLOSING,  /* not listening any more; answers under way are sent */
     KD_STOPPED,
 };
@@ -81,7 +82,7 @@ struct kd_server {
     struct kd_sessions *sessions;
     struct kd_playground_sessions *plays;
     struct kd_jobs *jobs;
-    struct kd_job_whole *cubes; /* cubes being downloaded (job/whole.c); HTTP thread only */
+    struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
     struct kd_cached_documents *kept;
@@ -103,8 +104,9 @@ struct kd_server {
     pthread_t reaper;
     bool reaper_runs;
     _Atomic bool abandon; /* destroy without stop: do not wait */
-    _Atomic bool ended;   /* drain_s after a stop request: remaining work is cancelled and its clients get an answer */
-    pthread_mutex_t lock; /* for all members below */
+    /* set drain_s after a stop request: remaining work is cancelled and its clients get an answer */
+    _Atomic bool ended;
+    pthread_mutex_t lock;                      /* for all members below */
     struct kd_sessions_counts sessions_counts; /* last values read */
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts plays_counts;

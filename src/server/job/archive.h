@@ -1,5 +1,5 @@
-/* Answers with all files of a finished job in one archive (render/output/gather.h), piece by piece. Before the first
- * byte, workers read the files of a cube, or wait until ffmpeg has encoded a film. HTTP thread. */
+/* Answers with all files of a finished job in one archive (render/output/gather.h), made in small pieces. Before the
+ * first byte is sent, workers read the files of a cube, or wait until ffmpeg has encoded a film. HTTP thread. */
 #ifndef KD_SERVER_JOB_ARCHIVE_H
 #define KD_SERVER_JOB_ARCHIVE_H
 
