@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* "Gas and stars", for example, of the preset at this index; NULL beyond the last. */
+/* The name of the preset at this index, such as "Gas and stars"; NULL beyond the last. */
 const char *kd_scene_preset_label(size_t index);
 
 #endif
