@@ -2,7 +2,7 @@
  *
  * A line of text is "kerrd: LEVEL: MESSAGE". A line of JSON is an object with time (RFC 3339, UTC, milliseconds),
  * level, event and the event's members. kd_log writes the event "message" with the member message. Control characters
- * and invalid UTF-8 become \\xNN, so that an event is always one line. */
+ * and invalid UTF-8 become \xNN, so that an event is always one line. */
 #ifndef KD_BASE_LOG_H
 #define KD_BASE_LOG_H
 

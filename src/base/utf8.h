@@ -21,7 +21,7 @@ void kd_utf8_sanitize(char *text);
 void kd_utf8_show(char *text);
 
 /* Copies as many whole characters of text as fit in size bytes. Each byte of a control character or of invalid UTF-8
- * becomes \\xNN, so that a line stays one line and a terminal executes no escape sequence. size is at least 1. Four
+ * becomes \xNN, so that a line stays one line and a terminal executes no escape sequence. size is at least 1. Four
  * bytes for each byte of text, plus one for the NUL, always suffice. */
 void kd_utf8_print(char *to, size_t size, const char *text);
 

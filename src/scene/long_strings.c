@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARK '\xff' /* Placeholder for a long string. It is never a byte of UTF-8, so no text or escape contains it. \
-                     */
+#define MARK '\xff' /* placeholder for a long string; never a byte of UTF-8, so no text or escape contains it */
 #define PIECE ((size_t)1 << 20)
 
 /* Returns the index of the closing quote of the string whose first byte is at `at`. *escapes: whether the string

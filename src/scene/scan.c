@@ -36,7 +36,7 @@ static enum kd_status fail(struct scan *s, size_t at, const char *what)
                         what, at, place.line, place.column);
 }
 
-/* The value of the \\u escape at `at`. 0 if there is none; no escape may have that value. */
+/* The value of the \u escape at `at`. 0 if there is none; no escape may have that value. */
 static unsigned unit_at(const struct scan *s, size_t at)
 {
     char digits[5] = "";
@@ -215,7 +215,7 @@ static size_t end_of(const char *text, size_t length, size_t at)
     return at < length ? at : length;
 }
 
-/* Whether the text of a string spells the name. Any letter may be written in the form \\u0061. */
+/* Whether the text of a string spells the name. Any letter may be written in the form \u0061. */
 static bool spells(const char *text, size_t n, const char *name)
 {
     char digits[5] = "";

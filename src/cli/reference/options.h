@@ -44,7 +44,7 @@ struct kd_context {
 };
 bool kd_context_at(size_t i, struct kd_context *out);
 
-/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \\v; `after` selects the parts
+/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \v; `after` selects the parts
  * that follow the options. It includes the texts of the argp's children. */
 void kd_options_texts(const struct argp *argp, bool after,
                       void (*one)(struct kd_writer *w, const char *text, size_t length), struct kd_writer *w);
