@@ -51,7 +51,7 @@ _Noreturn static void refuse(const struct argp_state *state, const char *option,
                                                 : " or ",
                                  strcmp(known[i], "text") ? known[i] : "txt");
     argp_error(state, "%s is \"%s\": the name must end in %s", option, path, list);
-    exit(argp_err_exit_status); /* not reached: argp_error exits */
+    exit(argp_err_exit_status); /* not reached, because argp_error exits */
 }
 
 const char *kd_cli_ending(const struct argp_state *state, const char *option, const char *path,

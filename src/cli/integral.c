@@ -19,7 +19,7 @@ struct arguments {
     const char *input, *output, *format;
     const char *given[FIELDS_MAX]; /* texts of the options, in the order of the table of fields; NULL: not given */
     const char *observation;       /* file of observations that the scene is compared with */
-    struct kd_scene_options scene; /* for integrals that accept a scene */
+    struct kd_scene_options scene; /* options of the scene, for integrals that accept one */
     const char *device;
 };
 

@@ -8,7 +8,7 @@
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* For each section, these have the type of its rows, their offset in the scene, and the distance from one list element
+/* These hold, for each section, the type of its rows, their offset in the scene, and the distance from one list element
  * to the next. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \

@@ -8,8 +8,8 @@ enum kd_value_kind { KD_VALUE_NUMBER, KD_VALUE_STRING, KD_VALUE_BOOL, KD_VALUE_N
 
 struct kd_value {
     enum kd_value_kind kind;
-    double number;    /* of a NUMBER; of a BOOL it is 0 or 1 */
-    const char *text; /* of a STRING */
+    double number;    /* value of a NUMBER; 0 or 1 for a BOOL */
+    const char *text; /* value of a STRING */
 };
 
 /* Stores the value; words of a WORDS field are read from the text of a STRING. On failure returns KD_EINVAL with the

@@ -255,7 +255,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(start_sessions(server, params, error));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    /* after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
+    /* opened after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
     if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
     kd_jobs_begin(server->jobs);
@@ -336,7 +336,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_scheduler_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
-    kd_sessions_destroy(server->sessions); /* after the queue, whose last frames refer to sessions */
+    kd_sessions_destroy(server->sessions); /* destroyed after the queue, whose last frames refer to sessions */
     kd_jobs_destroy(server->jobs);
     kd_asset_store_close(server->assets);
     kd_connections_destroy(server->connections);

@@ -191,7 +191,7 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
     size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
     enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
     if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
-        status = take_or_grow(vk, type, size, alignment, out, &why); /* now with the memory of retired buffers */
+        status = take_or_grow(vk, type, size, alignment, out, &why); /* once more, with the memory of retired buffers */
     if (!status)
         return KD_OK;
     return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",

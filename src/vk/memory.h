@@ -22,7 +22,7 @@ struct kd_vk_block {
     VkDeviceMemory memory;
     uint32_t type;
     struct kd_vk_arena arena;
-    uint8_t *map; /* where the host sees the block; NULL: nowhere */
+    uint8_t *map; /* address of the block for the host; NULL: the host does not see the block */
     bool coherent;
 };
 

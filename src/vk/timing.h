@@ -14,7 +14,7 @@
 
 /* The timestamps of one submission. */
 struct kd_vk_stamps {
-    /* as many as the submission with most timestamps has needed */
+    /* the submission with most timestamps has determined how many there are */
     VkQueryPool *pools;
     size_t n_pools, n;                                           /* n: number of timestamps written */
     struct kd_vk_stamp_span { uint32_t pass, commands; } *spans; /* span i lies between stamps i and i + 1 */

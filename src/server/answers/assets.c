@@ -74,7 +74,7 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
 
 /* State of an upload. Workers hash and write the asset. */
 struct putting {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_asset_put put;
 };
 
@@ -265,7 +265,7 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
 
 /* State of a deletion. It runs on a worker, so that the files are deleted when the request is answered. */
 struct removing {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_asset *asset;
     bool was;
 };

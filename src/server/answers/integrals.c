@@ -21,7 +21,7 @@ static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
                                      [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
 
 struct job {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_integral_request request;
     enum kd_integral_format format;
     bool malformed;

@@ -25,7 +25,7 @@ static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
 
 /* A job with two owners, the request and the scheduler; the last one to release it frees it. */
 struct kd_orbits_job {
-    struct kd_scheduler_job turns; /* first member */
+    struct kd_scheduler_job turns; /* must be the first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
@@ -36,7 +36,7 @@ struct kd_orbits_job {
     size_t held;
     enum { READING, RUNNING } state;
 
-    pthread_mutex_t lock;       /* for all members below */
+    pthread_mutex_t lock;       /* protects all members below */
     struct MHD_Connection *mhd; /* NULL once the request is closed */
     int socket;
     bool suspended, full, finished;

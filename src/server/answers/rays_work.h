@@ -10,7 +10,7 @@
 #include "server/render/queue.h"
 
 struct kd_rays_job {
-    struct kd_task task;            /* first member */
+    struct kd_task task;            /* must be the first member */
     struct kd_rays_request request; /* initialised; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
     /* results, in addition to the task's */

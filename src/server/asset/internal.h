@@ -27,7 +27,7 @@ struct kd_asset {
 struct kd_asset_store {
     struct kd_asset_limits limits;
     struct kd_assets assets;
-    pthread_mutex_t lock; /* for all members below; never held while a file is written or removed */
+    pthread_mutex_t lock; /* protects all members below; never held while a file is written or removed */
     int folder;           /* descriptor; -1: no folder */
     struct kd_asset *first;
     uint64_t checking;      /* memory in bytes that checks under way use */
@@ -44,7 +44,7 @@ void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset);
 /* Removes an asset from the list and drops the store's reference. */
 void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset);
 void kd_asset_unref(struct kd_asset *asset);
-struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash); /* in any state */
+struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *hash); /* finds an asset in any state */
 
 /* Removes the files of an asset in the state LEAVING, then the asset. Called without the lock; waits for the disk. */
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset);

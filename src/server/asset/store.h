@@ -84,11 +84,11 @@ void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64
 /* Description of an asset; immutable while a reference is held. */
 struct kd_asset_about {
     char hash[KD_ASSET_NAME], token[KD_SECRET_TOKEN];
-    uint32_t width, height; /* of a picture */
+    uint32_t width, height; /* size of a picture */
     int bit_depth, channels;
     enum kd_observation_kind observation; /* NONE: not an observation */
-    uint32_t visibilities, stations;      /* of an observation */
-    uint32_t nodes[3];                    /* of a grid, in r, theta and phi; 0: not a grid */
+    uint32_t visibilities, stations;      /* numbers of both, for an observation */
+    uint32_t nodes[3];                    /* nodes of a grid in r, theta and phi; 0: not a grid */
     double spin;
     double created; /* seconds since 1970 */
     size_t size;

@@ -25,7 +25,7 @@
 
 struct entry {
     struct kd_visitor visitor;
-    uint8_t hash[SHA256_DIGEST_SIZE]; /* of the token; the token itself is not stored */
+    uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token; the token itself is not stored */
 };
 
 struct kd_access {

@@ -16,8 +16,8 @@
 #include <unistd.h>
 
 #define IDLE_MS 60e3    /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
-#define CROWDED_MS 2e3  /* for the header of a connection accepted beyond the limit */
-#define REPLY_MS 30e3   /* for reading an answer, ... */
+#define CROWDED_MS 2e3  /* time for the header of a connection that is accepted beyond the limit */
+#define REPLY_MS 30e3   /* time for reading an answer, ... */
 #define BYTES_PER_MS 32 /* ... and in addition the time for its bytes at 32 kB/s, a poor mobile line */
 
 #define STALL_MS 2e3  /* a client that reads takes some bytes within this time on nearly any line */
@@ -33,15 +33,15 @@ struct kd_connection {
     bool linger, handed_on, health, cut; /* cut: shut down to make room */
     size_t discarded;
     enum kd_stage stage;
-    double deadline;   /* on kd_clock_ms; 0: none */
+    double deadline;   /* a time on kd_clock_ms; 0: none */
     int unsent;        /* unsent bytes in the socket at the last check */
-    double stalled_ms; /* when unsent last changed; 0: not checked yet */
+    double stalled_ms; /* when `unsent` last changed; 0: not checked yet */
 };
 
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit, share; /* without the health routes' connections */
+    unsigned count, limit, share; /* count: open connections, not counting those to the health routes */
     unsigned n_handed_on, n_health;
     struct kd_connection *lingering; /* removed, being drained; singly linked */
     unsigned n_lingering;

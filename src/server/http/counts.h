@@ -18,7 +18,7 @@ struct kd_playground_sessions_counts {
 struct kd_jobs_counts {
     unsigned waiting, running, done, failed;
     uint64_t frames; /* finished by this server since its start */
-    uint64_t bytes;  /* on disk, of all jobs */
+    uint64_t bytes;  /* size of all jobs on disk */
 };
 
 #endif

@@ -23,7 +23,7 @@ static bool number(const char **at, uint64_t *out)
 /* Elements of a list may be empty (RFC 9110 5.6.1). */
 static const char *skip_empty(const char *at) { return at + strspn(at, BLANKS ","); }
 
-/* first-last, first- or -suffix */
+/* One range of a Range header: first-last, first- or -suffix. */
 struct spec {
     uint64_t first, last;
     bool suffix;

@@ -54,7 +54,7 @@ struct kd_request {
     size_t reply_bytes; /* size of a large reply, which extends its deadline */
     double start_ms;
     double bytes_before; /* bytes written to the connection before this request, for the log */
-    unsigned status;     /* of the reply, for the log */
+    unsigned status;     /* status of the reply, for the log */
 };
 
 /* Token in Authorization; NULL if there is none. Defined in reply.c. */

@@ -24,9 +24,9 @@ extern const struct kd_method kd_methods[KD_METHODS];
 
 enum kd_takes {
     KD_TAKES_NOTHING,
-    KD_TAKES_SCENE, /* in the body, or with GET in the query */
+    KD_TAKES_SCENE, /* a scene, in the body, or with GET in the query */
     KD_TAKES_PLAN,  /* a scene, or a scene with axes of a sweep, in the body */
-    KD_TAKES_RAYS,  /* in the body, JSON or NPY */
+    KD_TAKES_RAYS,  /* rays, in the body, as JSON or NPY */
     KD_TAKES_ORBITS,
     KD_TAKES_INTEGRAL, /* the integral that the path names */
     KD_TAKES_JOB,
@@ -36,20 +36,20 @@ enum kd_takes {
     KD_TAKES_PARTICLES,  /* selection of particles and quantities, in the query */
     KD_TAKES_PLAYGROUND, /* a playground's document, or changes of one */
     KD_TAKES_STEP,
-    KD_TAKES_TICK,     /* which lists and how many entries, in the query */
+    KD_TAKES_TICK,     /* names of lists and numbers of entries, in the query */
     KD_TAKES_LINK,     /* a scene as the code of a link, in the path */
     KD_TAKES_QUANTITY, /* the parameters, in the query, of the quantity that the path names */
 };
 
 /* Where an answer's media types are listed. */
 enum kd_gives {
-    KD_GIVES_ITS_ANSWER, /* in `answer` and `also` */
+    KD_GIVES_ITS_ANSWER, /* the members `answer` and `also` list them */
     KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */
     KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };
 
 struct kd_route {
-    const char *path; /* at most one segment in braces, which matches any text: request->rest */
+    const char *path; /* at most one segment is in braces; it matches any text, which becomes request->rest */
     unsigned methods;
     /* Called when the body is complete, and again when the work that the handler started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);

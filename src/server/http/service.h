@@ -47,7 +47,7 @@ enum kd_phase {
     KD_SERVING,
     KD_DRAINING, /* /readyz fails; everything else is served */
     KD_REFUSING, /* new renders are refused; those accepted before finish */
-    KD_CLOSING,  /* not listening any more; answers under way are sent */
+    KD_CLOSING,  /* the server does not listen any more; answers under way are sent */
     KD_STOPPED,
 };
 
@@ -106,8 +106,8 @@ struct kd_server {
     _Atomic bool abandon; /* destroy without stop: do not wait */
     /* set drain_s after a stop request: remaining work is cancelled and its clients get an answer */
     _Atomic bool ended;
-    pthread_mutex_t lock;                      /* for all members below */
-    struct kd_sessions_counts sessions_counts; /* last values read */
+    pthread_mutex_t lock;                      /* protects all members below */
+    struct kd_sessions_counts sessions_counts; /* the counts that were last read */
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts plays_counts;
     pthread_cond_t changed;

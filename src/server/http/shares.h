@@ -53,7 +53,7 @@ struct kd_share_flow { /* work of one class of one client */
     /* now: virtual time that each of the flow's works would have received if they ran side by side */
     double paid, now;
     unsigned claims;
-    struct kd_claim *first; /* in order of arrival */
+    struct kd_claim *first; /* the flow's work, in order of arrival */
 };
 struct kd_share_client {
     char name[KD_CLIENT];

@@ -16,7 +16,7 @@
 
 /* A suspended turn, on the stack of its thread. It is listed among the jobs and resumed in its place. */
 struct paused {
-    struct kd_scheduler_job place; /* first member; its turn is NULL */
+    struct kd_scheduler_job place; /* must be the first member; its turn is NULL */
     pthread_cond_t resumed;
 };
 

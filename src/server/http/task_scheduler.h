@@ -22,7 +22,7 @@ struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
         struct kd_scheduler_job *job); /* called once on a worker when every turn has returned; may free the job */
-    /* when the job, once parked, is resumed, on kd_clock_ms; 0: parked without a time limit */
+    /* time on kd_clock_ms at which the job is resumed if it is parked; 0: there is none */
     double due_ms;
     /* several workers may run slices of the job at once, from the next slice on; a slice may set it */
     bool shared;

@@ -158,7 +158,7 @@ static ssize_t produce_from(void *cls, uint64_t position, char *to, size_t size)
 
 /* Task that prepares an archive before its first byte. */
 struct looked {
-    struct kd_task task;        /* first member */
+    struct kd_task task;        /* must be the first member */
     struct kd_job_whole *whole; /* NULL once the answer owns it */
     const struct kd_gather_format *format;
     uint64_t length; /* length of the archive, if it is known in advance */

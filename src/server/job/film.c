@@ -15,7 +15,7 @@
 
 /* A task that moves a film's playground on to the next frame. */
 struct stride {
-    struct kd_scheduler_job turns; /* first member */
+    struct kd_scheduler_job turns; /* must be the first member */
     struct kd_job *job;            /* a counted reference */
     unsigned to;
     bool under_way; /* `run` has begun */

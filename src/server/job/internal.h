@@ -90,7 +90,8 @@ struct kd_jobs {
     struct kd_job_store *store;
     bool temporary;          /* the store is created with the first job and deleted at the end */
     pthread_mutex_t opening; /* held while that store is created */
-    /* For all members below. Never held while a file is written or removed, because the HTTP thread takes this lock. */
+    /* Protects all members below. Never held while a file is written or removed, because the HTTP thread takes this
+     * lock. */
     pthread_mutex_t lock;
     struct kd_scheduler_job writer;  /* scheduler job that writes records (records.c) */
     bool writes, begun;              /* writes: the writer is under way; begun: other threads use the jobs */

@@ -107,7 +107,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
 
 /* A requested job. Workers parse and check it. */
 struct draft {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_job_draft draft;
     bool read;
     struct kd_job *job; /* the created job, a counted reference; NULL: none yet */
@@ -191,7 +191,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
 
 /* State of a deletion. It runs on a worker, so that the job's files are deleted when the request is answered. */
 struct removing {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     struct kd_job *job;  /* a counted reference */
 };
 
@@ -260,7 +260,7 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
 }
 
 struct events {
-    struct kd_job_watcher watcher; /* first member */
+    struct kd_job_watcher watcher; /* must be the first member */
     struct kd_buffer text;         /* text of one event */
     size_t at;
     bool over;

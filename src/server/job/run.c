@@ -14,7 +14,7 @@
 /* limit of frames that are rendered and not yet in files; one can be rendered while another is encoded */
 #define BEHIND_MAX 2
 struct kd_job_render {
-    struct kd_render_job render;      /* first member: the queue stores a pointer to it */
+    struct kd_render_job render;      /* must be the first member: the queue stores a pointer to it */
     struct kd_scheduler_job planning; /* scheduler job that plans the frame before it is pushed */
     struct kd_job *job;               /* a counted reference */
     unsigned number, place;           /* place: its place in the order of rendering */

@@ -49,7 +49,7 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* before the connection can be resumed, which needs the lock */
+        MHD_suspend_connection(w->mhd); /* suspended before the connection can be resumed, which needs the lock */
     }
     pthread_mutex_unlock(&w->job->all->lock);
     return what;

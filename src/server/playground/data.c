@@ -15,7 +15,7 @@
 
 /* A request that waits for a tick. The request owns it. */
 struct wait {
-    struct kd_playground_session_watcher watcher; /* first member */
+    struct kd_playground_session_watcher watcher; /* must be the first member */
     bool npy;
 };
 

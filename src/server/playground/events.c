@@ -15,7 +15,7 @@
 #define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay ticks */
 
 struct stream {
-    struct kd_playground_session_watcher watcher; /* first member */
+    struct kd_playground_session_watcher watcher; /* must be the first member */
     struct kd_buffer text;                        /* text being sent ... */
     size_t at;                                    /* ... up to this position */
     bool over;
@@ -153,6 +153,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     MHD_add_response_header(response, "Content-Type", TYPE);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     const enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0); /* without a deadline */
+    /* a stream has no deadline */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }

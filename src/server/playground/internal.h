@@ -10,7 +10,7 @@
 #include <pthread.h>
 
 struct kd_playground_session {
-    struct kd_scheduler_job turns; /* first member; the session's job in the scheduler, from its opening to its end */
+    struct kd_scheduler_job turns; /* must be the first member; the session's job in the scheduler */
     struct kd_playground_sessions *all;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     /* all->lock protects the members from here on */

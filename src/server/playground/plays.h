@@ -21,7 +21,7 @@
 #include <stdatomic.h>
 
 #define KD_PLAY_REST_MS 5000.
-#define KD_PLAY_RATE_MAX 1e9  /* in M a second */
+#define KD_PLAY_RATE_MAX 1e9  /* unit: M for each second of the clock */
 #define KD_PLAY_DEBRIS 20000u /* pieces of debris in an answer, unless the client requests another number */
 
 struct kd_playground_sessions;
@@ -46,7 +46,7 @@ void kd_playground_sessions_destroy(struct kd_playground_sessions *all);
 
 /* Session state that is not part of the simulation. */
 struct kd_playground_session_pace {
-    double rate; /* in M a second, 0 to KD_PLAY_RATE_MAX */
+    double rate; /* M for each second of the clock, 0 to KD_PLAY_RATE_MAX */
     bool paused;
 };
 

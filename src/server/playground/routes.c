@@ -22,7 +22,7 @@
 enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 
 struct play_task {
-    struct kd_task task; /* first member */
+    struct kd_task task; /* must be the first member */
     enum what what;
     const char *type;                   /* media type of the answer */
     struct kd_playground_session *play; /* a counted reference; for OPEN, the session that was opened */
@@ -141,7 +141,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
     kd_playground_session_scene(t->play, &old);
-    if (look) { /* before all other changes, because it can fail and can be reverted */
+    if (look) { /* this comes before all other changes, because it can fail and can be reverted */
         KD_TRY(kd_playground_session_set_scene(t->play, &scene, error));
         kd_playground_session_moved(t->play);
     }

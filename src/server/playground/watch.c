@@ -123,7 +123,7 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* before the connection can be resumed, which needs the lock */
+        MHD_suspend_connection(w->mhd); /* suspended before the connection can be resumed, which needs the lock */
         kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);

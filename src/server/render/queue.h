@@ -63,8 +63,8 @@ struct kd_render_job {
     const struct kd_format *format; /* format of the picture's file */
     enum kd_effort effort;
     struct kd_blur blur;    /* samples 0, which is the default: no motion blur */
-    unsigned number, lossy; /* as in struct kd_picture */
-    char hash[65];          /* as in struct kd_picture */
+    unsigned number, lossy; /* see struct kd_picture */
+    char hash[65];          /* see struct kd_picture */
     bool keeps;             /* keeps the frame's layers after it has been encoded */
     /* NULL: the queue renders and encodes a picture. Otherwise it calls this function instead, when the job owns the
      * device. If the function sets `more`, it is called again at the job's next turn. */
@@ -86,7 +86,7 @@ struct kd_render_job {
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer file;
-    struct kd_frame frame; /* without its layers unless `keeps` */
+    struct kd_frame frame; /* it has its layers only if `keeps` is set */
     /* queue_ms: time in which others owned the device, before the job began and between its slices */
     double queue_ms, encode_ms;
     /* private to the queue */

@@ -14,7 +14,7 @@
 #define SAMPLES 3 /* rays along each side of a pixel: small pictures need smooth edges */
 
 struct thumbnail {
-    struct kd_painting painting; /* first member; png is immutable once `there` is set */
+    struct kd_painting painting; /* must be the first member; png is immutable once `there` is set */
     char etag[120];
     struct kd_error error;      /* error of the latest attempt */
     bool there, busy;           /* busy: the painter owns it, and no other thread may read it */
@@ -28,7 +28,7 @@ struct kd_thumbnails {
     pthread_mutex_t lock;
     unsigned rendered;
     size_t n;
-    struct thumbnail *all; /* in the order of the presets */
+    struct thumbnail *all; /* one for each preset, in the order of the presets */
 };
 
 static void done(struct kd_painting *painting);

@@ -7,7 +7,7 @@
 #define PIXELS_MS 1000.0 /* time after which the latest frame's pixels are freed; later requests get the next frame */
 
 struct added {
-    struct kd_render_job job; /* first member: the queue stores a pointer to it */
+    struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
     struct kd_session *session;
     struct kd_live_frame *frame;
 };

@@ -183,7 +183,7 @@ void kd_live_abandon(struct kd_request *request)
 
 /* A stream of frames. Each consists of some bytes before the picture, the picture, and some bytes after it. */
 struct stream {
-    struct kd_viewer viewer; /* first member */
+    struct kd_viewer viewer; /* must be the first member */
     enum { MULTIPART, BINARY, EVENTS } form;
     struct kd_live_frame *frame; /* the frame being sent */
     char before[64], next[96];

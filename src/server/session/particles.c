@@ -17,7 +17,7 @@
 
 /* A list of particles that is being made. Its request owns it. */
 struct kd_particles_job {
-    struct kd_render_job device; /* first member */
+    struct kd_render_job device; /* must be the first member */
     struct kd_request *request;
     struct kd_particle_list list;
     size_t done;

@@ -17,7 +17,7 @@
 #define PATH_LOOKS 30
 
 struct path_task {
-    struct kd_task task;  /* first member */
+    struct kd_task task;  /* must be the first member */
     struct kd_scene from; /* the scene at the time of the request */
     struct kd_timeline path;
     bool read;

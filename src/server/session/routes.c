@@ -242,7 +242,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     return KD_OK;
 }
 
-/* With "Prefer: return=minimal" (RFC 7240) the client does not need the scene. */
+/* Whether the request has "Prefer: return=minimal" (RFC 7240), so that the client does not need the scene. */
 static bool prefers_little(struct kd_request *request)
 {
     struct kd_buffer prefer = kd_reply_header_list(request, "Prefer");

@@ -15,7 +15,7 @@
 #define ENCODING_MAX 2
 
 struct kd_session_frame {
-    struct kd_render_job job; /* first member: the queue stores a pointer to it */
+    struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
     struct kd_session *session;
     uint64_t number;
     unsigned revision;

@@ -101,7 +101,7 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    MHD_suspend_connection(viewer->mhd); /* before the connection can be resumed, which needs the lock */
+    MHD_suspend_connection(viewer->mhd); /* suspended before the connection can be resumed, which needs the lock */
     kd_session_add_kinds(s);
     kd_session_pump(s);
     return KD_VIEWER_LATER;
