@@ -167,7 +167,7 @@ done:
     return status;
 }
 
-/* The command line, without quoting. */
+/* Returns the command line, without quoting. */
 static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };

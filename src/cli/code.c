@@ -16,7 +16,7 @@ enum { QUIET = 2 };
 enum kd_status kd_cli_code(FILE *to, const char *text)
 {
     static const char *const halves[2][2] = { { " ", "▄" },
-                                              /* indexed by whether the upper and the lower module are dark */
+                                              /* the indices tell whether the upper and the lower module are dark */
                                               { "▀", "█" } };
     QRcode *code = QRcode_encodeString8bit(text, 0, QR_ECLEVEL_M);
     if (!code)

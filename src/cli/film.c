@@ -300,7 +300,7 @@ done:
     return status;
 }
 
-/* Moves the playground from the previous frame to this one, as the server's jobs do, and returns its bodies. */
+/* Moves the playground from the previous frame to this one, like the server's jobs, and returns its bodies. */
 static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_dynamic_bodies **out,
                            struct kd_error *error)
 {

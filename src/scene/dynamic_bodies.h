@@ -15,7 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_CROWD_BODIES 4096 /* maximum */
+#define KD_CROWD_BODIES 4096 /* limit of the number of bodies */
 
 struct kd_scene;
 

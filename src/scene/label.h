@@ -1,4 +1,4 @@
-/* Human-readable names of presets, beside their identifiers. Any thread. */
+/* Names of presets for people, in addition to the identifiers. Any thread. */
 #ifndef KD_SCENE_LABEL_H
 #define KD_SCENE_LABEL_H
 

@@ -55,7 +55,7 @@ const struct kd_preset kd_presets[] = {
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_2017
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108},"
-      /* the approaching jet at a position angle of 288 degrees */
+      /* puts the approaching jet at a position angle of 288 degrees */
       "\"disk\":{\"outer\":15},"
       "\"style\":{\"name\":\"eht\"},"
       "\"image\":{\"samples\":2}}" },

@@ -25,7 +25,7 @@ enum { KD_SWEEP_AXES = 8 };
 #define KD_SWEEP_MOST 100000
 
 struct kd_sweep_axis {
-    char *path;       /* "camera.inclination_deg" */
+    char *path;       /* path of the field, such as "camera.inclination_deg" */
     const char *unit; /* unit of the field: "deg"; "1": a pure number; "": none */
     bool numeric;     /* all values are numbers */
     bool even;        /* the values are evenly spaced, to 1e-12 of the larger end */

@@ -101,7 +101,7 @@ enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const str
                                 const struct kd_assets *assets, const struct kd_scene *first, struct kd_timeline *out,
                                 struct kd_error *error);
 
-/* The place of the last keyframe. */
+/* Returns the place of the last keyframe. */
 double kd_timeline_end(const struct kd_timeline *timeline);
 
 /* Makes the valid scene at a place, which is 0 or more. If the interpolated scene is not valid it returns KD_EINVAL

@@ -52,7 +52,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_sched_short_slices(); /* no earlier code of ours runs on a daemon's thread */
+            kd_sched_short_slices(); /* called here, because no earlier code of ours runs on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;

@@ -87,7 +87,7 @@ static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connec
         kd_request_connection, server, MHD_OPTION_END);
 }
 
-/* The daemons' own limits are above ours, so that they never close a connection without an answer. */
+/* The daemons' own limits are above ours, because a daemon at its limit closes a connection without an answer. */
 static enum kd_status start_http(struct kd_server *server, int listener, unsigned connections, struct kd_error *error)
 {
     server->daemon = start_daemon(server, 2 * kd_connections_most(connections));

@@ -16,11 +16,12 @@ struct kd_vk_arena {
     uint64_t size;
 };
 
-bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* false: out of host memory */
+bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* returns false when out of host memory */
 void kd_vk_arena_finish(struct kd_vk_arena *arena);
 /* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or out of host memory. */
 bool kd_vk_arena_take(struct kd_vk_arena *arena, uint64_t size, uint64_t alignment, uint64_t *offset);
-/* Returns exactly the range that was taken. Cannot fail: take has reserved room for the span. */
+/* Returns exactly the range that was taken. This cannot fail, because kd_vk_arena_take has reserved room for the
+ * span. */
 void kd_vk_arena_give(struct kd_vk_arena *arena, uint64_t offset, uint64_t size);
 
 #endif

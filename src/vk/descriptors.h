@@ -11,7 +11,7 @@ struct kd_vk;
 #define KD_VK_SETS_PER_POOL 64
 
 struct kd_vk_descriptors {
-    VkDescriptorPool *pools; /* the submission with most sets has determined how many there are */
+    VkDescriptorPool *pools; /* enough for the largest submission so far */
     size_t n_pools, used;    /* used: number of sets in all pools */
 };
 

@@ -14,7 +14,7 @@
 
 /* The timestamps of one submission. */
 struct kd_vk_stamps {
-    /* the submission with most timestamps has determined how many there are */
+    /* enough for the largest submission so far */
     VkQueryPool *pools;
     size_t n_pools, n;                                           /* n: number of timestamps written */
     struct kd_vk_stamp_span { uint32_t pass, commands; } *spans; /* span i lies between stamps i and i + 1 */

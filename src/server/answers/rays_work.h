@@ -13,14 +13,14 @@ struct kd_rays_job {
     struct kd_task task;            /* must be the first member */
     struct kd_rays_request request; /* initialised; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
-    /* results, in addition to the task's */
+    /* results, in addition to those of the task */
     bool malformed; /* KD_EINVAL because the body is not JSON */
     struct kd_rays_answer answer;
     double read_ms, trace_ms;
     /* private to the job */
     enum { KD_RAYS_NEW, KD_RAYS_HERE, KD_RAYS_ON_DEVICE } where;
     double traced_from_ms;
-    _Atomic size_t begun; /* rays handed to workers */
+    _Atomic size_t begun; /* number of rays that workers have begun */
     struct kd_render_job device;
     size_t traced, turn; /* rays on the device: finished, and in the next call */
 };

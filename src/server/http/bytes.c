@@ -15,7 +15,7 @@ struct kd_bytes {
     struct kd_bytes_params params;
     pthread_mutex_t lock;
     _Atomic size_t bytes;
-    struct place places[]; /* params.clients of them, and one for all other clients */
+    struct place places[]; /* params.clients places, and one for all other clients */
 };
 
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params)
@@ -56,7 +56,7 @@ static struct place *find_or_make(struct kd_bytes *b, const char *client)
     return place ? place : &b->places[b->params.clients];
 }
 
-/* Called locked. */
+/* Called with the lock. */
 static void add(struct kd_bytes *b, const char *client, size_t n)
 {
     find_or_make(b, client)->bytes += n;

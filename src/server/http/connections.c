@@ -20,11 +20,11 @@
 #define REPLY_MS 30e3   /* time for reading an answer, ... */
 #define BYTES_PER_MS 32 /* ... and in addition the time for its bytes at 32 kB/s, a poor mobile line */
 
-#define STALL_MS 2e3  /* a client that reads takes some bytes within this time on nearly any line */
-#define LINGER_MS 2e3 /* several round trips and a few MiB; a client that sends more is reset */
+#define STALL_MS 2e3  /* a client that reads takes some bytes within this time, on nearly any line */
+#define LINGER_MS 2e3 /* time for several round trips and a few MiB; a client that sends more is reset */
 #define LINGER_BYTES ((size_t)16 << 20)
-#define LINGERING 64 /* sockets being drained */
-#define SILENT 32    /* connections that may wait without having sent anything when all others are in use */
+#define LINGERING 64 /* limit of sockets being drained */
+#define SILENT 32    /* limit of connections that may wait without having sent anything, when all others are in use */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
@@ -43,7 +43,7 @@ struct kd_connections {
     struct kd_connection *first;
     unsigned count, limit, share; /* count: open connections, not counting those to the health routes */
     unsigned n_handed_on, n_health;
-    struct kd_connection *lingering; /* removed, being drained; singly linked */
+    struct kd_connection *lingering; /* removed connections whose sockets are being drained; singly linked */
     unsigned n_lingering;
     double header_ms, body_ms;
 };
@@ -109,7 +109,7 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    /* the library has closed this socket without a callback: otherwise its number would not be free */
+    /* The library has closed this socket without a callback. Otherwise its number could not be in use again. */
     struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
@@ -181,7 +181,7 @@ struct kd_connection *kd_connections_find(struct kd_connections *all, int socket
 
 bool kd_connection_is_health(const struct kd_connection *one) { return one && one->health; }
 
-/* Keeps the socket open by a second descriptor when the library closes its own. */
+/* Duplicates the descriptor of the socket, so that the socket stays open when the library closes its own. */
 static bool keep(struct kd_connections *all, struct kd_connection *one)
 {
     int socket = all->n_lingering < LINGERING ? fcntl(one->socket, F_DUPFD_CLOEXEC, 0) : -1;

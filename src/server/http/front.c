@@ -79,7 +79,7 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
     }
     unlink_guest(front, guest);
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* ignored if it is not watched yet */
-    /* on failure the library has closed the socket */
+    /* If this fails, the library has closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
         kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
@@ -122,7 +122,8 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Watches edge-triggered, because bytes that are only peeked at would keep a level-triggered event set. */
+/* Watches a guest's socket. The events are edge-triggered, because bytes that are only peeked at would keep a
+ * level-triggered event set. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -157,7 +158,7 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false; /* the waiting connection is reported again */
+        return false; /* the waiting connection will be reported again */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&

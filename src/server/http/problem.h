@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* name, HTTP status, word in the type's URI, title */
+/* X(name, HTTP status, word in the type's URI, title) */
 #define KD_PROBLEMS(X) \
     X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP") \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \

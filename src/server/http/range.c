@@ -20,7 +20,7 @@ static bool number(const char **at, uint64_t *out)
     return n > 0;
 }
 
-/* Elements of a list may be empty (RFC 9110 5.6.1). */
+/* Skips empty elements, which a list may have (RFC 9110 5.6.1). */
 static const char *skip_empty(const char *at) { return at + strspn(at, BLANKS ","); }
 
 /* One range of a Range header: first-last, first- or -suffix. */

@@ -157,7 +157,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         return kd_reply_unmatched(request);
     }
     const char *type = MHD_get_response_header(response, "Content-Type");
-    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* these have no body */
+    /* answers with these statuses have no body */
+    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED))
         MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy",

@@ -56,7 +56,7 @@ bool kd_reply_only(struct kd_request *request, const char *const *known, enum MH
 
 /* Joins all values of a list-valued request header by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
-/* kd_accept_best with the request's Accept. */
+/* Calls kd_accept_best with the request's Accept. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
                          const void *list);
 /* Appends a name to the value of a header that is a List of Tokens (RFC 9651). */

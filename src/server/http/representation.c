@@ -84,7 +84,8 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* Whether If-Range holds: strong comparison; dates never match, since we send no Last-Modified (RFC 9110 13.1.5). */
+/* Whether If-Range holds for the ETag, by strong comparison. A date never holds, because we send no Last-Modified (RFC
+ * 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {
     const char *tag = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "If-Range");

@@ -25,7 +25,7 @@ struct kd_representation {
     void *cls;                      /* argument of read and release */
 };
 
-/* Sends it. Closes or releases its source in every case. */
+/* Sends the representation. Closes or releases its source in every case. */
 enum MHD_Result kd_reply_representation(struct kd_request *request, const struct kd_representation *r);
 
 /* Sends a file of the page or a cached document, compressed by gzip if the client accepts that. fields: as in

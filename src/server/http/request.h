@@ -44,11 +44,11 @@ struct kd_request {
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* it has waited for a thumbnail */
-    struct kd_orbits_job *orbits;                  /* orbits being computed; holds a reference */
+    struct kd_orbits_job *orbits;                  /* orbits being computed; a counted reference */
     struct kd_particles_job *particles;            /* list of particles being made; owned */
     struct kd_task *task;                          /* work of the task scheduler; owned */
-    struct kd_viewer *viewer;                      /* wait for a session's next frame; owned */
-    struct kd_playground_session_watcher *watcher; /* wait for a playground's next tick; owned */
+    struct kd_viewer *viewer;                      /* the request's wait for a session's next frame; owned */
+    struct kd_playground_session_watcher *watcher; /* the request's wait for a playground's next tick; owned */
     char etag[120];
     char file[96];      /* Content-Disposition if the answer is 200 (kd_reply_file) */
     size_t reply_bytes; /* size of a large reply, which extends its deadline */

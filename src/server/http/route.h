@@ -94,7 +94,7 @@ struct kd_problem;
 bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem);
 enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem);
 
-/* Handlers, by file. */
+/* The handlers. The comments name the files that define them. */
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */
 enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports.c */
 enum MHD_Result kd_handle_ready(struct kd_request *request);

@@ -22,8 +22,8 @@
 
 #include <stdbool.h>
 
-#define KD_CLIENT 48         /* room for the name of a client */
-#define KD_SHARE_CLIENTS 64u /* clients tracked at once; beyond that, clients share an entry */
+#define KD_CLIENT 48         /* size of the name of a client */
+#define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; beyond it, clients share an entry */
 
 /* Classes of work and their weights within a client. PIXEL is next as soon as it arrives, because a user points at the
  * picture and waits. While a view is moved by hand (LIVE), a job (JOB) gets a fifth. A view that animates by itself

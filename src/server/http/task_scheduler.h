@@ -21,7 +21,7 @@ enum kd_slice_result {
 struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
-        struct kd_scheduler_job *job); /* called once on a worker when every turn has returned; may free the job */
+        struct kd_scheduler_job *job); /* called once on a worker when every slice has returned; may free the job */
     /* time on kd_clock_ms at which the job is resumed if it is parked; 0: there is none */
     double due_ms;
     /* several workers may run slices of the job at once, from the next slice on; a slice may set it */

@@ -55,7 +55,7 @@ struct kd_job {
     const struct kd_series *series;
     unsigned frames, next, finished; /* next: all places in the order before this one are done or under way */
     unsigned char *have;             /* one flag for each frame: its file exists */
-    double fraction;                 /* progress of the frame being rendered */
+    double fraction;                 /* fraction of the present frame that is rendered */
     double estimate_ms;              /* estimated time of all frames, from their plans */
     double began_ms;                 /* when this server began the job; 0: it has not */
     double due_ms;                   /* no frame begins before this time; on kd_clock_ms */

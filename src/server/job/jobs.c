@@ -464,7 +464,7 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
         out->done += job->record.state == KD_JOB_DONE;
         out->failed += job->record.state == KD_JOB_FAILED;
     }
-    out->running = out->waiting > 0; /* the oldest is running */
+    out->running = out->waiting > 0; /* of the unfinished jobs, the oldest is running */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
     return true;

@@ -13,7 +13,7 @@
 
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
 
-#define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* KD_DECIMAL_DIGITS */
+#define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* the maximum is KD_DECIMAL_DIGITS */
 #define RANGE "^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 
 static void add_words(struct kd_json *json, const char *text)

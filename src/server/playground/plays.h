@@ -113,7 +113,7 @@ enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, 
 /* Gets the scene of the playground's picture. A session of server/session renders it, with the bodies and debris, once
  * a client requests frames. */
 void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out);
-/* The scene must be resolved and valid. */
+/* Replaces the scene of the playground's picture. The scene must be resolved and valid. */
 enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
                                                struct kd_error *error);
 /* Returns a reference to the session that renders the picture, and opens one if there is none. KD_EBUSY at a limit;
@@ -172,7 +172,8 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
 void kd_playground_sessions_sweep(struct kd_playground_sessions *all);
 /* Accepts no more sessions and ends all sessions. */
 void kd_playground_sessions_close(struct kd_playground_sessions *all);
-unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all); /* sessions that workers still use */
+/* number of sessions that workers still use */
+unsigned kd_playground_sessions_unfinished(struct kd_playground_sessions *all);
 /* Reads the counts. Returns false if the lock does not become free soon. */
 bool kd_playground_sessions_counts(struct kd_playground_sessions *all, struct kd_playground_sessions_counts *out);
 

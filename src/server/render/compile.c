@@ -198,7 +198,7 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
     return ms;
 }
 
-/* Called with the lock; unlocks while it works. */
+/* Compiles the kernels of a job. Called with the lock, which it releases while it works. */
 static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     struct kd_compilation *c = queue->compiling = job->compilation;

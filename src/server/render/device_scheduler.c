@@ -2,7 +2,7 @@
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-/* limit of frames that are rendered and not yet encoded; one frame may exceed it */
+/* limit of the bytes of frames that are rendered and not yet encoded; a single frame may exceed it */
 #define FRAME_BYTES ((size_t)256 << 20)
 #define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded soon */
 #define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */
@@ -267,7 +267,7 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     const bool again = kd_render_begins_with_kernels(queue, job) || kd_render_once_more(queue, job),
                more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
     if (!again)
-        job->repeated = false; /* it has made progress */
+        job->repeated = false; /* the job has made progress */
     if (more)
         job->away_ms = job->turn_ms;
     else {

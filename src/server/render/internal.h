@@ -93,7 +93,7 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
 /* Puts a job back in its initial waiting stage. */
 void kd_render_stand_in_line(struct kd_render_job *job);
 
-/* kd_render_queue_push for a job that renders no scene. Called with the lock. */
+/* Like kd_render_queue_push, for a job that renders no scene. Called with the lock. */
 void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* rest.c: frees the renderer's unneeded memory when there is no work. Called with the lock. */

@@ -26,7 +26,7 @@ struct kd_painting {
     const char *mark;
     void (*done)(struct kd_painting *painting); /* called on the painter's thread */
     void *user;
-    /* results; KD_ECANCELLED: kd_painter_cancel was called */
+    /* Results. KD_ECANCELLED: kd_painter_cancel was called. */
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer png;
@@ -45,7 +45,7 @@ bool kd_painter_hangs(struct kd_painter *painter);
 /* Stops rendering. Waiting and future pictures end with KD_ECANCELLED, and the present one as soon as it can be
  * interrupted. Any thread. */
 void kd_painter_cancel(struct kd_painter *painter);
-/* Cancels first. Accepts NULL. */
+/* Calls kd_painter_cancel, then destroys the painter. Accepts NULL. */
 void kd_painter_destroy(struct kd_painter *painter);
 
 #endif

@@ -334,7 +334,8 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 {
     struct kd_capacity c;
     kd_render_queue_capacity(queue, &c);
-    if (18ull * width * height <= c.memory_bytes / 4) /* six bytes of the file and twelve of radiance for each pixel */
+    /* each pixel takes six bytes of the file and twelve of radiance */
+    if (18ull * width * height <= c.memory_bytes / 4)
         kd_renderer_sky_ahead(queue->renderer, hash);
 }
 

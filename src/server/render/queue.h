@@ -97,7 +97,7 @@ struct kd_render_job {
     struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled, or wait to be */
     /* Kernels that the job found missing after it had begun. It starts again when they are compiled. */
     struct kd_compilation *lacked;
-    unsigned lacks;          /* how often that has happened */
+    unsigned lacks;          /* how often the job has found kernels missing */
     struct kd_claim missing; /* its claim in the fair queueing of compilations, while it lacks kernels */
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;

@@ -109,7 +109,8 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
         KD_TRY(apply_preset(&request->target, scene, error));
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
                                     request->body.size, error);
-        malformed = status == KD_EINVAL && !*error->pointer; /* an error without a position in the document */
+        /* an error without a pointer means that the text is not JSON */
+        malformed = status == KD_EINVAL && !*error->pointer;
         KD_TRY(status);
     } else {
         KD_TRY(kd_scene_of_query(&request->target, own, scene, error));

@@ -32,7 +32,7 @@ struct kd_task {
     size_t held; /* bytes reserved by kd_task_hold; they are released with the task */
     bool quota;  /* the limit that caused KD_EBUSY is the client's share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
-    _Atomic enum kd_status status; /* KD_ECANCELLED: kd_reply_cancelled */
+    _Atomic enum kd_status status; /* KD_ECANCELLED: the handler answers with kd_reply_cancelled */
     struct kd_error error;
 };
 
@@ -45,7 +45,7 @@ void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, con
                      enum MHD_Result *refused);
 void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 
-/* Records an error; only the first counts, and KD_OK is ignored. Any thread. */
+/* Records an error of the task. Only the first error counts; KD_OK is ignored. Any thread. */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
 /* Whether the queue admits another task. If not, *refused is the answer. what: see kd_task_kind. HTTP thread. */

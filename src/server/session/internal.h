@@ -40,7 +40,7 @@ struct kd_session {
     bool adding; /* the latest frame is being encoded in a further format */
     struct kd_live_frame *latest;
     double exposed_ms, exposure; /* when the latest frame was rendered, and its exposure in stops */
-    unsigned exposed_revision;   /* revision of that frame; 0: none */
+    unsigned exposed_revision;   /* revision of the scene in that frame; 0: there is no such frame */
     /* shown_ms: when the latest frame was published; interval_ms: smoothed interval between frames */
     double shown_ms, interval_ms;
     enum kd_status failed; /* status of the latest render, with `error`; a patch clears it */

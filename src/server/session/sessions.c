@@ -254,7 +254,7 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
-    if (order && order <= s->order) { /* only the HTTP thread writes s->order */
+    if (order && order <= s->order) { /* no lock is needed, because only the HTTP thread writes s->order */
         kd_session_state(s, out);
         return KD_OK;
     }
