@@ -38,8 +38,9 @@ static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_p
     return isfinite(variance) && 1 / sqrt(variance) >= p->snr_cut;
 }
 
-/* Log closure amplitude, debiased. To second order, noise increases the mean of an amplitude and decreases the mean of
- * its logarithm by 1/(2 snr^2). */
+/* Log closure amplitude. Unless amplitudes are used as measured, two corrections are made for noise. Noise increases
+ * the mean of an amplitude, so the amplitude is debiased. To second order noise decreases the mean of the logarithm of
+ * a debiased amplitude by 1/(2 snr^2), so that is added. */
 static bool amplitude_of(const struct kd_comparison *c, const struct kd_comparison_params *p,
                          struct kd_comparison_row *row)
 {

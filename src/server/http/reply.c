@@ -165,7 +165,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
                             server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    /* Authorization and the cookie choose the answer, so a cached answer is for the same token only. */
+    /* so that a cached answer is used for the same token only */
     if (server->access)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
