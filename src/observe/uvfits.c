@@ -342,7 +342,7 @@ static enum kd_status open_groups(const struct file *f, struct groups *g)
     KD_TRY(read_whole(f, &g->hdu, "GCOUNT", 1, KD_OBSERVATION_ROWS, &g->n));
     KD_TRY(find_parameters(f, g));
     g->scale = number_or(&g->hdu, "BSCALE", 1), g->zero = number_or(&g->hdu, "BZERO", 0);
-    /* cannot overflow: it is at most 2^19, and is multiplied by at most 2^20 groups */
+    /* This and the product below cannot overflow: the size is at most 2^19, and there are at most 2^20 groups. */
     const size_t group = (g->parameters + g->elements) * g->bytes;
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
         return kd_error_set(

@@ -36,7 +36,7 @@ static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size
            words[3] == device->deviceID && !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
 }
 
-/* Returns NULL if no file is wanted, or if there is no folder for it. */
+/* Makes the path of the cache file. Returns NULL if no file is wanted, or if there is no folder for it. */
 static char *path_of(const struct kd_vk *vk, const char *dir)
 {
     const VkPhysicalDeviceProperties *device = &vk->physical.properties;

@@ -12,7 +12,7 @@ struct kd_vk_kind_info {
     uint32_t texel_bytes; /* 0: the binding is not texels */
 };
 
-/* Returns NULL for an unknown kind. */
+/* Returns the types and flags of a kind; NULL if the kind is unknown. */
 const struct kd_vk_kind_info *kd_vk_kind_info(enum kd_vk_kind kind);
 
 #endif

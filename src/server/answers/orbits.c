@@ -72,7 +72,7 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     unref(job);
 }
 
-/* Called with the lock. */
+/* Resumes the connection of the request, if it is suspended. Called with the lock. */
 static void resume(struct kd_orbits_job *job)
 {
     if (job->suspended && job->mhd) {

@@ -38,7 +38,7 @@ done:
     return status;
 }
 
-/* Called by the thread that owns the device. */
+/* Traces the next rays on the device. Called by the thread that owns the device. */
 static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_renderer *renderer,
                                       kd_progress_fn progress, void *progress_user)
 {

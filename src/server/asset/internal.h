@@ -35,11 +35,11 @@ struct kd_asset_store {
     _Atomic uint64_t bytes;
 };
 
-/* Returns NULL when out of memory. */
+/* Makes an asset with a copy of the bytes, not in the list yet. Returns NULL when out of memory. */
 struct kd_asset *kd_asset_make(struct kd_asset_store *store, const struct kd_asset_about *about, const void *data,
                                size_t size, const char *client);
 
-/* Called with the lock. */
+/* Adds an asset to the list. Called with the lock. */
 void kd_asset_insert(struct kd_asset_store *store, struct kd_asset *asset);
 /* Removes an asset from the list and drops the store's reference. */
 void kd_asset_take_out(struct kd_asset_store *store, struct kd_asset *asset);

@@ -56,7 +56,7 @@ static struct place *find_or_make(struct kd_bytes *b, const char *client)
     return place ? place : &b->places[b->params.clients];
 }
 
-/* Called with the lock. */
+/* Counts n more bytes of a client. Called with the lock. */
 static void add(struct kd_bytes *b, const char *client, size_t n)
 {
     find_or_make(b, client)->bytes += n;

@@ -72,7 +72,7 @@ static void unref(struct kd_job *job)
     job->all->gone = job;
 }
 
-/* Called without the lock, by one thread at a time. */
+/* Called without the lock, by one thread at a time; it takes the lock itself. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files)
 {
     pthread_mutex_lock(&all->lock);

@@ -28,7 +28,7 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         kd_job_delay(job, error->message);
 }
 
-/* Called with the lock. */
+/* Finds a job whose record has to be written; NULL: none. Called with the lock. */
 static struct kd_job *first_unwritten(const struct kd_jobs *all)
 {
     struct kd_job *job = all->first;

@@ -28,7 +28,8 @@ struct kd_playground_session {
     uint64_t generation;
     struct kd_playground_session_tick *tick; /* the newest tick; NULL: none yet */
     uint32_t debris;
-    double debris_ms; /* largest number of pieces of debris that a client has requested (`debris`), and when */
+    /* debris: largest number of pieces of debris that clients have requested lately; debris_ms: when */
+    double debris_ms;
     struct kd_playground_events log;
     uint64_t log_begin; /* number of the last event that a snapshot has included */
     struct kd_playground_session_watcher *watchers;

@@ -61,7 +61,8 @@ static struct order look(struct kd_playground_session *play, double now)
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
-    if (p->events.last == log->last) /* no lock is needed: only the job that has taken the playground changes either */
+    /* no lock is needed, because only the job that has taken the playground changes these two */
+    if (p->events.last == log->last)
         return;
     pthread_mutex_lock(&play->all->lock);
     play->all->events += p->events.last - log->last;

@@ -38,7 +38,7 @@ struct kd_painting {
  * kept_at: prefix of the files' paths; NULL: no files. The painter frees it, even if this call fails. */
 enum kd_status kd_painter_create(const struct kd_renderer_params *params, const char *device_name, char *kept_at,
                                  struct kd_painter **out, struct kd_error *error);
-/* Any thread. */
+/* Requests that a picture is rendered; done() is called at the end. Any thread. */
 void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting);
 /* Whether the painter's device hangs. Then it renders no more, and the process should end. Any thread. */
 bool kd_painter_hangs(struct kd_painter *painter);

@@ -122,7 +122,7 @@ void kd_render_queue_destroy(struct kd_render_queue *queue);
 
 /* Sets the time without requests after which memory is freed (render/device/rest.h); default: a minute. Any thread. */
 void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms);
-/* Any thread. */
+/* Gets what the device of the queue can do (kd_renderer_capacity). Any thread. */
 void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
 /* Calls kd_renderer_cache_file of the queue's renderer. */

@@ -97,7 +97,7 @@ static bool may_reopen(struct kd_render_queue *queue)
     return queue->spent++ < queue->reopenings;
 }
 
-/* Called without the lock. */
+/* Reopens the device; tries several times. Called without the lock. */
 static enum kd_status reopen(struct kd_render_queue *queue, struct kd_error *error)
 {
     enum kd_status status = KD_EDEVICE;

@@ -128,7 +128,7 @@ void kd_thumbnails_cancel(struct kd_thumbnails *s)
     }
 }
 
-/* Called on the painter's thread. */
+/* Called when a thumbnail is rendered or has failed; on the painter's thread. */
 static void done(struct kd_painting *painting)
 {
     struct thumbnail *t = (struct thumbnail *)painting;

@@ -191,7 +191,7 @@ void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
     kd_governor_expect(&s->governor, &reused);
 }
 
-/* Called on the render thread, without the lock. */
+/* Stores the progress of a frame. Called on the render thread, without the lock. */
 static void progress(struct kd_render_job *job, double fraction)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -260,7 +260,8 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_session_add_kinds(s);
 }
 
-/* Called on a thread of the queue, without the lock. */
+/* Publishes a finished frame, or records its failure; then begins the next frame. Called on a thread of the queue,
+ * without the lock. */
 static void done(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
