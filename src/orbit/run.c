@@ -10,8 +10,9 @@
 
 #define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-#define SEARCHES 3      /* after this many samples in a row without an image, a full search is made */
-#define SEARCH_EVERY 64 /* only every so many samples */
+/* after this many samples in a row without an image, a full search is no longer made for each, ... */
+#define SEARCHES 3
+#define SEARCH_EVERY 64 /* ... but only for one sample in so many */
 #define HALVINGS 6      /* of the step in the search for an end: each gains a factor of 64, from 1e-10 to rounding */
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)

@@ -45,7 +45,7 @@ struct kd_playground_debris {
     uint32_t capacity, used, next; /* slots ever used; slot of the next piece */
     uint32_t last_source;          /* number of the newest source; its index is number % KD_DEBRIS_SOURCES */
     uint32_t alive;
-    double haste; /* sum of 1/(r - 2) over the pieces at t, that is, their sub-steps a M, times C */
+    double haste; /* sum of 1/(r - 2) over the pieces at t: C times the number of their sub-steps in 1 M */
     double t;     /* common time of all pieces */
     struct kd_debris_source sources[KD_DEBRIS_SOURCES];
 };

@@ -4,8 +4,8 @@
  *     struct kd_playground *p;
  *     kd_playground_create(&params, &p, error);
  *     kd_playground_add(p, &body, &id, error);
- *     kd_playground_advance(p, 1000, &progress);              p->t is 1000 or up to a sub-step more, or less if the
- *       budget was spent
+ *     kd_playground_advance(p, 1000, &progress);   p->t is now 1000, or more by up to a sub-step, or less if the budget
+ *                                                  was spent
  *     kd_playground_destroy(p);
  *
  * Gravity "paczynski-wiita": the hole rests at the origin and attracts by its potential (hole.h), and bodies attract
@@ -13,16 +13,16 @@
  *
  *     h <= min(h_max, C (r - 2) of each body, C (sum of (m_i + m_j)/s^3 over a body's pairs)^(-1/2)).
  *
- * The bounds before and after the step are combined so that a step backwards has the same length: with 1/h = G, the
- * rate that the bound requires, 1/h_n + 1/h_(n-1) = 2 G(x_n) (T. Holder, B. Leimkuhler & S. Reich 2001, Appl. Numer.
- * Math. 39, 367). The method is time-symmetric and so has no drift of energy. Steps are never stretched or cut to
- * meet a requested time: dividing the time into calls differently gives the same bits. Speeds are capped at 1, which
- * only removes energy; `spent` accounts for it.
+ * The step is chosen so that a step backwards has the same length. Let R(x) be 1/h for the largest h that the bound
+ * allows at the positions x; then 1/h_n + 1/h_(n-1) = 2 R(x_n) (T. Holder, B. Leimkuhler & S. Reich 2001, Appl. Numer.
+ * Math. 39, 367). The method is time-symmetric and so has no drift of energy. Steps are never stretched or cut to meet
+ * a requested time: dividing the time into calls differently gives the same bits. Speeds are capped at 1, which only
+ * removes energy; `spent` accounts for it.
  *
- * Gravity "kerr": bodies follow geodesics (geodesic.h) without mutual gravity, tides or waves. Their positions are
- * updated once every h_max, or more often if the budget is short, and for all at the same time. If the budget of an
- * advance is spent in between, no body has moved, and the next advance continues the computation. Such unfinished
- * work is not in a snapshot.
+ * Gravity "kerr": bodies follow geodesics (geodesic.h) without mutual gravity, tides or waves. The positions of all
+ * bodies are updated together, once every h_max, or more often if the budget is short. If the budget of an advance is
+ * spent in between, no body has moved, and the next advance continues the computation. Such unfinished work is not in a
+ * snapshot.
  *
  * Results depend on the state alone, including the seed. They are the same on other machines with IEEE arithmetic,
  * provided that the C library's sqrt, cbrt and pow are. */

@@ -13,7 +13,7 @@
 #define LIMB 0.6    /* the default of bodies.limb_darkening */
 #define PER_CELL 6. /* minimum mean number of pieces in occupied cells */
 
-/* Factor from a Newtonian velocity to that past the observer of zero angular momentum. */
+/* Factor from a Newtonian velocity to the velocity relative to the observer of zero angular momentum (show.h). */
 static double slower(const double v[3], bool approximate)
 {
     const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -144,7 +144,7 @@ static void add(float *left, float *right, float share, float worth, float vr, f
     }
 }
 
-/* Velocity past the observer of zero angular momentum, along e_r and e_phi. */
+/* Velocity relative to the observer of zero angular momentum, along e_r and e_phi. */
 static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
 {
     const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] },

@@ -15,13 +15,13 @@ enum { POINTS = 6 }; /* nodes of an interpolation */
            the horizon, where the image no longer changes */
 #define NODES 1e-7  /* error of ln r at the nodes */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
-#define BENDS 10.   /* maximum relative change of a slope for a change of ln r */
+#define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
 #define DRIFTS \
     0.2 /* error of a slope: this much, if only that of flat space is known, else this fraction of the error of the \
            extrapolation from the rings before */
 #define FLATTEST 0.1  /* the slopes that occur lie between this and its inverse */
-#define MOVED 0.3     /* maximum correction of a guess, in R, from the angles before */
-enum { HISTORY = 5 }; /* rings of nodes before the last that a slope is computed from */
+#define MOVED 0.3     /* maximum correction of a guess of R by what the preceding angles missed */
+enum { HISTORY = 5 }; /* a slope at a ring of nodes is computed from this many rings before it */
 
 struct ellipse { double x0, y0, a, b; };
 
@@ -108,7 +108,7 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
     return fabs(f_before) < 1e-6;
 }
 
-/* Extrapolates from up to five rings before at this angle, by the polynomial through them. */
+/* Extrapolates from at most five preceding rings to the next one, at the same angle, by the polynomial through them. */
 static double guess(const struct kd_disk_image *image, int k, int j)
 {
     double a = image->stretch[k - 1][j];
@@ -152,8 +152,8 @@ struct making {
     double guessed[KD_DISK_IMAGE_ANGLES];
 };
 
-/* Slopes at the last of several nodes by backward differences, the last node first: sums of nabla^m/m, m = 1 ...
- * order. */
+/* Weights for the slope at the last of several nodes, by backward differences; the last node comes first. The slope is
+ * the sum of nabla^m/m, m = 1 ... order. */
 static const double backward[HISTORY][HISTORY + 1] = {
     { 1, -1 },
     { 1.5, -2, 0.5 },

@@ -10,7 +10,8 @@
 
 #define STEP 0.03   /* mean spacing of rings in ln r */
 #define EDGE_ON 0.1 /* cos i below which the error of coarse sums does not yet fall as the square of their cells */
-#define BRIGHT 0.5  /* spacing of rings at the brighter edge over the mean; at the other edge 2 minus this */
+/* spacing of rings at the brighter edge, relative to the mean spacing; at the other edge it is 2 minus this */
+#define BRIGHT 0.5
 enum {
     FEWEST = 64,
     MOST = 512,

@@ -3,8 +3,8 @@
 #ifndef KD_PHYSICS_DISK_SYNCHROTRON_H
 #define KD_PHYSICS_DISK_SYNCHROTRON_H
 
-/* The kernels' units. Emissivity: e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1. Absorptivity: that
- * over 2h GHz^3/c^2, in 1/m. */
+/* Units of the kernels. This is the unit of emissivity: e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1.
+ * The unit of absorptivity is the same divided by 2h GHz^3/c^2, in 1/m. */
 double kd_synchrotron_light_unit(void);
 double kd_synchrotron_depth_unit(void);
 

@@ -7,7 +7,7 @@
 
 enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 
-/* A point of the upper half, x to the right of the centre. */
+/* A point of the upper half of the critical curve. x is measured to the right of the curve's centre. */
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
@@ -15,7 +15,8 @@ struct place {
     double x, y2;                       /* relative to the centre; at a finite radius components of the direction */
 };
 
-/* Labels of the orbit at the place `at` * sin i. At a small inclination only orbits near the polar one are visible. */
+/* The point of the critical curve that the orbit at the place `at` * sin i makes. Places are divided by sin i because
+ * at a small inclination only orbits near the polar one are visible. */
 static struct place label(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -124,8 +125,8 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     return c;
 }
 
-/* Zero at the requested angle, rising with x. Near the sides beta is the root of a difference, so its square is
- * used. */
+/* Parameters of `miss`, a function of the place whose root is the point at the requested angle; it rises with x. Near
+ * the sides beta is the root of a difference, so that its square is used. */
 struct aim {
     const struct kd_critical *curve;
     double cosine, sine;
@@ -203,7 +204,8 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 
-/* (ln y - ln y_P)/(a sin i) of a place, which is w/(y_P sin i) where that is small; and its inverse. */
+/* The coordinate (ln y - ln y_P)/(a sin i) of a place, and its inverse (below). Where it is small it is w/(y_P sin
+ * i). */
 static double evenly(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;

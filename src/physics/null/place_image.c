@@ -9,7 +9,8 @@
 enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
 #define FOUND 1e-9 /* of the radius: the search stops */
 #define WRONG 1e-5
-/* Distances on the sky that are tried, M, and those near the critical curve. */
+/* Distances from the hole on the sky at which the search starts, in M: from LEAST on in all, and NEAR to FAR close to
+ * the critical curve. */
 #define LEAST 0.01
 #define NEAR 1.5
 #define FAR 9

@@ -13,8 +13,8 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. If both ends are known it is computed from the distances to them, so that an orbit whose ends coincide
- * stays there for ever. */
+/* Half of W'. If both ends of the range of w are known, it is computed from the distances to them, so that a circular
+ * orbit, whose ends coincide, stays circular for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -111,7 +111,8 @@ static void yoshida(struct kd_orbit_path *p, double h)
     drift(p, 7);
 }
 
-/* The total force after the time `at` h; places are also displaced by h^2 sum. */
+/* The total force after a time of `at` * h. The place is where the present rates lead in this time, displaced further
+ * by h^2 `sum`. */
 static void stage_of(const struct kd_orbit_path *p, double at, double h, const double *sum, double *f)
 {
     double q[KD_PATH_PLACES], rest = 0;
