@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Rays per second against the median error of the crossing radius, from the table of `kerrd bench accuracy`.
 
-    bench/accuracy_plot.py TABLE.json [-o docs/accuracy.svg] [--set bulk]
+bench/accuracy_plot.py TABLE.json [-o docs/accuracy.svg] [--set bulk]
 
-Needs matplotlib (pip install matplotlib). The line joins what is worth choosing: nothing else is both faster and more
-exact.
+Needs matplotlib (pip install matplotlib). The line joins the settings that are worth choosing: no other setting is both
+faster and more accurate.
 """
 
 import argparse
@@ -24,11 +24,11 @@ COLOURS = {
     "ks-euler": "#009e73",
     "ks-tao6": "#cc79a7",
 }  # Okabe and Ito
-FLOOR = 1e-16  # an error of nothing has to be drawn somewhere
+FLOOR = 1e-16  # an error of 0 is drawn here on the logarithmic axis
 
 
 def points(table, name):
-    """(engine, precision, steps, error, speed) of every row that has an error there."""
+    """(engine, precision, steps, error, speed) of every row of the table with this name that has an error."""
     for row in table["rows"]:
         entry = row["sets"][name]
         if "r" in entry:
@@ -37,7 +37,7 @@ def points(table, name):
 
 
 def front(found):
-    """Those that no other one beats in both, from the fastest on."""
+    """The points that no other point beats in both speed and error, the fastest first."""
     best, kept = float("inf"), []
     for point in sorted(found, key=lambda p: -p[4]):
         if point[3] < best:

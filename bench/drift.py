@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Drift of the first integrals over ten thousand loops: kd_bench_drift once, a table, and with --plot a picture of it.
+"""Drift of the first integrals over ten thousand loops: runs kd_bench_drift once and makes a table; --plot draws it.
 
-The picture needs matplotlib (pip install matplotlib)."""
+The picture needs matplotlib (pip install matplotlib).
+"""
 
 import json
 import math
@@ -22,7 +23,7 @@ def at(figures, row, what, loops):
 
 
 def growth(figures, row):
-    """Power of the number of loops that the invariant's error grows by in the last decade."""
+    """Exponent p of error ~ (number of loops)^p for the invariant, over the last decade of loops."""
     last, before = (at(figures, row, "invariant", n) for n in (10000, 1000))
     return "lost in loop %d" % row["lost"] if last is None else f"{math.log10(last / before):.2f}"
 

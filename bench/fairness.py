@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""What one client may make another one wait: pictures, frames and /healthz beside each load that an address can put on
-a server.
+"""How long one client can make another wait: pictures, frames and /healthz beside each kind of load on a server.
 
-    bench/fairness.py            about four minutes, on a machine that does nothing else
-    bench/fairness.py --only "a job of 1000 frames" --seconds 5
-    bench/fairness.py --size 640 360 --no-session --only nothing --only "all that one may queue" --save fairness-queued
+bench/fairness.py            about four minutes, on a machine that does nothing else
+bench/fairness.py --only "a job of 1000 frames" --seconds 5
+bench/fairness.py --size 640 360 --no-session --only nothing --only "all that one may queue" --save fairness-queued
 
-A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one
-picture (of 320 x 180) after the other, each with a lens map of its own, watches a session of his own, and asks for
-/healthz. Writes bench/results/DATE-DEVICE-fairness.{json,md}.
+Starts a server of its own. The loads come from the address 127.0.0.1. The client that is measured has the address
+127.0.0.2. It requests one picture of 320 x 180 after the other, each with a new lens map, watches a session of its own,
+and requests /healthz. Writes bench/results/DATE-DEVICE-fairness.{json,md}.
 """
 
 import concurrent.futures
@@ -27,7 +26,7 @@ import time
 
 import measure
 
-SIZE = (320, 180)  # of the picture that is measured
+SIZE = (320, 180)  # of the measured client's pictures
 LIVING = {"image": {"width": 640, "height": 360}, "disk": {"model": "particles"}, "motion": {"time_rate": 10}}
 FRAME = {"image": {"width": 640, "height": 360}}
 
@@ -68,7 +67,7 @@ class Server:
 
 
 class Load:
-    """Threads that go on until it is over; what they meet in the end is nobody's business."""
+    """Threads that repeat their requests until the load ends. Errors at the end are ignored."""
 
     def __init__(self, server, source="127.0.0.1"):
         self.server, self.source, self.over, self.threads, self.counts = server, source, threading.Event(), [], {}
@@ -126,7 +125,7 @@ class Load:
 
 
 def picture_of(size):
-    """The default scene, with a lens map of its own."""
+    """Address of the default scene with an inclination of its own, so that no cached lens map fits."""
     return (
         f"/v1/render?image.width={size[0]}&image.height={size[1]}&camera.inclination_deg={random.uniform(40, 80):.6f}"
     )
@@ -178,7 +177,7 @@ def plans(load):
 
 
 def jobs(load):
-    """As many jobs as one may have: every other one the frames of a film, along keyframes and with motion blur."""
+    """Submits the maximum number of jobs. Every other one is a film along keyframes with motion blur."""
     scene = {"image": {"width": 1280, "height": 720}}
     for k in range(12):
         frames = [{**scene, "camera": {"inclination_deg": 40 + 0.02 * i + k}} for i in range(50)]
@@ -200,8 +199,8 @@ def playgrounds(load):
 
 
 def queue(load):
-    """Twenty ask for long pictures, each of its own, where twelve may wait; eight for lists of rays; twelve sessions
-    are dragged."""
+    """Fills every queue: twenty threads request long pictures, each with its own scene, while only twelve may wait;
+    eight request lists of rays; twelve drag sessions; besides, the jobs and playgrounds."""
 
     def long(connection):
         return load.server.ask(
@@ -226,7 +225,7 @@ def queue(load):
 
 
 def new_kernels(load):
-    """One preset after the other, each of which needs kernels that no one before did."""
+    """One preset after the other: each needs kernels that nobody has requested before."""
     presets = [p["name"] for p in json.loads(load.server.ask(load.source, "GET", "/v1/presets")[1])["presets"]]
     left = iter(presets * 100)
     load.loop(
@@ -252,7 +251,8 @@ LOADS = {
 
 
 def repeat_for(seconds, at_least, step, is_enough=lambda: True):
-    """Milliseconds of each step. Goes on until is_enough() is true, for at most a minute longer."""
+    """Milliseconds of each step. Repeats for the given time; if is_enough() is still false then, for up to a minute
+    more."""
     took, until = [], time.monotonic() + seconds
     while time.monotonic() < until or len(took) < at_least or (not is_enough() and time.monotonic() < until + 60):
         begun = time.monotonic()
@@ -262,9 +262,9 @@ def repeat_for(seconds, at_least, step, is_enough=lambda: True):
 
 
 def look_at_health(port, source, seconds, at_least):
-    """Milliseconds that /healthz takes, and that a sleep before it is late: the latter is how long this machine lets
-    anybody wait, and no server's doing. In a process of its own: beside the threads of the loads it would measure how
-    they share Python's lock."""
+    """Two lists of milliseconds: how long /healthz takes, and how late a sleep before it ends. The latter is due to
+    this machine and not to the server. Runs in a process of its own; in the process of the loads it would measure how
+    threads share Python's lock."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 
@@ -280,7 +280,8 @@ def look_at_health(port, source, seconds, at_least):
 
 
 def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=True):
-    """What a client meets who does nothing else: pictures, the frames of a session of his own, /healthz."""
+    """What a client measures who does nothing else: times of pictures, of the frames of its own session, and of
+    /healthz."""
     out, viewer = {}, Load(server, source)
     if session:
         viewer.session("own", LIVING)
@@ -290,10 +291,10 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
         assert answer.status == 200, answer.status
 
     with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        pool.submit(os.getpid).result()  # it is there
+        pool.submit(os.getpid).result()  # wait until the process has started
         begun, frames = time.monotonic(), viewer.counts.get("own: 200", 0)
         health = pool.submit(look_at_health, server.port, source, seconds, at_least)
-        # a busy machine may show no frame of the session within so few seconds
+        # on a busy machine the session may show no frame within so few seconds
         out["picture_ms"] = repeat_for(
             seconds, at_least, picture, lambda: not session or viewer.counts.get("own: 200", 0) > frames
         )
@@ -304,13 +305,13 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
 
 
 def warm(server, size=SIZE):
-    """Kernels are made, and the device is measured."""
+    """Compiles the kernels and lets the server measure the device."""
     for _ in range(3):
         server.ask("127.0.0.2", "GET", picture_of(size))
 
 
 def empty_cache(folder):
-    """An environment in which neither the driver nor kerrd finds a kernel that was compiled before."""
+    """An environment in which neither the driver nor kerrd has a cached kernel."""
     return {**os.environ, "MESA_SHADER_CACHE_DIR": folder, "XDG_CACHE_HOME": folder}
 
 

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""The first picture of a process and the second, by preset: what kernels that have to be made, and a sky that has to be
-read, cost whoever asks first.
+"""The first and the second picture of a process, by preset: what compiling kernels and reading a sky add to the first.
 
-    bench/first.py                                     about four minutes
-    bench/first.py --before OTHER/build/src/kerrd      the same of both programs, in turn
+bench/first.py                                     about four minutes
+bench/first.py --before OTHER/build/src/kerrd      measures both programs, in turn
 
-Each round starts a server, asks POST /v1/render for a picture of 1280 x 720 as soon as it listens, and then for one
-half a degree further round the hole; and runs `kerrd render`. The driver's own cache of kernels is warm, for a round of
-each comes first that does not count, unless --no-driver-cache tells Mesa to keep none. Writes
+Each round starts a server and sends POST /v1/render for a picture of 1280 x 720 as soon as the server listens. Then it
+requests a picture from half a degree further round the hole, and finally runs `kerrd render`. The driver's own cache of
+kernels is warm, because the first round of each preset does not count; with --no-driver-cache Mesa has no cache. Writes
 bench/results/DATE-DEVICE-first.{json,md}.
 """
 
@@ -68,7 +67,7 @@ def served(program, preset):
 
 
 def rendered(program, preset):
-    """Seconds on the clock, and of the processor, of `kerrd render`."""
+    """Wall seconds and processor seconds of `kerrd render`."""
     with tempfile.TemporaryDirectory() as folder:
         before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
         measure.run(

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Line profiles a second and core: cold and warm, by spin and inclination, and as a fit asks a server for them.
+"""Line profiles per second and core, cold and warm, by spin and inclination, and as a fit requests them of a server.
 
-    bench/line.py             two minutes; 500 bins, r^-3 from the ISCO to 400 M, tolerance 0.003
-    bench/line.py --directions 1024      the true error of each profile too, beside triangles between rays: five
-                                         minutes more
-    bench/line.py --before OTHER/build   another build directory's bench/kd_bench_line too, in turn
+bench/line.py             two minutes; 500 bins, r^-3 from the ISCO to 400 M, tolerance 0.003
+bench/line.py --directions 1024      also the true error of each profile, by triangles between rays: five minutes more
+bench/line.py --before OTHER/build   also kd_bench_line of another build directory, in turn
 
-Cold: the spin and the inclination are new, and their table is made. Warm: it is kept. The time is the processor's own,
-of the thread that computes (bench/kd_bench_line) or of the whole server, so that it hardly depends on what else runs;
-what others do to the caches it still has in it. Writes bench/results/DATE-cpu-line.{json,md}.
+Cold: the spin and the inclination are new, and their table is computed. Warm: the table is cached. Times are processor
+times of the computing thread (bench/kd_bench_line) or of the whole server, so that they hardly depend on other
+programs, except through the processor's caches. Writes bench/results/DATE-cpu-line.{json,md}.
 """
 
 import http.client
@@ -33,7 +32,7 @@ def grid(program, core, tolerance, repeat, directions):
 
 
 def best(rows, others):
-    """Of each pair the least times of both."""
+    """The least times of both lists, for each spin and inclination."""
     return (
         {k: {**r, **{name: min(r[name], others[k][name]) for name in ("table_ms", "sum_ms")}} for k, r in rows.items()}
         if rows
@@ -42,14 +41,15 @@ def best(rows, others):
 
 
 def used(pid):
-    """Seconds of processor time of a process, its own and the kernel's for it."""
+    """Seconds of processor time of a process, in user mode and in the kernel."""
     fields = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / TICK
 
 
 def asked(server, count, tolerance, accept, cold):
-    """Processor and wall seconds a profile, all on one connection; spins and inclinations of a fit that walks, or one
-    pair whose emissivity changes."""
+    """Processor seconds and wall seconds per profile, with all requests on one connection. Cold: each request has
+    another spin and inclination, as in a fit that moves. Warm: one spin and inclination, and only the emissivity
+    changes."""
     connection, draw = http.client.HTTPConnection("127.0.0.1", server["port"], timeout=60), random.Random(4711)
     before, begun = used(server["pid"]), time.monotonic()
     for n in range(count):
@@ -93,7 +93,7 @@ def serving(kerrd, count, tolerance):
 
 
 def alone(kerrd, count, tolerance):
-    """Milliseconds of processor time of a process that makes one profile."""
+    """Milliseconds of processor time of a process that computes one profile."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     for n in range(count):
         subprocess.run(

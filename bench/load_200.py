@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
-"""Two hundred connections beside a session that is dragged: does anything fail, and how many frames does it cost?
+"""Two hundred connections beside a dragged session: does anything fail, and how many frames does the load cost?
 
-    bench/load_200.py                        about five minutes, on a machine that does nothing else
-    bench/load_200.py --seconds 10 --rounds 12   where others work on the machine: what they do falls on both
-    bench/load_200.py --wrk-nice 0           the load at the priority of everybody else: how processors are shared, and
-                                             not how this server is
+bench/load_200.py                        about five minutes, on a machine that does nothing else
+bench/load_200.py --seconds 10 --rounds 12   on a machine with other work, which then affects both halves alike
+bench/load_200.py --wrk-nice 0           the load at ordinary priority: shows how the system shares processors, not
+    how this server behaves
 
-A server of its own. `wrk` (the Debian package) keeps 200 connections busy from 127.0.0.1 with answers that are cheap,
+Starts a server of its own. `wrk` (the Debian package) keeps 200 connections from 127.0.0.1 busy with cheap requests,
 one after the other: /healthz, /readyz, /v1/schema, /v1/presets, /v1/presets/NAME, /v1/device, /v1/physics/kerr. From
-127.0.0.2 a session of 640 x 360 is dragged, 30 changes a second. Seconds with the load and without it alternate, so
-that what others do on the machine falls on both. wrk and server have the same processors, which is what a test on one
-machine measures; wrk runs at nice 19, as a load from elsewhere would take no processor here at all. Writes
-bench/results/DATE-DEVICE-load-200.{json,md}.
+127.0.0.2 a session of 640 x 360 is dragged, with 30 changes a second. Seconds with and without the load alternate, so
+that other work on the machine affects both alike. On one machine wrk and the server share the processors. A load from
+other machines would take none, so wrk runs at nice 19. Writes bench/results/DATE-DEVICE-load-200.{json,md}.
 """
 
 import json
@@ -52,8 +51,8 @@ ERRORS = ("connect", "read", "write", "timeout", "status")
 
 
 class Dragged:
-    """A session that is dragged for as long as this lives; frames by the time at which they came, and how long each
-    took from the change to the picture of it."""
+    """A session that is dragged until this object ends. It notes when each frame came, and how long the frame took from
+    the change to the picture that shows it."""
 
     def __init__(self, server):
         self.load, self.frames = fairness.Load(server, "127.0.0.2"), []
@@ -69,7 +68,7 @@ class Dragged:
             time.sleep(0.002)
 
     def during(self, seconds, work):
-        """Frames a second, and the longest gap in ms, while the work goes on."""
+        """Frames a second, and the longest gap in ms, while `work` runs."""
         begun = time.monotonic()
         result = work(seconds)
         ended = time.monotonic()
@@ -106,14 +105,14 @@ def wrk(server, connections, nice, script):
 
 
 def run(path, seconds, rounds, connections, nice):
-    """Per round what the session had alone and beside the load, and what the load had."""
+    """For each round: the session's figures alone and beside the load, and those of the load."""
     with tempfile.TemporaryDirectory() as folder:
         script = pathlib.Path(folder) / "paths.lua"
         script.write_text(LUA)
         server = fairness.Server(path)
         try:
             dragged = Dragged(server)
-            time.sleep(5)  # kernels are made, and its governor knows the device
+            time.sleep(5)  # by then the kernels are compiled, and the session's governor knows the device
             out = []
             for _ in range(rounds):
                 _, alone, gap = dragged.during(seconds, time.sleep)

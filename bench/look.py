@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""What each feature of the look costs: the smooth disk, and with one thing more at a time; the default scene with all
-that it has.
+"""Cost of each visual feature: the smooth disk, the same with one feature added at a time, and the default scene.
 
-    bench/look.py            about two minutes, on a machine that does nothing else
-    bench/look.py --before OTHER/build      the smooth disk by a build without the features too, in turn
+bench/look.py            about two minutes, on a machine that does nothing else
+bench/look.py --before OTHER/build      also the smooth disk by a build without the features, in turn
 
-640 x 360, two threads; least of the frames of all rounds, whose lens map is traced anew (cold) or reused. Writes
-bench/results/DATE-DEVICE-look.{json,md}.
+640 x 360, two threads; the least time of the frames of all rounds, with the lens map traced anew (cold) or reused.
+Writes bench/results/DATE-DEVICE-look.{json,md}.
 """
 
 import json
@@ -44,7 +43,7 @@ def frames(bench, scene, repeat):
 
 
 def least(runs, kind):
-    """The least time of each pass, and of the whole frame, by itself."""
+    """The least time of each pass, and the least time of a whole frame, each on its own."""
     names = {
         name: None
         for r in runs

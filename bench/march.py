@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What volumes cost: the light of rays followed through them, and whole frames, beside the same scene without any.
+"""Cost of volumes: rays followed through them, and whole frames, compared with the same scene without a volume.
 
-    bench/march.py            about two minutes, on a machine that does nothing else
-    bench/march.py --before OTHER/build      the smooth disk, which has no volume, by a build from before there were
-                                             volumes too, in turn
+bench/march.py            about two minutes, on a machine that does nothing else
+bench/march.py --before OTHER/build      also the smooth disk, which has no volume, by a build from before there were
+    volumes, in turn
 
-Rays by one thread pinned to one core: a picture's rays, one a pixel, over the time of the pass that follows them.
-Frames by two threads. Least of all rounds. The error is what the frame says of itself (docs/accuracy.md). Writes
-bench/results/DATE-DEVICE-march.{json,md}.
+Rays per second: the rays of a picture, one a pixel, divided by the time of the pass that follows them, by one thread
+pinned to one core. Frames are rendered by two threads. The least time of all rounds counts. The error is the frame's
+own estimate (docs/accuracy.md). Writes bench/results/DATE-DEVICE-march.{json,md}.
 """
 
 import json
@@ -70,7 +70,7 @@ def least(runs, kind, name):
 
 
 def told(kerrd, scene):
-    """What a frame says of its volumes' error: of nine rays in ten, and the worst."""
+    """The frame's own estimate of its volumes' error: that of nine rays in ten, and the largest."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             kerrd,

@@ -1,4 +1,4 @@
-"""What the benchmark scripts share: the machine, the pinned run, medians, the files under bench/results."""
+"""Shared by the benchmark scripts: facts about the machine, runs pinned to cores, medians, files of bench/results."""
 
 import argparse
 import datetime
@@ -38,7 +38,7 @@ def binary(build, name):
 
 
 def run(command, cores=None, threads=None):
-    """Standard output and error of a command, pinned to cores, with so many lavapipe threads."""
+    """Standard output and error of a command that is pinned to these cores and uses this number of lavapipe threads."""
     environment = dict(os.environ, LC_ALL="C")
     if threads is not None:
         environment["LP_NUM_THREADS"] = str(threads)
@@ -57,8 +57,7 @@ def one_core(command, core):
 
 
 def processor(pid):
-    """Seconds of all cores that another process has had, by a clock of its own: not in steps of 10 ms, as /proc has
-    them."""
+    """Processor seconds of another process on all cores. The clock is exact, while /proc counts in steps of 10 ms."""
     return time.clock_gettime((~pid << 3) | 2)  # clock_getcpuclockid(3)
 
 
@@ -92,7 +91,7 @@ def head(device, load_before, command=None):
 
 
 def portable(arguments):
-    """Paths inside the checkout relative to it, others by their last part."""
+    """Arguments without this machine's paths: relative to the checkout if inside it, otherwise only the last part."""
     out = []
     for a in arguments:
         if os.path.isabs(a):

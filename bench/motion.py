@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane: does it shimmer? One ray a pixel
-against 64.
+"""Does gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane, shimmer?
 
-    bench/motion.py            about five minutes, on a machine that does nothing else
+bench/motion.py            about five minutes, on a machine that does nothing else
 
-A hundred frames of 320 x 180, linear light, by a server of its own. Of each pixel the variance in time, and the mean
-square of the step from frame to frame; both over those of the pictures of 64 rays a pixel, of the whole picture and of
-the pixels that few rays show well, those whose gas is finest. Needs numpy. Writes
-bench/results/DATE-DEVICE-motion.{json,md}.
+Compares one ray a pixel with 64. A hundred frames of 320 x 180, linear light, come from a server of its own. For each
+pixel it computes the variance in time, and the mean square of the step from frame to frame, each divided by that of the
+pictures of 64 rays a pixel. It does so for the whole picture, and for the pixels with the finest gas, which few rays
+show badly. Needs numpy. Writes bench/results/DATE-DEVICE-motion.{json,md}.
 """
 
 import http.client
@@ -67,7 +66,8 @@ def film(port, samples, inclination):
 
 
 def figures(light, truth):
-    """This is of what an eye sees, so that bright gas does not outweigh all else: the square root of light."""
+    """The figures use the square root of light, which is closer to what an eye sees, so that bright gas does not
+    outweigh everything else."""
     light, truth = numpy.sqrt(light), numpy.sqrt(truth)
     lit = truth.mean(0) > 0.02
     step = lambda x: numpy.square(numpy.diff(x, axis=0)).mean(0)

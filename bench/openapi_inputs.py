@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""What openapi.json says yes to and the server says no: inputs made from the schemas, refusals counted by kind.
+"""Inputs that openapi.json allows and the server refuses: made from the schemas, and counted by kind of refusal.
 
-Random documents and queries (of hypothesis-jsonschema, PyPI, and always the same ones for one document) go to a server
-in front of a renderer without a device. A kind is an operation, a problem type and its sentence without numbers and
-quoted words. Not every kind is a fault of the schema: no schema can name a radius inside the horizon of this spin, or a
-picture beyond this server's limit."""
+Random documents and queries go to a server whose renderer has no device. They are made by hypothesis-jsonschema (PyPI),
+and are always the same for the same openapi.json. A kind is an operation, a problem type and its sentence without
+numbers and quoted words. Not every kind is a fault of the schema: no schema can express a radius inside the horizon of
+the given spin, or a picture beyond this server's limit.
+"""
 
 import argparse
 import collections
@@ -26,12 +27,13 @@ class Over(Exception):
 
 
 def inputs(document):
-    """(name, method, path, where, schema) of what takes a JSON body, or a query and no path parameter."""
+    """(name, method, path, location, schema) of each operation with a JSON body, or with a query and no path
+    parameter."""
     for path, operations in document["paths"].items():
         for method, operation in operations.items():
             if (
                 "{" in path or path == "/v1/render" or path == "/v1/sessions"
-            ):  # /v1/plan has the same body and takes no time
+            ):  # /v1/plan has the same body as these and takes no time
                 continue
             body = operation.get("requestBody", {}).get("content", {}).get("application/json")
             query = [p for p in operation.get("parameters", []) if p["in"] == "query"]

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Ten thousand orbits in one request to kerrd orbit: random spins, shapes and inclinations.
 
-    orbits.py KERRD [N]     N: default 10000
+orbits.py KERRD [N]     N: default 10000
 
-Prints a line a way to follow them: seconds, processor seconds, orbits per second, and the worst drift of the energy.
-Recorded with machine and date in bench/results, never gated.
+Prints a line for each integration method: seconds, processor seconds, orbits per second, and the worst drift of the
+energy. Results are recorded with machine and date in bench/results; no test depends on them.
 """
 
 import csv

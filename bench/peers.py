@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""kerrd's rays beside those of other codes: what it does in a picture, on one core.
+"""kerrd's rays compared with those of other codes, on one core.
 
-The lens map stands beside kerrz, a closed-form code in double precision: the same image, the same core, in turn. kerrz
-is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 numpy. Rays through volumes stand
-beside Blacklight and ipole, whose figures bench/radio.py has."""
+The lens map is compared with kerrz, a closed-form code in double precision: the same image on the same core, in turn.
+kerrz is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 numpy. Rays through volumes
+are compared with Blacklight and ipole; their figures are in bench/radio.py.
+"""
 
 import argparse
 import json
@@ -18,14 +19,14 @@ import radio
 SPIN, INCLINATION, HALF_WIDTH = 0.9, 70.0, 12
 OBSERVER = 1e7  # M: kerrz's own default for its distant observer
 
-# What each pair computes: title, kd_bench_trace's (method, computes), kerrz's mapper and flags.
+# What each pair computes: title, kd_bench_trace's (method, computes), and kerrz's mapper and flags.
 PAIRS = [
     ("r of the first crossing", ("closed form", "r of 1 crossing"), "radius", ["--no-false-image"]),
     ("r, later crossings too", ("closed form", "r of 3 crossings"), "radius", []),
     ("r and φ, later crossings too", ("closed form", "r, phi of 3 crossings"), "azimuth", []),
 ]
-# What kerrz has no picture of: kd_bench_trace's `computes`. AART 2.1.10 and geokerr have r, t and φ of a crossing; their
-# figures were measured before, on a core of such a machine.
+# Outputs for which kerrz has no picture: kd_bench_trace's `computes`. AART 2.1.10 and geokerr compute r, t and φ of a
+# crossing; their figures were measured earlier, on a core of the same kind of machine.
 ALONE = ["r, phi, sky, fate", "r, phi, sky, fate, delay"]
 AART, GEOKERR = 136_000, 300_000
 
@@ -160,7 +161,7 @@ def judge_kerrz(np, library, n):
 
 
 def through_volumes(kerrd, o):
-    """Rays/s and core of the scenes of radio.py, as that measures them."""
+    """Rays per second and core for the scenes of radio.py, measured as there."""
     figures = radio.figures_of(*radio.measured(kerrd, o.sizes, o.volume_rounds, o.core), o.sizes)
     return [
         {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The figures of docs/physics, one a chapter, from what kerrd answers: curves by its numbers, pictures by its renders.
+"""The figures of docs/physics, one for each chapter: curves of the numbers that kerrd answers, and pictures it renders.
 
-    bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs/physics] [CHAPTER ...]
+bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs/physics] [CHAPTER ...]
 
 Needs matplotlib (pip install matplotlib). bench/light_curve.py makes the figure of hot-spots.md.
 """
@@ -24,14 +24,14 @@ HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5  # of a = 0.9 in the plane, where x^2 + y
 
 
 def run(*words, text=None):
-    """What a command of kerrd prints."""
+    """What a kerrd command prints."""
     return subprocess.run(
         [KERRD, *map(str, words)], check=True, stdout=subprocess.PIPE, input=text, encoding="utf-8"
     ).stdout
 
 
 def save(figure, path):
-    """Write an SVG, the same each time, with paths to a tenth of a point: half the bytes."""
+    """Writes an SVG that is the same each time. Paths are rounded to a tenth of a point, which halves the file."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     tenth = lambda found: f"{float(found[0]):.1f}".removesuffix(".0")
@@ -73,7 +73,7 @@ def frequencies(axes):
         for name, label, colour in lines:
             axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
         isco = ask("kerr", spin=a)[1]["isco"]
-        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # from where it vanishes
+        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # from the radius where it vanishes
         axes.plot(p["r"], v["kappa"], style, color=RED, label=f"$\\kappa$, a = {a}")
     axes.set(
         xlabel="r / M",
@@ -153,7 +153,8 @@ def flux(axes):
 def colours(axes):
     p, v = ask("blackbody", temperature_k="1000:12000:111")
     for i, t in enumerate(p["temperature_k"]):
-        axes.axvspan(t - 50, t + 150, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)  # no seams
+        # no gaps between neighbouring bars
+        axes.axvspan(t - 50, t + 150, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)
     for name, style in (("srgb_r", "-"), ("srgb_g", "--"), ("srgb_b", ":")):
         axes.plot(p["temperature_k"], v[name], style, color="black", label=name[-1].upper())
     axes.set(xlabel="T / K", ylabel="encoded sRGB", xlim=(1000, 12000), title="Colour of a black body")
@@ -213,8 +214,8 @@ def fallback(axes):
 
 
 def light(axes):
-    """Rays in the equatorial plane from an eye far to the right, as the Kerr-Schild engine steps along them; these are
-    mirrored rays."""
+    """Rays in the equatorial plane from an observer far to the right, by the steps of the Kerr-Schild engine; the
+    figure shows their mirror images."""
     for b in (-12, -10, -8, -6, -4, -3.2, -2.9, -2.7, -2, 0, 2, 4, 6, 6.6, 6.9, 7.5, 9, 11):
         text = run(
             "rays",
@@ -249,7 +250,8 @@ def light(axes):
 
 
 def crossings(axis, value):
-    """Crossings of the equatorial plane along the middle of the picture, upwards: radius or azimuth by image order."""
+    """Crossings of the equatorial plane along the middle column of the picture, upwards: radius or azimuth by image
+    order."""
     beta = [-12 + 24 * k / 1200 + 1e-4 for k in range(1201)]
     scene = {"spin": 0.9, "observer": {"inclination_deg": 60}, "orders": 3, "rays": [[0, y] for y in beta]}
     rays = json.loads(run("rays", "-", text=json.dumps(scene)))["rays"]
@@ -270,7 +272,7 @@ def azimuths_seen(axes):
 
 
 def distances(axes):
-    """How large the shadow is from near by, against the straight lines of a distant observer's."""
+    """Size of the shadow for near observers, compared with what straight lines to a distant observer would give."""
     for name, colour in (("static", BLUE), ("zamo", RED)):
         radius, angle = [], []
         for k in range(41):
@@ -290,7 +292,7 @@ def distances(axes):
 
 
 def tone(axes):
-    """The curve of S. Hill between its two matrices, for grey, against clipping."""
+    """S. Hill's tone curve between its two matrices, for grey, compared with clipping."""
     x = [10 ** (-3 + 4.5 * k / 200) for k in range(201)]
     f = lambda c: (c * (c + 0.0245786) - 0.000090537) / (c * (0.983729 * c + 0.4329510) + 0.238081)
     axes.plot(x, [max(f(c), 0) for c in x], color=BLUE, label="f(c)")
@@ -368,7 +370,7 @@ def main():
     KERRD = arguments.kerrd
     plt.rcParams.update(
         {"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}
-    )  # the same file each time
+    )  # the file is the same each time
     for name in arguments.chapters or (*PANELS, *PICTURES):
         if name in PANELS:
             draw(PANELS[name], arguments.output / f"{name}.svg")

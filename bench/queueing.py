@@ -1,17 +1,16 @@
-"""A model of servers of kerrd behind HAProxy, by discrete events. It knows no pictures: what a work takes is what
-somebody has measured.
+"""A discrete-event model of kerrd servers behind HAProxy. It contains no pictures: the duration of each request is
+measured elsewhere.
 
-Seconds throughout. The parts, each after what it stands for:
+All times are in seconds. The parts, each with what it models:
 
-    Shares     src/server/http/shares.c: whose turn it is, by client, by class, and among the works of a class
-    Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
-    Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that die, HAProxy's own time
-    visitor    a session: dragged, whose frames are as fine as the governor lets them be (src/render/live/governor.h),
-               and resting
+Shares     src/server/http/shares.c: the order of work, by client, by class, and within a class
+Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
+Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that fail, HAProxy's own time
+visitor    a session, dragged or at rest; the governor (src/render/live/governor.h) limits the quality of dragged frames
 
-Left out: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy (pip
-install simpy). bench/queueing_check.py holds it against two real servers, tests/unit/queueing.py against closed forms;
-bench/queueing_scale.py asks it about a thousand.
+Not modelled: memory, bodies and answers, the network, several clients of one server (HAProxy is the only one). Needs
+simpy (pip install simpy). bench/queueing_check.py compares the model with two real servers, and tests/unit/queueing.py
+with closed forms; bench/queueing_scale.py applies it to a thousand.
 """
 
 import collections
@@ -33,12 +32,12 @@ class Refused(Exception):
 
 @dataclasses.dataclass(eq=False)
 class Work:
-    seconds: float  # that it has the device
-    estimate: float  # what its plan says of that
-    encode: float = 0.0  # of an encoder, afterwards
+    seconds: float  # of the device
+    estimate: float  # of `seconds`, by the plan
+    encode: float = 0.0  # seconds of an encoder, afterwards
     kind: str = "picture"
     client: str = "proxy"
-    paid: float = 0.0  # the scheduler's own
+    paid: float = 0.0  # used by the scheduler
     left: float = 0.0
     expected: float = 0.0
     stage: str = "waits"
@@ -59,7 +58,7 @@ class Client:
 
 
 class Shares:
-    """kd_shares_add, _remove, _next and _charge."""
+    """Models kd_shares_add, _remove, _next and _charge."""
 
     def __init__(self):
         self.now, self.clients = 0.0, {}
@@ -117,8 +116,8 @@ class Shares:
 
 
 class Server:
-    """One device and its encoders. `limit`: --queue. `aside`: seconds a request takes here beside its device and
-    encoder, in which others have these."""
+    """One device and its encoders. `limit`: --queue. `aside`: seconds that a request takes besides device and encoder,
+    which others can use meanwhile."""
 
     def __init__(self, env, limit=16, aside=0.0):
         self.env, self.limit, self.aside = env, limit, aside
@@ -128,7 +127,7 @@ class Server:
         env.process(self._run())
 
     def submit(self, work):
-        """An event that comes when the work is done, or fails with Refused."""
+        """An event that succeeds when the work is done, or fails with Refused."""
         work.done, work.left, work.expected = self.env.event(), work.seconds, work.estimate
         waiting = sum(w.stage != "works" and w.kind in ("picture", "rays") for w in self.works)
         if not self.alive or (work.kind in ("picture", "rays") and waiting >= self.limit + (self.holder is None)):
@@ -204,9 +203,10 @@ class Server:
 
 
 class Balancer:
-    """HAProxy: requests go to the server with fewest connections, among these to the one whose turn is longest ago;
-    while each has `maxconn` they wait in one queue, `patience` at most. A refused one goes to another server, `retries`
-    times. `own`: seconds of one of its `cores` that a request takes."""
+    """HAProxy. A request goes to the server with the fewest connections, and among several to the one that was chosen
+    longest ago. While each server has `maxconn` connections, requests wait in one queue, at most for `patience`
+    seconds. A refused request goes to another server, up to `retries` times. `own`: seconds that a request takes on one
+    of HAProxy's `cores`."""
 
     def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
         self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = (
@@ -221,7 +221,7 @@ class Balancer:
         self.waiting = collections.deque()
         self.by_count = collections.defaultdict(
             dict
-        )  # connections -> servers, in the order in which they came to have so many
+        )  # connections -> servers, in the order in which they reached that number
         self.count = {server: 0 for server in servers}
         for server in servers:
             self.by_count[0][server] = None
@@ -240,8 +240,8 @@ class Balancer:
         return None
 
     def take(self):
-        """The server for a request, whose connection is counted from now on; an event whose value it is, None where
-        patience ended."""
+        """An event whose value is the server for a request, or None if `patience` ended. The server's connection is
+        counted from then on."""
         turn = self.env.event()
         server = None if self.waiting else self._least()
         if server:
@@ -254,7 +254,7 @@ class Balancer:
     def release(self, server):
         self._move(server, -1)
         while self.waiting:
-            if self.waiting[0].triggered:  # its patience has ended
+            if self.waiting[0].triggered:  # the patience of this request has ended
                 self.waiting.popleft()
                 continue
             server = self._least()
@@ -274,7 +274,7 @@ class Balancer:
                 yield self.env.timeout(self.own)
 
     def request(self, make):
-        """A process: a request for the work that make() returns. Its value: 200 or 503."""
+        """A process that requests the work that make() returns. Its value: 200 or 503."""
         work = make()
         yield from self.passes()
         for _ in range(self.retries + 1):
@@ -299,29 +299,33 @@ class Balancer:
 
 @dataclasses.dataclass
 class Habits:
-    """A visitor's, and what his frames take. Times to the next stroke and of a stroke are exponential."""
+    """Habits of a visitor, and the cost of a visitor's frames. Lengths of strokes and of the rests between them are
+    exponential."""
 
     drag: float = 3.0  # mean seconds of a stroke
-    rest: float = 12.0  # mean seconds between two
-    pause: float = 0.001  # from a picture to the next request
+    rest: float = 12.0  # mean seconds between two strokes
+    pause: float = 0.001  # seconds from a picture to the next request
     frames: int = (
-        2  # of an input: the one that is under way when it comes, as time goes on by itself, and the one that shows it
+        # frames for each input: the one that is being rendered when the input comes, because time runs, and the one
+        # that shows it
+        2
     )
     encode: float = 0.001
-    floor: float = 0.010  # device seconds of a frame as small as it may be
-    full: float = 0.100  # of one as large as it may be
-    fill: float = 0.85  # of what the governor aims at: what its frames take
-    settle: float = 0.3  # device seconds in which a picture at rest becomes as fine as asked
+    floor: float = 0.010  # device seconds of the smallest frame
+    full: float = 0.100  # device seconds of the largest frame
+    fill: float = 0.85  # ratio of the actual device time of a frame to the governor's target
+    settle: float = 0.3  # device seconds until a picture at rest has the requested quality
 
 
 def frame_seconds(habits, dragged):
-    """What a frame of one of so many takes: governor.h, target_ms 33 and sparse_ms 60."""
+    """Device seconds of a frame while `dragged` sessions share the server: governor.h, target_ms 33 and sparse_ms
+    60."""
     share = 1 / dragged
     return min(max(habits.fill * share * min(0.033 / math.sqrt(share), 0.060), habits.floor), habits.full)
 
 
 def stroke(env, server, habits, seconds, log):
-    """A drag: a patch, frames until one shows it, the next patch. log: (when, seconds from input to picture)."""
+    """A drag: a patch, frames until one shows it, then the next patch. log: (time, seconds from input to picture)."""
     server.dragged += 1
     end = env.now + seconds
     try:
@@ -337,7 +341,7 @@ def stroke(env, server, habits, seconds, log):
 
 
 def visitor(env, server, habits, rng, stay, log):
-    """A session on one server until its visitor leaves: rests, strokes, and a finer picture after each."""
+    """A session on one server until its visitor leaves: rests and strokes, and a refined picture after each stroke."""
     end = env.now + stay
     try:
         yield env.timeout(min(rng.expovariate(1 / habits.rest), stay))
@@ -346,11 +350,12 @@ def visitor(env, server, habits, rng, stay, log):
             server.submit(Work(habits.settle, habits.settle, 0, "refinement")).defused = True
             yield env.timeout(min(rng.expovariate(1 / habits.rest), max(end - env.now, 0)))
     except Refused:
-        log.append((env.now, None))  # the session is lost with its server
+        log.append((env.now, None))  # the session ended with its server
 
 
 def open_renders(env, balancer, arrivals, make, log):
-    """Requests at given times. make(k): the work of number k. log: (number, arrival, seconds to the answer, status)."""
+    """Requests at given times. make(k): the work of request k. log: (number, arrival, seconds to the answer,
+    status)."""
 
     def one(k, at):
         status = yield env.process(balancer.request(lambda: make(k)))
@@ -362,7 +367,7 @@ def open_renders(env, balancer, arrivals, make, log):
 
 
 def closed_renders(env, balancer, make, until, log):
-    """A client that asks for one picture after the other."""
+    """A client that requests one picture after the other."""
     k = 0
     while env.now < until:
         at, k = env.now, k + 1

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The model of bench/queueing.py from one server to a thousand: pictures, sessions, a server that is lost, and what
-HAProxy's own processor time does.
+"""The model of bench/queueing.py from one server to a thousand: pictures, sessions, loss of a server, HAProxy's time.
 
-    bench/queueing_scale.py PLAN.json QUEUEING.json            five minutes; needs haproxy and simpy
-    bench/queueing_scale.py PLAN.json QUEUEING.json --plot docs/scale.svg     draws the figure, too; needs matplotlib
+bench/queueing_scale.py PLAN.json QUEUEING.json            five minutes; needs haproxy and simpy
+bench/queueing_scale.py PLAN.json QUEUEING.json --plot docs/scale.svg     draws the figure, too; needs matplotlib
 
-What a picture takes is read from what bench/queueing_check.py wrote, what a frame of a session takes from what
-bench/scale_plan.py wrote, and HAProxy's time for a request is measured here. Writes
+The time of a picture is read from the results of bench/queueing_check.py, and the time of a session's frame from those
+of bench/scale_plan.py. HAProxy's processor time for a request is measured here. Writes
 bench/results/DATE-DEVICE-servers.{json,md}.
 """
 
@@ -26,14 +25,14 @@ from queueing_check import queueing, simpy
 
 NUMBERS = (1, 2, 10, 100, 1000)
 LOADS = (0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2)
-EACH = 300  # pictures a server, from when nothing is under way: as bench/queueing_check.py asks its two
-FAST = 0.2  # seconds from input to picture that a hand still takes for its own
-STROKES = {"drag": 3.0, "rest": 12.0}  # seconds: a fifth of the time
+EACH = 300  # pictures for each server, starting with idle servers: as in bench/queueing_check.py
+FAST = 0.2  # seconds from input to picture that still feel immediate
+STROKES = {"drag": 3.0, "rest": 12.0}  # mean seconds, so that a fifth of the time is dragged
 
 
 def haproxy_cost(path, n=4000, rounds=5):
-    """Seconds of HAProxy's processor a request, of answers that are small and large, and requests a second that it
-    passed: of several rounds the best, since its threads burn time where others have the cores."""
+    """HAProxy's processor seconds per request, for small and large answers, and the requests per second that it passed.
+    The best of several rounds counts, because its threads spin while others use the cores."""
     proxied, out = (
         queueing_check.Proxied(queueing_check.two_servers(path, 16), queueing_check.SETTINGS["as in docs/examples"]),
         {},
@@ -78,7 +77,8 @@ def haproxy_cost(path, n=4000, rounds=5):
 
 
 def pictures(rng, measured):
-    """A function that makes a picture's work, as often as measured; and the mean seconds of one."""
+    """A function that makes the work of a picture, with sizes as frequent as measured; and the mean seconds of a
+    picture."""
     samples, beyond, estimated = measured["samples_s"], measured["beyond_s"], measured["estimates"]
     weights = [weight for *_, weight in queueing_check.MIX]
     mean = sum(w * statistics.mean(took) for w, took in zip(weights, samples)) / sum(weights) + beyond
@@ -91,8 +91,8 @@ def pictures(rng, measured):
 
 
 def renders(n, load, measured, each, own=0.0, cores=1, lost_at=None, seed=7):
-    """Answers of n servers at a load, `each` pictures a server: (arrival, seconds, status). lost_at: part of the
-    arrivals after which a server dies."""
+    """Answers of n servers at a load, `each` pictures per server: (arrival, seconds, status). lost_at: fraction of the
+    arrivals after which a server fails."""
     rng = random.Random(seed)
     make, mean = pictures(rng, measured)
     env = simpy.Environment()
@@ -129,7 +129,7 @@ def curve(n, measured):
 
 
 def lost(n, load, measured, each=EACH):
-    """p95 before a server is lost and after it, and the requests that failed."""
+    """p95 before and after the loss of a server, and the requests that failed."""
     before, after, failed = [], [], 0
     for seed in range(max(2, 20 // n)):
         log, arrivals, _ = renders(n, load, measured, each, lost_at=0.5, seed=seed)
@@ -146,8 +146,9 @@ def lost(n, load, measured, each=EACH):
 
 
 def visitors(n, each, habits, seconds, stay=120.0, seed=7):
-    """n servers and so many visitors a server in the mean, who come at random times, get a session where fewest are,
-    and stay for `stay` in the mean: seconds from input to picture, the busy part of the devices."""
+    """n servers with a mean of `each` visitors per server, who come at random times, get a session on the server with
+    the fewest, and stay `stay` seconds in the mean. Returns seconds from input to picture, and the busy fraction of the
+    devices."""
     rng, log, env = random.Random(seed), [], simpy.Environment()
     servers = [queueing.Server(env) for _ in range(n)]
     held = dict.fromkeys(servers, 0)
@@ -159,7 +160,7 @@ def visitors(n, each, habits, seconds, stay=120.0, seed=7):
         held[server] -= 1
 
     def come():
-        for k in range(n * each):  # who is there already
+        for k in range(n * each):  # visitors who are there at the start
             env.process(visit(servers[k % n]))
         while True:
             yield env.timeout(rng.expovariate(n * each / stay))
@@ -176,7 +177,7 @@ def visitors(n, each, habits, seconds, stay=120.0, seed=7):
 
 
 def dragging(count, habits, seconds=20):
-    """One server and so many who drag without a rest."""
+    """One server with `count` visitors who drag all the time."""
     env, log = simpy.Environment(), []
     server = queueing.Server(env)
     for _ in range(count):
@@ -190,8 +191,8 @@ def dragging(count, habits, seconds=20):
 
 
 def habits_of(plan):
-    """What bench/scale_plan.py measured of the first view: the device seconds of a frame, of one who drags alone and of
-    the least ones, and what is between frames; and the rows by number."""
+    """Measurements of bench/scale_plan.py for the first view: device seconds of a frame of one who drags alone, and of
+    the smallest frames; and the time between frames; and the rows by number of sessions."""
     rows = {int(live.re.match(r"\d+", name)[0]): row for name, row in plan["dragged"].items() if "3840" not in name}
     frame = {n: row["device_each"] / row["fps"] for n, row in rows.items()}
     return queueing.Habits(
@@ -206,7 +207,7 @@ def habits_of(plan):
 
 
 def plot(result, checked, path):
-    """The measured points over the curves, and what the model said of these very pictures."""
+    """Draws the measured points over the curves, and the model's values for the same pictures."""
     import matplotlib
 
     matplotlib.use("svg")

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Rays a second and core through volumes at a radio frequency, without and with the transfer of polarised light, beside
-Blacklight and ipole.
+"""Rays per second and core through volumes at a radio frequency, with and without polarisation: kerrd and two peers.
 
-    bench/radio.py            two or three minutes
-    bench/radio.py --sizes 48 96 --rounds 1      half a minute
+bench/radio.py            two or three minutes
+bench/radio.py --sizes 48 96 --rounds 1      half a minute
 
-One picture of each scene at two sizes, by one thread: rays are the pixels by which the sizes differ, and their time is
-the processor time by which the two processes differ, so that start, kernels and the rays that measure the error cancel,
-and what else runs hardly matters. Least of all rounds. Writes bench/results/DATE-DEVICE-radio.{json,md}.
+The peers are Blacklight and ipole. Each scene is rendered at two sizes by one thread. The difference in pixels is
+divided by the difference in processor time, so that the start, the kernels and the rays that measure the error cancel,
+and other programs hardly matter. The least time of all rounds counts. Writes bench/results/DATE-DEVICE-radio.{json,md}.
 """
 
 import json
@@ -22,7 +21,7 @@ import measure
 
 TRANSFER = ["--set", "polarization.model=transfer"]
 KAPPA = ["--set", "volume.electrons=kappa"]
-SCENES = {  # arguments of `kerrd render`; whether light is polarised
+SCENES = {  # arguments of `kerrd render`; whether the light is polarised
     "gold-1, no absorption": (["-p", "gold-1"], False),
     "gold-5, thin and deep": (["-p", "gold-5"], False),
     "riaf": (["-p", "riaf"], False),
@@ -33,13 +32,13 @@ SCENES = {  # arguments of `kerrd render`; whether light is polarised
     "riaf, kappa electrons, polarised": (["-p", "riaf", *KAPPA, *TRANSFER], True),
     "torus, polarised": (["-p", "torus", *TRANSFER], True),
 }
-# Rays/s and core, measured: unpolarised, gold-1 by Dormand and Prince in Kerr-Schild coordinates; polarised, ipole's
-# riaf.
+# Rays per second and core, measured. Unpolarised: gold-1 by Dormand and Prince's method in Kerr-Schild coordinates;
+# polarised: ipole's riaf.
 BLACKLIGHT, IPOLE = 3000, 89
 
 
 def render(kerrd, arguments, size, core):
-    """Seconds of processor time of one picture, and what it says of itself."""
+    """Processor seconds of one picture, and its --stats."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             "taskset",
@@ -67,9 +66,9 @@ def render(kerrd, arguments, size, core):
 
 
 def measured(kerrd, sizes, rounds, core):
-    """Of each scene at each size the least seconds of processor time; and what its last picture says of itself."""
+    """The least processor seconds of each scene at each size, and the --stats of its last picture."""
     least, told = {}, {}
-    for n in range(rounds + 1):  # the first fills the driver's cache of kernels
+    for n in range(rounds + 1):  # the first round fills the driver's cache of kernels
         for name, (arguments, _) in SCENES.items():
             for size in sizes:
                 seconds, told[name] = render(kerrd, arguments, size, core)
@@ -79,12 +78,12 @@ def measured(kerrd, sizes, rounds, core):
 
 
 def beside(rate, polarised):
-    """A rate as a multiple of the peer's."""
+    """A rate as a multiple of the peer's rate."""
     return f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight"
 
 
 def figures_of(least, told, sizes):
-    """Of each scene: rays/s and core, the seconds of both pictures, the error and the flux that the larger one tells."""
+    """For each scene: rays per second and core, the seconds of both pictures, and error and flux of the larger one."""
     small, large = sizes
     return {
         name: {

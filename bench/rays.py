@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Listed rays from end to end: kerrd serve on a free port, N rays in, their ends out, in every form and by several
-engines.
+"""Listed rays from end to end: N rays sent to kerrd serve, their ends received, in every format, with several engines.
 
-    rays.py KERRD [N]     N: default 1000000
+rays.py KERRD [N]     N: default 1000000
 
-Prints a line a combination: rays per second over the whole exchange as a client sees it (the body is made beforehand
-and the answer is not parsed), what the server says of reading and tracing, and the bytes of both bodies. Recorded with
-machine and date in bench/results, never gated.
+Prints a line for each combination: rays per second over the whole exchange as a client sees it (the body is made
+beforehand and the answer is not parsed), the server's own times for reading and tracing, and the bytes of both bodies.
+Results are recorded with machine and date in bench/results; no test depends on them.
 """
 
 import http.client

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Sweeps on a Dask cluster of two workers: what a scene costs beyond its rendering, how much faster two are, and that
-nothing is lost when one is killed.
+"""Sweeps on a Dask cluster of two workers: overhead per scene, speed-up, and no loss when a worker is killed.
 
-    bench/scale.py            some minutes, on a machine of two cores that does nothing else; needs the packages of
-                              tests/python/requirements.txt in venv/
+bench/scale.py            some minutes, on a machine of two cores that does nothing else; needs the packages of
+    tests/python/requirements.txt in venv/
 
-A thousand scenes, spin by inclination, of 64 x 48 pixels: by one server pinned to a core, by two workers pinned to a
-core each, and by two of which one is killed half-way. Every picture is compared with the first ones to the byte. Writes
-bench/results/DATE-DEVICE-scale.{json,md}.
+A thousand scenes of 64 x 48 pixels, spin by inclination, are rendered three times: by one server pinned to a core, by
+two workers pinned to a core each, and by two workers of which one is killed half-way. Every picture is compared with
+those of the first run to the byte. Writes bench/results/DATE-DEVICE-scale.{json,md}.
 """
 
 import os
@@ -35,7 +34,7 @@ def pin(core):
 
 
 def alone(kerrd, binary, scenes):
-    """Seconds, the server's milliseconds a scene, and the pictures."""
+    """Wall seconds, the server's milliseconds per scene, and the pictures."""
     with kerrd.local(binary=binary, env=ONE_THREAD) as hole:
         os.sched_setaffinity(hole.process.pid, {0})
         for thread in os.listdir(f"/proc/{hole.process.pid}/task"):
@@ -52,7 +51,7 @@ def alone(kerrd, binary, scenes):
 
 
 def together(kerrd, distributed, binary, scenes, killed=False):
-    """Seconds, and the pictures, of two workers, one of which is killed when half of the pictures are there."""
+    """Wall seconds and pictures of two workers. With `killed`, one is killed when half of the pictures are there."""
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
         distributed.Client(cluster) as dask,
@@ -60,7 +59,7 @@ def together(kerrd, distributed, binary, scenes, killed=False):
     ):
         for core, worker in enumerate(dask.run(os.getpid)):
             dask.run(pin, core % os.cpu_count(), workers=[worker])
-        kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)  # servers start, kernels are made
+        kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)  # starts the servers and compiles the kernels
 
         def kill():
             while len(list(pathlib.Path(folder).glob("*.png"))) < len(scenes) // 2:

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""What a machine can carry: device seconds of a frame, of a viewer who drags or rests, and of a minute of film.
-docs/scale.md computes with them how many machines are needed.
+"""Load that a machine can carry: device seconds of a frame, of a viewer who drags or rests, and of a minute of film.
 
-    bench/scale_plan.py            three minutes, on a machine that does nothing else
-    bench/scale_plan.py --quick    one minute: a look, by fewer frames and sessions
+bench/scale_plan.py            three minutes, on a machine that does nothing else
+bench/scale_plan.py --quick    one minute: less accurate, with fewer frames and sessions
 
-A server of its own, on all cores; this script is its client and takes some of the machine too. Device seconds are those
-of Server-Timing; where others are at work on the machine too, processor seconds are less disturbed. Writes
-bench/results/DATE-DEVICE-plan.{json,md}.
+docs/scale.md computes from the results how many machines are needed. Starts a server of its own, on all cores; this
+script is its client and uses some of the machine too. Device seconds are those of Server-Timing. If others use the
+machine too, processor seconds are less disturbed. Writes bench/results/DATE-DEVICE-plan.{json,md}.
 """
 
 import os
@@ -21,18 +20,18 @@ import measure
 SIZE = {"width": 1280, "height": 720}
 SCREEN_4K = {"width": 3840, "height": 2160}
 PRESETS = {"default": None, "first view": "gas-stars", "M87*": "m87", "volume": "torus"}
-FILM_FRAMES = 1440  # a minute of 24 a second
+FILM_FRAMES = 1440  # a minute at 24 frames a second
 
 
 def scene_of(server, name, size=SIZE):
-    """The scene of a preset, or the default one, in a size."""
+    """The scene of a preset, or the default one, at this size."""
     scene = live.preset(server.port, PRESETS[name]) if PRESETS[name] else {}
     scene["image"] = {**scene.get("image", {}), **size}
     return scene
 
 
 def picture(server, session, scene):
-    """Server-Timing of a render, milliseconds by pass, and the seconds of all cores that it took."""
+    """Server-Timing of a render in ms by pass, and the processor seconds that it took on all cores."""
     before = measure.processor(server.process.pid)
     answer, data = session.ask("POST", "/v1/render", scene)
     assert answer.status == 200, data[:300]
@@ -49,15 +48,15 @@ def spread(values):
 
 
 class Asker(live.Session):
-    """A connection alone."""
+    """Only the connection of a session."""
 
     def __init__(self, port):
         self.connection = live.http.client.HTTPConnection("127.0.0.1", port, timeout=600)
 
 
 def frames(server, rounds):
-    """Device seconds of a picture by scene, subjects in turn: with rays of its own, and where only the time is another
-    one."""
+    """Device seconds of a picture by scene, the scenes in turn: with its rays traced, and with only the time
+    changed."""
     asker, rows = (
         Asker(server.port),
         {name: {"traced": [], "kept": [], "encode": [], "processor": []} for name in PRESETS},
@@ -65,14 +64,14 @@ def frames(server, rounds):
     for k in range(rounds + 1):
         for name in PRESETS:
             if name == "volume" and k > 2:
-                continue  # it takes longer than all others, and as long each time
+                continue  # this one takes longer than all others, and equally long each time
             scene = scene_of(server, name)
             scene["camera"] = {
                 **scene.get("camera", {}),
                 "inclination_deg": scene.get("camera", {}).get("inclination_deg", 70) - 0.37 * k,
             }
             traced, kept = picture(server, asker, scene), picture(server, asker, {**scene, "time": 10.0 + k})
-            if k:  # the first ones make the kernels
+            if k:  # the first ones compile the kernels
                 rows[name]["traced"].append(traced["total"] / 1e3)
                 rows[name]["kept"].append(kept["total"] / 1e3)
                 rows[name]["encode"].append(traced["encode"] / 1e3)
@@ -81,14 +80,14 @@ def frames(server, rounds):
 
 
 def film(server, sample):
-    """Device and encoder seconds of a minute's film: the camera once round the default scene, of which every so many
-    frames are rendered."""
+    """Device seconds and encoder seconds of a minute of film: the camera goes once round the default scene. Only every
+    `sample`th frame is rendered."""
     asker, device, encode, cores = Asker(server.port), [], [], []
     for k in range(sample + 1):
         scene = scene_of(server, "default")
         scene["camera"] = {"azimuth_deg": 360.0 * k / sample}
         took = picture(server, asker, scene)
-        if k:  # the first one traces the rays, which all have
+        if k:  # the first frame traces the rays, which all share
             device.append(took["total"] / 1e3)
             encode.append(took["encode"] / 1e3)
             cores.append(took["processor"])
@@ -106,7 +105,7 @@ def used(answers, seconds):
 
 
 def watched(server, name, size, seconds):
-    """A session whose time runs, looked at as fast as frames come: frames a second, width, device seconds a second."""
+    """A session whose time runs, viewed as fast as frames come: frames a second, width, device seconds a second."""
     session = live.Session(server.port, scene_of(server, name, size))
     first = session.first_ms
     end = time.monotonic() + 2
@@ -130,10 +129,11 @@ def width(answer):
 
 
 def resting(server, name, size, seconds):
-    """A session in which nothing moves: what it takes until it is as fine as asked, and a second after that."""
+    """A session in which nothing moves: its cost until it has the requested quality, and its cost in a second after
+    that."""
     scene = scene_of(server, name, size)
     scene["motion"] = {"time_rate": 0}
-    live.Session(server.port, scene).end()  # its kernels are made
+    live.Session(server.port, scene).end()  # compiles the kernels
     scene["camera"] = {**scene.get("camera", {}), "inclination_deg": 66.6}
     begun = time.monotonic()
     session = live.Session(server.port, scene)
@@ -155,8 +155,8 @@ def resting(server, name, size, seconds):
 
 
 def dragged(server, name, size, n, seconds, rounds):
-    """n sessions dragged at once, each by a process of its own; of several rounds the one in which the server had most
-    of the machine."""
+    """n sessions dragged at once, each by a process of its own. Of several rounds, the one in which the server had the
+    largest share of the machine counts."""
     settle = 3 + n / 2  # their first pictures come one after the other
     row = max(
         (

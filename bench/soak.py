@@ -1,27 +1,31 @@
 #!/usr/bin/env python3
-"""What a server looks like after a long time with many who do all sorts of things at random: memory, descriptors,
-threads and errors over time. It fails on a slope.
+"""Runs a server for a long time with many random clients, and fails if its resources grow or an answer is wrong.
 
-    bench/soak.py                     half an hour, six at once
-    bench/soak.py --minutes 3 --clients 4 --seed 7
-    bench/soak.py --minutes 30 --kills 100      and the server is killed a hundred times meanwhile, and started again
-                                                on the same folder
-    bench/soak.py --minutes 30 --faults 300     and so many faults of memory, disks, descriptors, clocks and of Vulkan
-                                                happen beneath it (soak_faults.py), none in the last minute
-    bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and
-                                                       whose memory may grow
+bench/soak.py                     half an hour, six clients at once
+bench/soak.py --minutes 3 --clients 4 --seed 7
+bench/soak.py --minutes 30 --kills 100      also kills the server a hundred times, and restarts it on the same folder
+bench/soak.py --minutes 30 --faults 300     also makes this many faults of memory, disks, descriptors, clocks and Vulkan
+    happen beneath it (soak_faults.py), none in the last minute
+bench/soak.py --build build-tsan --minutes 10      with the thread sanitizer, whose reports count as failures, and under
+    which memory may grow
 
-Pictures, some of them left before they come; sessions that are dragged, left, or ended; streams that are cut; jobs that
-are waited for or stopped; rays, orbits, numbers; questions that are refused. Whoever asks knows what answers there may
-be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed.
+Clients request pictures, and abandon some of them; open sessions that are dragged, abandoned or ended; cut streams;
+wait for jobs or stop them; request rays, orbits and numbers; and send requests that must be refused. Each client knows
+which answers are allowed: 2xx, 4xx where the request is wrong, 429, 503 and 507; among faults also 500 and a closed
+connection.
 
-Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory grows by more than a tenth (and
-24 MiB), descriptors by more than 4 or threads by more than 2, each by the straight line through what was measured;
-where the device's memory is by more than a block of 64 MiB more in the last third than in the first; where an answer
-was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to
-the last checksum; where anything half is left in the folder of what is kept; where, without kills and faults, more than
-a minute after the last client more memory is resident than at the start and what /metrics names as kept
-(kerrd_kept_bytes), which may be 256 MiB, or the first picture then takes more of the processors than the first of all.
+Growth is measured after a warm-up of a quarter of the time. Exits with 1 in each of these cases:
+- By the straight line through the samples, resident memory grows by more than a tenth (and 24 MiB), descriptors by more
+  than 4, or threads by more than 2.
+- The device's memory is larger in the last third than in the first by more than a block of 64 MiB.
+- An answer is not one of the allowed ones.
+- A job that was accepted does not end as it should, ends twice, or has a result that is not complete to the last
+checksum.
+- The state folder contains an incomplete file.
+- Without kills and faults, more than a minute after the last client: more memory is resident than at the start plus
+what
+  /metrics names as kept (kerrd_kept_bytes), of which 256 MiB are allowed; or the next picture then takes more processor
+  time than the first of all.
 Writes bench/results/DATE-DEVICE-soak.{json,md}.
 """
 
@@ -50,7 +54,7 @@ GONE = (OSError, http.client.HTTPException)
 
 
 class Server:
-    """On a folder of its own; it may be killed and comes back on the same port."""
+    """A server with a folder of its own. It may be killed and comes back on the same port."""
 
     def __init__(self, path, state, log, *options, env=None):
         self.path, self.state, self.log, self.options, self.env = path, state, log, options, env
@@ -113,7 +117,7 @@ class Server:
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # in user mode and in the kernel
 
     def metrics(self):
-        """None where it does not answer."""
+        """The values of /metrics; None if the server does not answer."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         try:
             connection.request("GET", "/metrics")
@@ -124,7 +128,7 @@ class Server:
             connection.close()
 
     def held(self):
-        """What the server says that it holds: of the device's memory, and the ledger, kind -> MiB."""
+        """What /metrics reports as held: the device's memory, and the ledger, kind -> MiB."""
         told = self.metrics() or ""
         device = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", told, re.M)
         return {
@@ -137,7 +141,7 @@ class Server:
 
 
 def is_png(data):
-    """Whether each chunk of it is whole and the last one is there."""
+    """True if every chunk of the PNG is complete and the last chunk is there."""
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
@@ -150,7 +154,7 @@ def is_png(data):
 
 
 def is_whole(file, frames):
-    """Whether the result of a job has each of its pictures once, and whole."""
+    """True if the result of a job contains each of its pictures once, and complete."""
     try:
         with zipfile.ZipFile(io.BytesIO(file)) as z:
             pictures = [name for name in z.namelist() if name.endswith(".png")]
@@ -259,7 +263,7 @@ class Client(threading.Thread):
             self.ask("DELETE", f"/v1/sessions/{opened['id']}", meant=(204,), **token)
 
     def stream(self):
-        """Some bytes of a stream, which is then cut."""
+        """Reads some bytes of a stream and then cuts it."""
         opened = self.open_session()
         if not opened:
             return
@@ -351,7 +355,7 @@ class World:
         )
 
     def lossy(self):
-        """Whether a connection may be closed instead of an answer."""
+        """True if the connection may be closed instead of an answer."""
         return self.kills or self.failing.is_set()
 
     def answered(self, status, meant):
@@ -382,13 +386,13 @@ class World:
 
 
 def risen(samples, name):
-    """By how much it is more in the last third of the samples than in the first, each by its mean."""
+    """Growth of a value: its mean in the last third of the samples less that in the first third."""
     n = max(len(samples) // 3, 1)
     return (sum(s[name] for s in samples[-n:]) - sum(s[name] for s in samples[:n])) / n
 
 
 def slope(samples, name):
-    """By how much it grows over the samples, by the line of least squares through them."""
+    """Growth of a value over the samples, by the least-squares line through them."""
     xs, ys = [s["s"] for s in samples], [s[name] for s in samples]
     middle, mean = sum(xs) / len(xs), sum(ys) / len(ys)
     spread = sum((x - middle) ** 2 for x in xs)
@@ -396,7 +400,7 @@ def slope(samples, name):
 
 
 def finish(world):
-    """Jobs whose clients were sent away when the time was over."""
+    """Waits for the jobs whose clients were stopped at the end of the time."""
     client = Client(world, 10**6)
     for job, frames, token in world.unfinished:
         until = time.monotonic() + 600
@@ -413,20 +417,20 @@ def finish(world):
 
 
 FIRST_VIEW = {"image": {"width": 640, "height": 360}}
-KEPT_MIB = 256  # that may be kept when nobody asks for anything
-RESTS_S = 75  # by when memory that is not kept has been given back
+KEPT_MIB = 256  # allowed MiB of kept memory when there are no requests
+RESTS_S = 75  # seconds after which memory that is not kept has been freed
 
 
 def first_view_s(world):
-    """Seconds of the server's processors, which do not depend on what else the machine does."""
+    """Processor seconds of the server for a picture, which do not depend on other programs."""
     begun = world.server.processor_s()
     Client(world, 0).ask("POST", "/v1/render", FIRST_VIEW)
     return round(world.server.processor_s() - begun, 2)
 
 
 def rest(world, start):
-    """What a server holds that has had nothing to do for more than a minute, what it names of that, and how long the
-    next picture takes."""
+    """Memory of a server that has been idle for more than a minute, the part of it that /metrics names as kept, and the
+    time that the next picture takes."""
     time.sleep(RESTS_S)
     now = world.server.sample()
     return {
@@ -462,8 +466,8 @@ def is_file_whole(path):
 
 
 def left_over(state, known):
-    """What is left of jobs that ended and were deleted, and what is half of those whose clients were never told that
-    they were taken: these are kept."""
+    """Files left of jobs that ended and were deleted, and incomplete files. Complete files of jobs whose clients never
+    got the answer that accepted them are allowed."""
     for path in sorted(pathlib.Path(state).rglob("*")):
         job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
         if job:
@@ -473,7 +477,7 @@ def left_over(state, known):
 
 
 def live(world, a, harm):
-    """All of the time; what was measured each second, and how often the server was killed."""
+    """Runs for the whole time. Returns what was measured each second, and how often the server was killed."""
     server, samples, killed, next_fault, mend_at = world.server, [], 0, 0.0, None
     began, times = time.monotonic(), random.Random(a.seed)
     while (now := time.monotonic() - began) < 60 * a.minutes:
@@ -490,13 +494,13 @@ def live(world, a, harm):
             next_fault = now + times.expovariate(a.faults / (60 * a.minutes - 60))
         elif (not samples or now >= samples[-1]["s"] + 1) and (got := server.sample()):
             samples.append({"s": round(now, 1), **got, **world.answers})
-        if harm and now >= 60 * a.minutes - 30:  # what was under way has ended
+        if harm and now >= 60 * a.minutes - 30:  # requests that were under way among the faults have ended
             world.failing.clear()
     return samples, killed
 
 
 def over_time(samples):
-    """Ten rows: what was measured, and the answers since the row before."""
+    """Ten rows: measured values, and the answers since the row before."""
     rows, before = [], {}
     for s in samples[:: max(len(samples) // 10, 1)]:
         device = f"{s['device_mib']:.0f}" if s["device_mib"] is not None else ""
@@ -517,8 +521,8 @@ def over_time(samples):
     )
 
 
-# the device's memory is taken in blocks of so much (KD_VK_BLOCK_BYTES), and one of them may be taken late: which
-# buffers lie in one is a matter of chance
+# The device's memory is allocated in blocks of this size (KD_VK_BLOCK_BYTES). One block may be allocated late, because
+# it depends on chance which buffers share a block
 BLOCK_MIB = 64
 GROWTH = {
     "rss_mib": "resident memory, MiB",
@@ -554,7 +558,7 @@ def main():
             harm = soak_faults.Faults(a.build, random.Random(a.seed))
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())
         else:
-            # What the driver and the libraries do among themselves is not ours.
+            # Races among the driver and the libraries themselves are not counted.
             server = Server(
                 measure.binary(a.build, "src/kerrd"),
                 state,
@@ -596,7 +600,7 @@ def main():
     if growth:
         mean = sum(s["rss_mib"] for s in late) / len(late)
         allowed = {"rss_mib": max(24, 0.1 * mean), "device_mib": BLOCK_MIB, "descriptors": 4, "threads": 2}
-        if tsan:  # it remembers who touched what, and what is slow comes to rest late
+        if tsan:  # the sanitizer remembers all accesses, and a slow process reaches its steady state late
             del allowed["rss_mib"], allowed["device_mib"]
         faults += [f"{name} grows by {growth[name]:.1f}" for name, most in allowed.items() if growth[name] > most]
     if code:

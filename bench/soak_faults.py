@@ -1,6 +1,8 @@
-"""Faults at random beneath a server, for bench/soak.py: memory, files and descriptors by the library that is preloaded
-(tests/faults/control.h), Vulkan's calls by a kerrd whose table of them fails when it is told to
-(tests/faults/vulkan_table.c), and the clock on the wall."""
+"""Random faults beneath a server, for bench/soak.py.
+
+Memory, files and descriptors fail by a preloaded library (tests/faults/control.h). Vulkan's calls fail by a kerrd whose
+table of them fails on request (tests/faults/vulkan_table.c). The system's clock is changed, too.
+"""
 
 import collections
 import errno
@@ -22,7 +24,7 @@ FILES = [
     (errno.EIO, CHANGES | faults.OPEN | faults.READ),
     (errno.EMFILE, faults.OPEN | faults.CREATE),
 ]
-# What is called all the time; the rest is of a start.
+# Calls that are made all the time; the others are made only at the start.
 CALLS = [
     "AllocateMemory",
     "MapMemory",
@@ -45,7 +47,7 @@ CALLS = [
 
 
 class Faults:
-    """Those of one server. `happen` lets one be; `mend` ends those that last."""
+    """The faults of one server. `happen` starts one; `mend` ends those that last."""
 
     def __init__(self, build, random):
         self.build, self.random = build, random
@@ -64,8 +66,8 @@ class Faults:
         }
 
     def happen(self):
-        """A fault of any kind; how many seconds it lasts. What is armed and not reached meanwhile does not happen, and
-        is not counted."""
+        """Starts a fault of any kind; returns how many seconds it lasts. A fault that is armed but whose call is not
+        reached in this time does not happen, and is not counted."""
         r = self.random
         self.before = self.memory.failed + self.memory.files_failed
         kind = r.choice(["memory", "files", "vulkan", "clock"])
