@@ -2,14 +2,13 @@
 """Live sessions as a viewer sees them: frames a second, delay from input to picture, what limits it, cost of viewers.
 
 bench/live.py            about two minutes, on a machine that does nothing else
-bench/live.py --before OTHER/build/src/kerrd      one dragged session, and eight, on both programs in turn: three
-minutes
+bench/live.py --before OTHER/build/src/kerrd      one dragged session, and eight, on both programs: three minutes
 bench/live.py --presets gas-stars milky-way       only these, while time runs and while dragged; half a minute
 bench/live.py --sized 536x400 268x200 --presets gas gas-stars --before OTHER/build/src/kerrd   frames of exactly these
     sizes, however long they take, on both programs
 
-Starts a server of its own, on all cores. This script is its client and uses some of the machine too. Writes
-bench/results/DATE-DEVICE-{live,presets,sharing,sized}.{json,md}.
+Programs take turns. Starts a server of its own, on all cores. This script is its client and uses some of the machine
+too. Writes bench/results/DATE-DEVICE-{live,presets,sharing,sized}.{json,md}.
 """
 
 import concurrent.futures

@@ -19,13 +19,11 @@ Growth is measured after a warm-up of a quarter of the time. Exits with 1 in eac
   than 4, or threads by more than 2.
 - The device's memory is larger in the last third than in the first by more than a block of 64 MiB.
 - An answer is not one of the allowed ones.
-- A job that was accepted does not end as it should, ends twice, or has a result that is not complete to the last
-checksum.
+- An accepted job does not end as it should, ends twice, or has a result that is not complete to the last checksum.
 - The state folder contains an incomplete file.
-- Without kills and faults, more than a minute after the last client: more memory is resident than at the start plus
-what
-  /metrics names as kept (kerrd_kept_bytes), of which 256 MiB are allowed; or the next picture then takes more processor
-  time than the first of all.
+- Without kills and faults, more than a minute after the last client, more memory is resident than at the start plus
+  what /metrics names as kept (kerrd_kept_bytes), of which 256 MiB are allowed.
+- In the same case, the next picture takes more processor time than the first of all.
 Writes bench/results/DATE-DEVICE-soak.{json,md}.
 """
 

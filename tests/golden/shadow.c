@@ -1,4 +1,4 @@
-/* The shadow against its outline in closed form, and its blackness. */
+/* The shadow, compared with its outline in closed form, and the blackness inside. */
 #include "studio.h"
 
 #include <math.h>
