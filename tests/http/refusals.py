@@ -1,8 +1,10 @@
-"""Refusals give back all memory that they took: every route with bodies and queries that it does not take, and assets
-that are damaged or beyond each limit.
+"""A refusal frees all the memory that it used.
 
-    refusals.py SERVER              each kind a few times
-    REPEATS=200 refusals.py SERVER  the long run"""
+Tests every route with bodies and queries that it refuses, and assets that are damaged or beyond a limit.
+
+refusals.py SERVER              each kind a few times
+REPEATS=200 refusals.py SERVER  the long run
+"""
 
 import io
 import os
@@ -16,7 +18,7 @@ import daemon
 import memory
 
 REPEATS = int(os.environ.get("REPEATS", "2"))
-WARM = 2  # what is made once, and heaps that find their size
+WARM = 2  # rounds before measuring, in which things are made once and heaps reach their size
 NPZ = "application/x-npz"
 UVFITS = "application/x-uvfits"
 MEMBERS = (
@@ -48,7 +50,7 @@ def packed(members, method=zipfile.ZIP_STORED):
 
 
 def set_entry(data, name, at, value):
-    """Changes a field of a member's entry in the directory."""
+    """Changes a field of a member's entry in the directory of a ZIP file."""
     entry = data.index(b"PK\1\2")
     while data[entry + 46 : entry + 46 + len(name)] != name:
         entry = data.index(b"PK\1\2", entry + 4)
@@ -179,14 +181,15 @@ class Refusals(daemon.Case):
         cls.daemon = daemon.Daemon("--drain-ms", 10, env=memory.ENVIRONMENT)
 
     def hold(self, kinds, least):
-        """Each kind is refused, and the server holds no more memory after the last time than after the first."""
+        """Each kind of request is refused. The server holds no more memory after the last refusal than after the
+        first."""
         told, refused, grown = memory.is_told(self.daemon), 0, []
         for name, request in kinds:
             status = [self.daemon.request(*request).status for _ in range(WARM)][0]
             if not 400 <= status < 500:
-                continue  # one that this route takes
+                continue  # this route accepts the request
             refused += 1
-            self.daemon.get("/v1/assets")  # the last request is over when the next one is answered
+            self.daemon.get("/v1/assets")  # when this request is answered, the one before has been freed
             before = memory.held(self.daemon)
             for _ in range(REPEATS):
                 self.assertEqual(self.daemon.request(*request).status, status, name)
