@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is
- * complete, 0: all. */
+/* sigma: of the beam, in pixels; 0: no beam. rows: of a band; 0: the whole picture. lit: rows whose light is complete;
+ * 0: all. */
 struct look {
     int width, height, rows, lit;
     double sigma, bloom, exposure;
@@ -177,8 +177,8 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* The unfinished rest of a picture is dark: finished rows look as they would then, and the beam leaves light
- * unchanged for the next preview. */
+/* The unfinished part of a picture is dark. Finished rows look as they would in such a picture, and the beam leaves the
+ * light unchanged for the next preview. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -258,7 +258,7 @@ static void brightness_has_the_colour_of_the_map(void **state)
     assert_true(worst < 2e-3);
 }
 
-/* Without a beam there is no cost: no bytes, no pass; a map in false colour has no beam. */
+/* Without a beam there is no cost: no bytes and no pass. A map in false colour has no beam. */
 static void none_is_nothing(void **state)
 {
     (void)state;

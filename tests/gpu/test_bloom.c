@@ -81,7 +81,7 @@ static void energy(void **state)
     }
 }
 
-/* Which light is spread, as in docs/physics: luminance y over 0.6 of white, with a knee from 0.2 to 1. */
+/* Which part of the light is spread, as in docs/physics: luminance y above 0.6 of white, with a knee from 0.2 to 1. */
 static double taken(double y) { return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6; }
 
 /* One dimension of a Gaussian over n pixels, for light at `from`; light beyond the edges is mirrored. */
@@ -243,7 +243,7 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* Light that is not bright is not touched; NaN and infinity have no side effects. */
+/* Light that is not bright is unchanged. NaN and infinity do not affect other pixels. */
 static void others_unharmed(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* A playground in pictures: images of its bodies and their order, against the Kerr-Schild oracle; a body looks the
- * same as one of a scene, in front of and behind the disk and the hole; the light of debris; and invalid crowds. */
+/* A playground in pictures. Images of its bodies and their order are compared with the Kerr-Schild oracle. A body looks
+ * the same as one of a scene, in front of and behind the disk and the hole. Also tested: the light of debris, and
+ * invalid sets of bodies. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -110,7 +111,8 @@ struct judged {
     double worst;
 };
 
-/* A picture of one image: each pixel shows the body where the oracle says so, or one that the ray met before. */
+/* Judges a picture of one image: each pixel shows the body where the oracle says so, or another body that the ray met
+ * before. */
 static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *crowd, uint32_t which, const double at[2],
                   double size, struct judged *sum)
 {
@@ -202,8 +204,8 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return crowd;
 }
 
-/* test_bodies.c judges what a scene's own body shows, hides and is hidden by; one of a playground is the same to the
- * bit. */
+/* test_bodies.c judges what a body of a scene shows, hides and is hidden by. A body of a playground gives the same, to
+ * the bit. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -507,7 +509,7 @@ static void test_adversarial(void **state)
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
         struct kd_dynamic_bodies *crowd =
-            one(&body, k == 5 ? 64 : MANY);           /* so fast that it is drawn out: no ray misses it */
+            one(&body, k == 5 ? 64 : MANY);           /* so fast that its image is stretched: no ray misses it */
         for (size_t i = 0; k == 7 && i < MANY; i++) { /* bodies everywhere */
             crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             crowd->bodies[i].phi = 1e3 * chance();
@@ -525,7 +527,7 @@ static void test_adversarial(void **state)
     }
 }
 
-/* A scene without a crowd has no cost: the plan has no emitter of it. */
+/* A scene without bodies of a playground has no cost: its plan has no emitter for them. */
 static void test_off(void **state)
 {
     (void)state;

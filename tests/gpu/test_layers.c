@@ -415,8 +415,9 @@ static void assert_same_picture(const char *json, const char *layers)
     kd_store_empty(&renderer->store); /* removes the modified maps */
 }
 
-/* The picture is the same bit for bit whatever layers accompany it, even if they need more of the lens map, and for
- * rays given up on their way to an absent sky. Only the delay is left out: it follows rays differently. */
+/* The picture is the same bit for bit whatever layers are requested with it, even if they need more of the lens map,
+ * and for rays given up on their way where there is no sky. Only the delay is left out, because it follows rays
+ * differently. */
 static void test_picture_beside(void **state)
 {
     (void)state;
@@ -483,7 +484,7 @@ static void test_ends_beyond(void **state)
     }
 }
 
-/* Any layer with any numbers gives a picture with a legend, also for a hole without spin. */
+/* Every layer, whatever its numbers, gives a picture with a legend, also for a hole without spin. */
 static const float *numbers_of(const struct kd_frame *frame, const char *name)
 {
     const struct kd_layer *layer = kd_frame_layer(frame, name);
@@ -491,7 +492,7 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* Rays too close to be distinguished in 32 bits have no footprint instead of one of 0; others have one. */
+/* Rays that 32 bits cannot distinguish have no footprint instead of a footprint of 0; other rays have one. */
 static void test_tiny_fields(void **state)
 {
     (void)state;

@@ -94,8 +94,8 @@ static double median(struct tally *t)
     return t->count ? t->errors[t->count / 2] : 0;
 }
 
-/* True if a ray decides nothing: its number of crossings changes when it is moved by 3e-6, or it grazes the edge of
- * the crossings kept. */
+/* True if a ray must not be judged: its number of crossings changes when it is moved by 3e-6, or it grazes the inner
+ * limit of the crossings that are kept. */
 static bool undecided(const struct sample *s, int n, double inner)
 {
     if ((s->path.crossings > n) != (s->beside.crossings > n))

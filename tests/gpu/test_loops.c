@@ -225,8 +225,8 @@ static double sum_of(const struct kd_frame *frame, const struct kd_scene *scene,
     return sum * step * step;
 }
 
-/* The curve's values are sums of the layers, on a grid of rays, with more rays at the critical curve, through a
- * volume, and of one that is polarised itself; pictures do not change. */
+/* The curve's values are sums of the layers: on a grid of rays, with more rays at the critical curve, through a volume,
+ * and through one that is itself polarised. Pictures do not change. */
 static void test_layers(void **state)
 {
     (void)state;

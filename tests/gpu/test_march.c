@@ -312,7 +312,7 @@ static void test_in_the_plane(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Without a volume there is no march pass; with one it replaces the transfer pass. */
+/* Without a volume there is no march pass. With one the march pass replaces the transfer pass. */
 static void test_plan(void **state)
 {
     (void)state;
@@ -409,7 +409,7 @@ static struct kd_frame picture_of(int32_t width, enum kd_volume_model model)
     return rendered(&scene);
 }
 
-/* A picture does not depend on what was rendered before: one without a volume needs the same lens map, and has no
+/* A picture does not depend on what was rendered before. A picture without a volume needs the same lens map, and has no
  * pixels at the critical curve. */
 static void test_order_of_pictures(void **state)
 {

@@ -227,7 +227,8 @@ static void test_face_on(void **state)
     kd_frame_finish(&slow);
 }
 
-/* No NaN next to the horizon, where that time diverges, and far away; within the horizon there is no such picture. */
+/* There is no NaN next to the horizon, where the emission time diverges, nor far away. Within the horizon such a
+ * picture is refused. */
 static void test_extremes(void **state)
 {
     (void)state;

@@ -69,9 +69,9 @@ static void test_mean(void **state)
         kd_frame_finish(all[i]);
 }
 
-/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible: they take few steps in the dark, so
- * that lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 were
- * given up, and 5 places of the layer had no light. */
+/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible. They take few steps in the dark, so that
+ * lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 rays were given
+ * up, and 5 places of the layer had no light. */
 static void test_wide(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
     return worst;
 }
 
-/* lavapipe ends the loops of eight such rays, not of one. Rays that it ends are continued in pieces; they then have
+/* lavapipe ends the loops of eight such rays, but not of one. Rays that it ends are continued in pieces. They then have
  * the light that they have alone, also within their pixel. Without pieces 16 rays of the tile were given up. */
 static void test_pieces(void **state)
 {

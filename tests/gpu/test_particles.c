@@ -185,8 +185,8 @@ static void test_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* A near observer's slow light uses particles at another time than a list of the same scene: neither uses the
- * other's. */
+/* A near observer's slow light uses particles at another time than a list of the same scene. Neither uses the particles
+ * of the other. */
 static void test_lists_between_frames(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void test_lists_between_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* An observer that co-rotates with a narrow ring sees it stand still; one that goes round the other way does not. */
+/* An observer that co-rotates with a narrow ring sees it stand still. One that moves the other way does not. */
 static void test_turning(void **state)
 {
     (void)state;

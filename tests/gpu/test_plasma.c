@@ -475,8 +475,8 @@ static void test_normalised(void **state)
     }
 }
 
-/* All pictures of an integral share one density, which is determined once: for sizes whose pixels round the scene's
- * aspect differently, for visibilities, and at two frequencies. */
+/* All pictures of an integral share one density, which is determined once. Tested for sizes whose pixels round the
+ * scene's aspect ratio differently, for visibilities, and at two frequencies. */
 static void test_normalised_once(void **state)
 {
     (void)state;
@@ -511,7 +511,8 @@ static void test_normalised_once(void **state)
     }
 }
 
-/* While a view is dragged the density is the last one determined for the same matter; at rest it is its own. */
+/* While a view is dragged, frames use the density last determined for the same matter. At rest a frame uses the density
+ * determined for itself. */
 static void test_held(void **state)
 {
     (void)state;

@@ -188,7 +188,7 @@ static void test_slopes(void **state)
     }
 }
 
-/* Without them there are neither planes nor a second grid. */
+/* Without plunging particles there are neither planes nor a second grid for them. */
 static void test_off(void **state)
 {
     (void)state;

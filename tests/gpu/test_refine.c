@@ -94,9 +94,9 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
     assert_true(said < 4 * left && said > left / 4);
 }
 
-/* A picture within 0.5 dB of that by 16 rays, judged by that of 64, for at most a quarter of the rays: the
- * requirement. Its pixels are those of the picture by one ray or by 16, except few where an interpolated ray falls
- * on the other side of an edge. */
+/* The requirement: a picture has at most a quarter of the rays of that with 16 rays a pixel, and is within 0.5 dB of
+ * it, both compared with that of 64. Its pixels are those of the picture with one ray or with 16, except for few where
+ * an interpolated ray falls on the other side of an edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -147,8 +147,8 @@ static void test_target(void **state)
     kd_frame_finish(&truth);
 }
 
-/* With the cached lens map the picture is the same. In bands it is too, except for rays at their edges, which are
- * traced; and so it is by listed rays, except next to an edge. A preview and the flux contain all rays. */
+/* With the cached lens map the picture is the same. In bands it is the same too, except for rays at their edges, which
+ * are traced. By listed rays it is the same except next to an edge. A preview and the flux contain all rays. */
 static void test_same(void **state)
 {
     (void)state;
@@ -220,8 +220,8 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* A faint curvature is chosen if nothing stronger is present, until almost no sum of squares is left; not beside an
- * edge. */
+/* A faint curvature is chosen if nothing stronger is present, until almost no sum of squares is left. It is not chosen
+ * beside an edge. */
 static void test_faint(void **state)
 {
     (void)state;
@@ -287,8 +287,8 @@ static void test_choice(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Plans count traced and interpolated rays, to a factor of two, whether pixels need them only at the curve or
- * everywhere: with one fraction for all, a smooth disk counted four times its rays. */
+/* Plans count traced and interpolated rays to a factor of two, whether pixels need them only at the curve or
+ * everywhere. With one fraction for all pictures, the count of a smooth disk was four times too high. */
 static void test_planned(void **state)
 {
     (void)state;

@@ -33,7 +33,7 @@ static size_t samples(const struct kd_frame *f) { return (size_t)f->width * f->h
 static double light(const struct kd_frame *f, size_t i)
 {
     const uint16_t *pixels = kd_frame_pixels(f);
-    assert_true(pixels[i] < 65535); /* nothing clipped */
+    assert_true(pixels[i] < 65535); /* nothing is clipped */
     return shown(pixels, i);
 }
 
@@ -186,8 +186,8 @@ static struct change changed(const struct kd_scene *scene, double t, double *las
     return c;
 }
 
-/* A thick disk of almost no height rings where the thin one does and as much, all its light by one factor; one of
- * some height by the same factor. */
+/* A thick disk of almost no height rings where the thin one does and as strongly, with all its light multiplied by one
+ * factor. A disk of some height rings by the same factor. */
 static void test_thick(void **state)
 {
     static const double times[] = { 0, 1, 7.5 };

@@ -209,8 +209,8 @@ static struct kd_scene scene_of(double spin, double r)
     return scene;
 }
 
-/* A tile's map is a part of the picture's, whatever its edges; and so is the map of a picture made a few rows at a
- * time. */
+/* A tile's map is a part of the whole picture's map, whatever its edges. The same holds for the map of a picture that
+ * is made a few rows at a time. */
 static void tiles_are_the_bytes_of_the_whole(void **state)
 {
     (void)state;
@@ -262,7 +262,7 @@ static void footprints_are_derivatives(void **state)
     test_free(b.planes);
 }
 
-/* Profiles that promise more trace every ray, as does a scene that names an engine. */
+/* Profiles that promise more trace every ray, and so does a scene that names an engine. */
 static void some_scenes_follow_every_ray(void **state)
 {
     (void)state;

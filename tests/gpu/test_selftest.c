@@ -133,7 +133,7 @@ static void test_compare(void **state)
     kd_selftest_begin(&row, "source", "by", "what %d", 1);
     kd_selftest_compare(&row, -1e-3, 1e-3);
     assert_true(row.ok && row.error == 1e-3 && row.compared == 1);
-    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger, but further from its bound */
+    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger, but farther from its bound */
     assert_true(row.ok && row.error == 1e-3);
     kd_selftest_compare(&row, nextafter(1e-3, 1), 1e-3);
     assert_true(!row.ok && row.bound == 1e-3);

@@ -256,7 +256,8 @@ static void space_is_black(void **state)
     }
 }
 
-/* What should be brighter is: false colour, the grid, and a sky whose brightness is given beside a disk. */
+/* Automatic exposure does lift other pictures: false colour, the grid, and a sky whose brightness is given beside a
+ * disk. */
 static void lifted_all_the_same(void **state)
 {
     (void)state;
@@ -334,7 +335,7 @@ static void here_and_gone(void **state)
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);
     size_t taken = keeper.taken + 1;
-    for (int k = 0; k < 2; k++) { /* both times the file is checked */
+    for (int k = 0; k < 2; k++) { /* the file is checked both times */
         memset(&why, 0, sizeof why);
         assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
         assert_string_equal(why.pointer, "/sky/image");

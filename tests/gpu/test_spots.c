@@ -355,8 +355,8 @@ static void test_parts(void **state)
     }
 }
 
-/* The maximum number of spots, at any places of the list: their light is the sum of theirs, and dark ones between
- * them have no effect. */
+/* The maximum number of spots, at any places of the list: their light is the sum of the light of each. Dark ones
+ * between them have no effect. */
 static void test_many(void **state)
 {
     (void)state;

@@ -205,8 +205,8 @@ static double looking(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* The star is beta behind the hole, on its side at the angle `turned` from the picture's horizontal plane; its
- * images lie there in the picture, and opposite. */
+/* Puts the star beta behind the hole. The star's side is at the angle `turned` from the picture's horizontal plane. Its
+ * images are on this side of the picture and on the opposite one. */
 static bool behind_by(struct kd_scene *scene, double beta, double turned)
 {
     *scene = scene_of(0, 90);
@@ -388,7 +388,8 @@ static void next_to_the_curve(void **state)
             continue;
         struct kd_frame frame = seen(&scene);
         const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
-        const struct blob b = blob_at(&frame, x, y, 1); /* all of it, and almost nothing of the star's other images */
+        const struct blob b = blob_at(&frame, x, y, 1); /* all of this image, and almost nothing of the star's other
+                                                         * images */
         if (fabs(b.light / want - 1) > 0.003 || hypot(b.x - x, b.y - y) > 0.003)
             printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle,
                    want, b.light / want - 1, hypot(b.x - x, b.y - y));
@@ -449,7 +450,7 @@ static void next_to_the_curve_of_fast_holes(void **state)
     }
 }
 
-/* All stars: the picture has the same bytes each time, and in bands the same except at their edges. */
+/* All stars: the picture has the same bytes each time. In bands it has the same bytes except at their edges. */
 static void whole_skies(void **state)
 {
     (void)state;
@@ -502,8 +503,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* A picture in bands, rendered in the background under one sky while others are rendered under another, leaves no
- * light that is taken for theirs: that sky, by the same lens map, is the same as by a map of its own. */
+/* A picture in bands is rendered in the background under one sky, while others are rendered under another. It leaves no
+ * light that is taken for theirs: with the same lens map, the other sky is the same as with a map of its own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;
@@ -563,7 +564,7 @@ static void kept_and_made_anew(void **state)
         own = scene;
         own.image.critical_factor = 5 + (int)i;
         struct kd_frame first = seen(&base), again = seen(&scene), fresh = seen(&own);
-        bool idle = i + 1 == sizeof changes / sizeof *changes; /* nothing that a star depends on */
+        bool idle = i + 1 == sizeof changes / sizeof *changes; /* the change affects nothing that a star depends on */
         assert_true(again.lens_reused && !fresh.lens_reused && was_run(&fresh, "stars"));
         assert_true(was_run(&again, "stars") == !idle);
         assert_memory_equal(again.layers[1].data, fresh.layers[1].data, 12ull * WIDTH * HEIGHT);
@@ -652,8 +653,8 @@ static void bright_images_before_spread_light(void **state)
     kd_frame_finish(&again);
 }
 
-/* With diffuse light on the sky, however faint, each pixel is lit by itself; with points only, columns of pixels go
- * from crossing to crossing. */
+/* With diffuse light on the sky, however faint, each pixel is lit by itself. If there are only stars, columns of pixels
+ * go from crossing to crossing. */
 static void points_behind_a_disk(void **state)
 {
     (void)state;

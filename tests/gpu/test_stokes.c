@@ -179,7 +179,7 @@ static void integrate(double s[4])
     }
 }
 
-#define INSIDE 2.5 /* a ray this close does not return; those that do also see what is behind */
+#define INSIDE 2.5 /* a ray this close does not return; rays that return also see what is behind the hole */
 
 /* In the picture's unit of brightness, 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
@@ -303,8 +303,9 @@ static void test_adversarial(void **state)
                                   layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* Degree and angle follow from the numbers beside them, however dim or bright: of another kernel, whose
-             * rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its way. */
+            /* Degree and angle follow from the numbers beside them, however dim or bright. They come from another
+             * kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on its
+             * way. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))

@@ -61,7 +61,7 @@ static void sizes_of_a_buffer(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Parts of buffers: offsets in bindings, copies and fills touch only the named range. */
+/* Parts of buffers: offsets in bindings, copies and fills affect only the given range. */
 static void ranges(void **state)
 {
     struct kd_vk *vk = *state;

@@ -76,7 +76,7 @@ static void emptied_by_a_barrier(void **state)
     assert_int_equal(barrier.src_access, 0);
 }
 
-/* One command may bind a buffer twice without a hazard of its own, but both entries count for the next command. */
+/* One command may bind a buffer twice without a hazard within itself, but both entries count for the next command. */
 static void one_command(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Chains of commands that read and write the same buffers: correct results, and barriers where they are necessary
- * and nowhere else. Barriers are counted, because a device that runs everything in order is correct without any. */
+/* Chains of commands that read and write the same buffers give correct results, with barriers only where they are
+ * necessary. Barriers are counted, because a device that runs everything in order is correct without any. */
 #include "support.h"
 
 enum { n = 2048 };

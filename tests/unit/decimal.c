@@ -68,7 +68,8 @@ static int digits_of(const char *text)
     return n - zeros; /* trailing zeros of whole numbers are not significant digits */
 }
 
-/* Reads back as itself; with one digit fewer no text does; and none of as many digits is closer. */
+/* The decimal reads back as the same value. No text with one digit fewer does, and none with as many digits is
+ * closer. */
 static void check(double value)
 {
     char out[KD_DECIMAL_SIZE], fewer[40], same[40];

@@ -114,8 +114,8 @@ static void equatorial_orbits_keep_time(void **state)
     }
 }
 
-/* Orbits given by their radius or by their place on the curve satisfy the conditions of a double root, R = R' = 0,
- * in the textbook's form. */
+/* Orbits given by their radius or by their place on the curve satisfy the conditions of a double root, R = R' = 0, in
+ * textbook form. */
 static void orbits_are_double_roots(void **state)
 {
     (void)state;
@@ -318,7 +318,7 @@ static void bad_input(void **state)
     assert_int_equal(kd_critical_of(&held).status, KD_CRITICAL_NO_OBSERVER);
 }
 
-/* The points for drawing lie on the curve and reach from one end to the other. */
+/* The points of the curve that are meant for drawing lie on the curve and reach from one end to the other. */
 static void drawn(void **state)
 {
     (void)state;

@@ -38,8 +38,8 @@ static void critical(void **state)
     close_to("critical", -1, 0, kd_deflection_critical(kd_hole(-most)), 7, 1e-14);
 }
 
-/* The errors are within what the header promises. The closest approach is a root that becomes double on the critical
- * ray: near it it moves with the square root. */
+/* The errors are within those of the header. The closest approach is a root that becomes double on the critical ray, so
+ * that near it the root changes as a square root. */
 static void angles(void **state)
 {
     (void)state;

@@ -139,7 +139,7 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
     memset(in, 0, EDGES * sizeof *in);
     for (int k = 0; k < across; k++)
         for (int j = 0; j < around; j++) {
-            /* Each direction begins at another offset, so that no edge of the disk runs along the grid. */
+            /* each direction has another offset, so that no edge of the disk runs along the grid */
             double rho = exp(first + (k + fmod(0.6180339887498949 * j, 1)) * step), chi = 2 * M_PI * (j + 0.5) / around;
             struct kd_null_ray ray = {
                 .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1
@@ -158,8 +158,8 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
         in[e] /= all;
 }
 
-/* A sum whose permitted error is set: it is within that error of the sum over rays, and not many times more accurate
- * (then it would waste work); its total is within 0.2 parts in a thousand of that of the most accurate one. */
+/* A sum with a given tolerance is within this error of the sum over rays. It is not many times more accurate, which
+ * would be wasted work. Its total is within 0.2 parts in a thousand of that of the most accurate sum. */
 static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in,
                       double total)
 {
@@ -209,8 +209,8 @@ static void test_cumulative_share(void **state)
     }
 }
 
-/* Against triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light falls
- * steeply: the stated error is larger than the actual one, within what is asked for, and not ten times too large. */
+/* Compared with triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light
+ * falls steeply. The stated error is larger than the actual one, within the tolerance, and not ten times too large. */
 static void test_told_error(void **state)
 {
     static const struct {

@@ -243,8 +243,8 @@ static void principal_rays(void **state)
     within(0, 0, "phi in the plane", fabs(p.sky_phi + turn), 1e-14);
 }
 
-/* All 32 orders near the critical curve: each half turn takes the same time, until errors have grown to the distance
- * from the photon sphere; all numbers are finite, and the estimates grow. */
+/* All 32 orders near the critical curve. Each half turn takes the same time, until errors have grown to the distance
+ * from the photon sphere. All numbers are finite, and the estimates grow. */
 static void many_orders(void **state)
 {
     (void)state;

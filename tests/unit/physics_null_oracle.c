@@ -51,8 +51,8 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
 }
 
 /* The reference has an error of 1e-12 a step in a coordinate that is 1e6 at first, some 1e-11 on arrival. Errors of
- * both grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON. `start`
- * is the error of the reference's start. Returns whether there was anything to compare. */
+ * both methods grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON.
+ * `start` is the error of the reference's start. Returns whether there was anything to compare. */
 static void compare(const struct kd_null_ray *ray, struct ks_photon photon, double start)
 {
     struct kd_null_path p = kd_null_trace(ray);

@@ -381,8 +381,8 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
     return m->observer > KD_OBSERVER_ZAMO ? gamma * gamma * (1 + at->r / (at->r - kd_hole(at->spin)->outer)) : 1;
 }
 
-/* Components survive the way into the frame and back, and a photon is seen in the direction it comes from; also for
- * a frame whose axes are mixed by rotations. */
+/* Components survive the conversion into the frame and back, and a photon is seen in the direction it comes from; also
+ * for a frame whose axes are mixed by rotations. */
 static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
                               const struct kd_tetrad *frame)
 {

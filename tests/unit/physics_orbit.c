@@ -135,7 +135,7 @@ static void falls_are_the_quadratures(void **state)
                 kd_orbit_path_step(&path, h);
             path = kd_orbit_path_to_radius(&path, 20 * h, 1 / e->to);
             struct kd_orbit_place at = kd_orbit_path_place(&path);
-            /* the rounding of r, a double, corresponds to so much of the time to get there */
+            /* the rounding of r, a double, corresponds to this error of the time to get there */
             close_to(i, "Mino time", at.mino, e->mino, 1e-12);
             close_to(i, "r", at.r, e->to, 1e-13 * e->to);
             close_to(i, "proper time", at.proper, e->proper, 2e-11 * e->proper);
@@ -259,7 +259,7 @@ static void circles_at_the_edge(void **state)
         struct kd_orbit inside = shape(a, nextafter(isco, 0), 0, 1);
         assert_int_equal(inside.fate, KD_ORBIT_PLUNGE);
         assert_true(kd_orbit_start(&inside, NAN, true).w > inside.w_high); /* starts inwards */
-        /* the nearer to the ISCO the longer this takes: followed from 2 % inside */
+        /* the nearer to the ISCO, the longer the plunge takes; so the start is 2 % inside */
         struct kd_orbit well_inside = shape(a, 0.98 * isco, 0, 1);
         struct kd_orbit_state start = kd_orbit_start(&well_inside, NAN, true);
         struct kd_orbit_path path;
@@ -269,7 +269,7 @@ static void circles_at_the_edge(void **state)
         for (; k < 100 * 64 && path.place[KD_PATH_W].value < horizon; k++)
             kd_orbit_path_step(&path, 2 * M_PI / o.momentum / 64);
         assert_true(path.place[KD_PATH_W].value >= horizon);
-        assert_true(k > 64); /* it stayed near the circle for a while */
+        assert_true(k > 64); /* the body stayed near the circle for a while */
     }
 }
 

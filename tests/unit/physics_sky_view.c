@@ -180,7 +180,7 @@ static void extremes(void **state)
         const struct ks_frame f = frame_of(&seers[i]);
         const struct kd_sky_view v = view_of(&seers[i]);
         const double step = 1e-5;
-        /* sees the whole sky with the same shift, given by its lapse */
+        /* a static observer sees the whole sky with the same shift, which follows from the lapse */
         if (seers[i].motion.observer == KD_OBSERVER_STATIC) {
             double want = 1 / oracle_energy(&seers[i], &f, (double[]) { 0, 0, 1 }, NULL);
             assert_true(fabs(v.least / want - 1) < 1e-12 && fabs(v.greatest / want - 1) < 1e-12);

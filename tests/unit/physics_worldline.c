@@ -1,6 +1,6 @@
-/* Observers that move on by their own clock, against Hamilton's equations in ingoing Kerr-Schild coordinates,
- * integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the metric by
- * differences. No separation of variables, and no integral over r. */
+/* Observers that move by their own clock, compared with Hamilton's equations in ingoing Kerr-Schild coordinates. These
+ * are integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the metric by
+ * differences. They use no separation of variables, and no integral over r. */
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/infall.h"
 #include "physics/spacetime/kerr.h"
@@ -154,7 +154,8 @@ static void rain_in_schwarzschild(void **state)
         const struct kd_worldline_place got = kd_worldline_after(&m, &at, whole - left);
         const double r = pow(3 / sqrt(2) * left, 2. / 3);
         const struct fall rain = { 0, 0, 20, 0, 0, 0 };
-        near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left); /* the time left is a difference */
+        /* the remaining time is a difference */
+        near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left);
         near("time", &rain, whole - left, got.time, advanced(20) - advanced(r) - r + 20, 1e-11);
         near("azimuth", &rain, whole - left, got.azimuth, 0, 0);
         if (r > 2.001)
@@ -186,8 +187,8 @@ static void it_ends_where_a_camera_can_be_at_last(void **state)
     }
 }
 
-/* Observers that stay at one radius: by the metric their proper time advances as it should; and each one's other
- * properties. */
+/* Observers that stay at one radius: by the metric their proper time advances as it should. Other properties of each
+ * kind are tested too. */
 static void others_stay_and_go_round(void **state)
 {
     (void)state;

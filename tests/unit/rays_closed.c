@@ -74,7 +74,7 @@ static void against_the_oracle(void **state)
     assert_true(compared > 200);
 }
 
-/* Across the ISCO g is continuous, and every number that should exist is there. */
+/* g is continuous across the ISCO, and no number is missing. */
 static void redshift(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static bool count(void *user, double fraction)
     return ++watch->calls < 3;
 }
 
-/* A list shared among threads gives what each of its rays gives alone; and it stops when it is cancelled. */
+/* A list shared among threads gives the same results as each ray alone; and it stops when it is cancelled. */
 static void many(void **state)
 {
     (void)state;

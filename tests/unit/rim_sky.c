@@ -135,8 +135,8 @@ static void each_ray(void **state)
     assert_true(rims >= 165);
 }
 
-/* However narrow the view on some place of the curve is, the last row is one that double precision can resolve, and
- * all rays escape. */
+/* However narrow the view of some place of the curve is, the last row is one that double precision can resolve, and all
+ * rays escape. */
 static void close_up(void **state)
 {
     (void)state;

@@ -73,8 +73,7 @@ static void documents_merge(void **state)
     assert_true(isinf(scene.camera.r));
 }
 
-/* RFC 7396: null sets a field or a section to its default; what is not named stays; a patch that fails changes
- * nothing. */
+/* RFC 7396: null sets a field or a section to its default; what is not named stays; a failing patch changes nothing. */
 static void patches(void **state)
 {
     (void)state;
@@ -127,7 +126,7 @@ static void expect_spots(const struct kd_scene *scene, size_t count, const doubl
         assert_true(scene->spots.at[i].r == 9 && scene->spots.at[i].brightness == 0);
 }
 
-/* An array replaces the whole list, with defaults for what its objects do not name; an object names elements by
+/* An array replaces the whole list, with defaults for fields that its objects do not name. An object names elements by
  * their index. */
 static void lists_merge(void **state)
 {
@@ -257,7 +256,7 @@ static void elements_are_set(void **state)
 }
 
 /* A file from an earlier version must keep its meaning. */
-/* A section nested in another is a member of it: in documents, in patches, in paths, and in what is written. */
+/* A section nested in another is a member of it, in documents, in patches, in paths, and in written documents. */
 static void sections_stand_in_sections(void **state)
 {
     (void)state;
@@ -305,7 +304,7 @@ static void sections_stand_in_sections(void **state)
     assert_string_equal(error.pointer, "/disk/gas/sed");
 }
 
-/* One width given in two units. M is 3.8189932 uas at m87's mass and distance. */
+/* One width may be given in two units. M is 3.8189932 uas at m87's mass and distance. */
 static void a_field_in_microarcseconds(void **state)
 {
     (void)state;

@@ -81,7 +81,8 @@ static double determinant(const struct kd_rotation *r)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* No orientation mirrors the sky, and what each is named after lies where it should, whatever the inclination. */
+/* No orientation mirrors the sky. The thing after which an orientation is named lies where it should, whatever the
+ * inclination. */
 static void orientations(void **state)
 {
     (void)state;

@@ -213,8 +213,8 @@ static double seconds_of(const struct kd_timeline *t, int frames)
     return least;
 }
 
-/* Angles that go the shorter way accumulate turns from the first key on, and yet a frame needs only the keys next to
- * it. */
+/* Angles that go the shorter way accumulate turns from the first key on. Nevertheless a frame needs only the keys next
+ * to it. */
 static void a_great_many_keys(void **state)
 {
     (void)state;
