@@ -301,8 +301,8 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
         }
 }
 
-/* But the part of the time that depends on the picture's size is limited: to a quarter of the fixed part, and to half
- * of the target. */
+/* But the part of the time that depends on the picture's size is limited to the larger of half the target and a quarter
+ * of the fixed part. */
 static void what_can_be_mended_is(void **state)
 {
     (void)state;

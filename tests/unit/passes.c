@@ -34,8 +34,7 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
     return plan;
 }
 
-/* Scenes of which each pass and each figure has at least one: whoever adds a pass or a figure adds a scene that uses
- * it. */
+/* Each pass and each figure occurs in at least one of these scenes. A new pass or figure needs a scene that uses it. */
 static const char *const scenes[] = {
     "{}",
     "{\"image\": {\"samples\": \"auto\"}}",

@@ -520,8 +520,9 @@ static void locale_does_not_matter(void **state)
     free(text);
 }
 
-/* Pauses in which a large document lets other work go first while it is read and freed: their number, which shows
- * that its pieces are short, and the share of this thread's time that the longest piece took. */
+/* How often the reader of a large document lets other work go first while the document is read and freed. The number
+ * shows that its pieces are short. The test also measures the share of this thread's time that the longest piece
+ * took. */
 static unsigned pauses;
 static double last_s, longest_s, longest_share;
 static double thread_s(void)

@@ -89,7 +89,7 @@ class Sessions(Browser):
             page.keyboard.press("Shift+ArrowUp")
             self.assertTrue(
                 daemon.eventually(lambda: page.evaluate("0") or held)
-                # the request that was open before may have brought this change's picture, immediately in its final quality
+                # the request that was open before may have brought this change's picture, at once in its final quality
             )
             page.keyboard.press("Shift+ArrowUp")
             self.there(page, others, "#status")
