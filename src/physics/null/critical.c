@@ -30,8 +30,8 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* Direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a
- * negative number here, is left out: in a level frame it affects `up` only. */
+/* Direction in which the photon arrives, by R(r_o) of a double root. Its p_theta may be the root of a negative number
+ * here and is left out: in a level frame it affects only `up`. */
 static void look(const struct kd_critical *c, struct place *p)
 {
     const struct kd_shell_orbit *o = &p->orbit;
@@ -119,7 +119,7 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
         c.low = c.high, c.high = swap;
     }
     c.left = along(&c, c.low), c.right = along(&c, c.high);
-    if (c.right < c.left) /* the curve passes the direction of +e_r */
+    if (c.right < c.left) /* the curve contains the direction of +e_r */
         c.right += 2 * M_PI;
     c.centre = 0.5 * (c.left + c.right);
     return c;
@@ -165,7 +165,7 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
 {
     double turned = remainder(angle, 2 * M_PI), upper = fabs(turned), s = sin(upper), k = cos(upper);
     struct place p = aim_at(c, upper);
-    /* Takes the better-known coordinate, and the other from the angle. */
+    /* Uses the coordinate that is known better, and computes the other from the angle. */
     bool side = fabs(k) >= s;
     double y = side ? p.x * s / k : sqrt(fmax(p.y2, 0)), x = side ? p.x : y * k / s, rho = hypot(x, y);
     struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = angle, .rho = rho, .inwards = 1 };
@@ -242,7 +242,7 @@ static void add(const struct kd_critical *c, double angle, double weight, struct
     s->area += weight * (isinf(c->observer.radius) ? 0.5 * rho * rho : 2 * half * half);
 }
 
-/* The largest height is where d(rho sin(angle)) = 0: golden section between the neighbours of the highest sample. */
+/* Largest height, which is where d(rho sin(angle)) = 0: golden section between the neighbours of the highest sample. */
 static double height(const struct kd_critical *c, double step)
 {
     const double golden = 0.5 * (sqrt(5) - 1);

@@ -71,7 +71,7 @@ static void set_out(struct motion *m, const struct kd_null_ray *ray)
     }
 }
 
-/* Adds errors from rounding of Mino time and of its parts. */
+/* Adds the errors that follow from rounding of Mino time and of its parts. */
 static void disturb(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     struct kd_null_radial_sum rate = kd_null_radial_rates(&m->radial.motion, x->r);
@@ -201,8 +201,8 @@ struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
 
 struct slope { double r, phi, delay; };
 
-/* Changes of the results when alpha and beta change by the fractions `step` and `other`, in units of `step`;
- * INFINITY for a crossing that disappears. */
+/* Computes the changes of the results when alpha and beta change by the fractions `step` and `other`, in units of
+ * `step`; INFINITY for a crossing that disappears. */
 static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step, double other,
                        struct slope *slopes, double *sky)
 {

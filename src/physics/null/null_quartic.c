@@ -60,7 +60,7 @@ static double least_root(const double *k)
 
 static void finish(struct kd_null_roots *r, double product)
 {
-    if (r->pair == 0) /* a ray that winds for ever; replaced by one that does so for some 25 radians */
+    if (r->pair == 0) /* such a ray winds for ever; it is replaced by one that does so for some 25 radians */
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
     if (r->pair >= 0) { /* mean >= 0 since K >= 0: r4 has no cancellation, and r3 follows from the product */
@@ -73,7 +73,7 @@ static void finish(struct kd_null_roots *r, double product)
     r->margin = r->mean > 0 ? fabs(r->pair) / (r->mean * r->mean) : 1;
 }
 
-/* With r1 and r2 known: the other two from the sum of all roots, 0, and division. */
+/* Computes the other two roots from r1 and r2: by the sum of all roots, which is 0, and by division. */
 static void divide(struct kd_null_roots *r, double k)
 {
     double sum = r->r1 + r->r2, product = r->r1 * r->r2 - 2 * k / sum;

@@ -159,7 +159,7 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
     *phi = o->a * (near - inner) / gap;
 }
 
-/* Switches to ingoing coordinates when the fall is final: there is no turning point inwards, and W is no longer
+/* Switches to ingoing coordinates when the fall is final: there is no turning point further in, and W is no longer
  * small, so that its root is smooth. */
 static void enter(struct kd_orbit_path *p)
 {
@@ -336,7 +336,7 @@ struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, d
     struct kd_orbit_path end = moved(path, h);
     bool beyond = (height(path, RADIUS, w) < 0) != (height(&end, RADIUS, w) < 0);
     if (!beyond && (path->rate[KD_PATH_W].value < 0) != (end.rate[KD_PATH_W].value < 0))
-        /* With E = 1 infinity is a turning point like others. */
+        /* if E = 1, infinity is a turning point like others */
         h = kd_orbit_path_to_apsis(path, h).mino.value - path->mino.value;
     return to_event(path, h, RADIUS, w);
 }

@@ -164,7 +164,7 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
 
 double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
 {
-    /* W falls for large w, or is a rising cubic: there is at most one minimum. */
+    /* W falls for large w, or is a rising cubic, so that there is at most one minimum. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
     int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_hole(o->a)->outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {

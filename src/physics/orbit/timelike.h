@@ -64,9 +64,9 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
                                    const double v[3], struct kd_orbit *orbit, struct kd_orbit_state *start,
                                    struct kd_error *error);
 
-/* Starts at the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r
- * within 1e-14 of a turning point starts at rest there. For an orbit from infinity r must be given. An unstable
- * circle is left inwards, starting one ulp of 1/r inside. */
+/* The start of the motion, at the ascending node, outwards or inwards. r: radius of the start; NAN: periastron if there
+ * is one, and otherwise the outer end. If r is within 1e-14 of a turning point, the body starts at rest there. For an
+ * orbit from infinity r must be given. An unstable circle is left inwards: the start is one ulp of 1/r inside it. */
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, bool outward);
 
 /* A whirl is a long stay near an unstable circular orbit that the constants nearly describe. This is the factor by

@@ -15,12 +15,12 @@ bool kd_infall_is_level(const struct kd_observer_motion *motion, const struct kd
  * is (2 at^3/2 - 2 r^3/2)/(3 sqrt 2). */
 double kd_infall_proper_time(const struct kd_observer_motion *motion, const struct kd_vantage *at, double r);
 
-/* The path to that radius: increases of azimuth (radians) and coordinate time in ingoing Kerr-Schild coordinates,
- * which are regular at the outer horizon: phi + integral of a/Delta dr, t + integral of 2r/Delta dr. far_time: in
+/* A fall down to the radius r. azimuth (radians) and time are increases in ingoing Kerr-Schild coordinates, which are
+ * regular at the outer horizon: phi + integral of a/Delta dr, t + integral of 2r/Delta dr. far_time: increase in
  * Boyer-Lindquist coordinates; INFINITY from the horizon on. */
 struct kd_infall_way {
     double r, azimuth, time, far_time;
-    bool ended; /* it has reached kd_infall_last, or was beyond it */
+    bool ended; /* the body has reached kd_infall_last, or was beyond it */
 };
 struct kd_infall_way kd_infall_way(const struct kd_observer_motion *motion, const struct kd_vantage *at, double r);
 

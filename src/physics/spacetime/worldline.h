@@ -5,7 +5,8 @@
 
 #include "physics/spacetime/observer.h"
 
-/* True if the path is implemented: at a finite radius, at constant latitude; not for a velocity of its own choice. */
+/* True if the observer's path is implemented: at a finite radius and at constant latitude, except for observers with a
+ * chosen velocity. */
 bool kd_worldline_is_known(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 /* The observer's place after `proper_time`, 0 or more. azimuth (radians) and time are increases: for free fall in
