@@ -90,7 +90,7 @@ static bool take(const struct kd_show_place *places, size_t n, struct taken *out
     return seen;
 }
 
-/* The range of columns outside the widest empty gap: first column and count. */
+/* The range of columns that remains when the widest empty gap is left out: first column and count. */
 static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, uint32_t *count)
 {
     uint32_t widest = 0, run = 0;
@@ -107,9 +107,9 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
     *count = KD_SHOW_TURN_LEAST - widest;
 }
 
-/* Chooses the smallest cells that leave enough pieces in each occupied cell. The estimate is from the coarsest grid;
- * a stream of debris is narrower than its cells, and so fills fewer small ones. A grid that does not go all round
- * has one more column of nodes at its end. */
+/* Chooses the smallest cells that leave enough pieces in each occupied cell. Their number is estimated from the
+ * coarsest grid. A stream of debris is narrower than the cells of that grid, and so fills fewer small ones. A grid that
+ * does not go all round has one more column of nodes at its end. */
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out)
 {
     struct taken taken;

@@ -22,7 +22,7 @@
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out,
                                   struct kd_error *error);
 
-/* The same, with the hash of the state, for files of pictures. */
+/* The same, with the hash of the state, which files of pictures contain. */
 enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 
@@ -33,7 +33,8 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
 /* Widens a scene at infinity until it shows all bodies and nine pieces of debris in ten. */
 enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error);
 
-/* Makes a suitable scene of 640 x 360: that of its preset, or, if preset is NULL, one wide enough for its bodies. */
+/* Makes a suitable scene of 640 x 360: the scene of the preset or, if preset is NULL, one that is wide enough for the
+ * playground's bodies. */
 enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p,
                                          struct kd_scene *out, struct kd_error *error);
 

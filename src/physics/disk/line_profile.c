@@ -141,10 +141,10 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
     straighten(ring->light, n, true);
 }
 
-/* Fills the cells between ring x and ring y, `apart` in ln r. Across a cell the light is a power of r. The area is the
- * product of edges and width, both about proportional to r. The product of light and area is integrated by Simpson's
- * rule, with the geometric mean of the light in the middle. The light-weighted mean of g differs from its middle value
- * by a twelfth of the products of the steps of g and of the light. */
+/* Fills the cells between ring x and ring y, `apart` in ln r. Across a cell the light is a power of r. The area grows
+ * with the length of its edges and with its width, which is about proportional to r. The product of light and area is
+ * integrated by Simpson's rule, with the geometric mean of the light in the middle. The light-weighted mean of g
+ * differs from its middle value by a twelfth of the products of the steps of g and of the light. */
 static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
 {
     for (int j = 0; j < n; j++) {
