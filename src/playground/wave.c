@@ -5,9 +5,8 @@
 
 #include <math.h>
 
-#define MOST \
-    0.1 /* maximum of the loss over the pull: beyond it there is no orbit, and the formula might add energy \
-         */
+/* maximum of the loss over the pull: beyond it there is no orbit, and the formula might add energy */
+#define MOST 0.1
 
 /* The reaction for m1 m2 = product and the total mass m. */
 static bool react(double product, double m, const double x[3], const double v[3], double amplification, double a[3])
