@@ -1,5 +1,6 @@
-/* Appearance of the gas that falls from the ISCO: its density, redshift and delay. Rays are from the closed form in
- * double precision, redshifts from contraction with the metric, densities from the flow of particles. */
+/* Tests of the appearance of the gas that falls from the ISCO: its density, redshift and delay. Rays are from the
+ * closed form in double precision, redshifts from contraction with the metric, and densities from the flow of
+ * particles. */
 #include "studio.h"
 
 #include "contraction.h"

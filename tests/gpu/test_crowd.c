@@ -362,8 +362,8 @@ static void test_debris(void **state)
     }
 }
 
-/* A dark body far from the hole reflects light that falls on the visible side: the full integral over the disk, with
- * ten times as many places and the cosine itself, where light travels straight. */
+/* A dark body far from the hole reflects light that falls on its visible side. The expected light is the full integral
+ * over the disk, with ten times as many places and the cosine itself, since light travels straight there. */
 static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,

@@ -1,6 +1,6 @@
-/* Footprints of the lens map against finite differences of the Kerr-Schild oracle, which traces rays a thousandth of
- * a step apart in double precision (tests/oracle). They share no formula: here the singular value comes from the
- * angle that maximises it. */
+/* Tests of footprints of the lens map. They are compared with finite differences of the Kerr-Schild oracle, which
+ * traces rays a thousandth of a step apart in double precision (tests/oracle). The two share no formula: here the
+ * singular value comes from the angle that maximises it. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"

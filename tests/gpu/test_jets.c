@@ -1,6 +1,6 @@
-/* Light of jets against integrals along paths of the Kerr-Schild oracle, which does not use Mino time, with the
- * energy in the matter's frame from the Boyer-Lindquist metric; far from the hole against integrals along straight
- * lines; and the ratio of jet and counterjet against special relativity. */
+/* Tests of the light of jets. It is compared with integrals along paths of the Kerr-Schild oracle, which does not use
+ * Mino time, with the energy in the matter's frame from the Boyer-Lindquist metric. Far from the hole it is compared
+ * with integrals along straight lines, and the ratio of jet and counterjet with special relativity. */
 #include "render_support.h"
 
 #include "kerr_schild.h"

@@ -1,9 +1,9 @@
-/* Layers against the Kerr-Schild oracle, which shares no equation with the kernels: it integrates the photon's
- * momentum in Cartesian coordinates; g and the angle to the disk's normal follow from the metric in the plane alone.
- * Layers of light are compared with the picture's own linear light.
+/* Tests of layers. They are compared with the Kerr-Schild oracle, which shares no equation with the kernels: it
+ * integrates the photon's momentum in Cartesian coordinates, and g and the angle to the disk's normal follow from the
+ * metric in the plane alone. Layers of light are compared with the picture's own linear light.
  *
- * Tolerance of a number: some last bits of a float, times its change when the ray is changed by as much, which is
- * measured on the oracle itself. */
+ * The tolerance of a number is some last bits of a float, times the change of the number when the ray is changed by as
+ * much. This change is measured on the oracle itself. */
 #include "kerr_schild.h"
 #include "image/colour_map.h"
 #include "physics/disk/thin_disk.h"

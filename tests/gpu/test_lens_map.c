@@ -1,8 +1,9 @@
-/* The lens map on the device against the Kerr-Schild oracle, which traces the same pixels in double precision by
- * another method (tests/oracle).
+/* Tests of the lens map on the device. It is compared with the Kerr-Schild oracle, which traces the same pixels in
+ * double precision by another method (tests/oracle).
  *
- * Tolerance of a crossing: the last bits of a float, times the crossing's amplification of a change of the ray. The
- * amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical curve. */
+ * The tolerance of a crossing is the last bits of a float times the factor by which the crossing amplifies a change of
+ * the ray. This amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
+ * curve. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/render.h"

@@ -1,5 +1,6 @@
-/* Stokes Q and U of light curves: against the light of each ray by the Kerr-Schild oracles, which share no equation
- * with the kernels; against the loops of a face-on spot in closed form; and against the layers of the same picture. */
+/* Tests of Stokes Q and U of light curves. They are compared with the light of each ray by the Kerr-Schild oracles,
+ * which share no equation with the kernels; with the loops of a face-on spot in closed form; and with the layers of the
+ * same picture. */
 #include "kerr_schild.h"
 #include "kerr_schild_transport.h"
 #include "render/output/curve.h"

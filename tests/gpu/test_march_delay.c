@@ -1,6 +1,6 @@
-/* Slow light of volumes: emission times along a ray against the Kerr-Schild oracle, which does not use Mino time;
- * and the turbulence that gas of some height shows, against pictures of the emission times by the lens map and by
- * the oracle. */
+/* Tests of slow light of volumes. Emission times along a ray are compared with the Kerr-Schild oracle, which does not
+ * use Mino time. The turbulence of gas of some height is compared with pictures of the emission times by the lens map
+ * and by the oracle. */
 #include "physics/spacetime/kerr.h"
 #include "render/explain/explain.h"
 #include "scene/hole.h"

@@ -1,5 +1,5 @@
-/* A frame's stated error of its volumes agrees with a march of 16 times as many steps, on rays of 4 times as many
- * steps, over all of its pixels. */
+/* Tests that a frame's stated error of its volumes agrees with a march of 16 times as many steps, on rays of 4 times as
+ * many steps, over all pixels of the frame. */
 #include "render_support.h"
 
 #include "kerr_schild.h"

@@ -1,5 +1,6 @@
-/* Particles as numbers: against the closed form in double precision; constants and the norm by
- * physics/orbit/timelike.h and the metric; rates against differences; parts of a list; and refused requests. */
+/* Tests of particles as numbers. They are compared with the closed form in double precision; their constants and the
+ * norm with physics/orbit/timelike.h and the metric; and their rates with differences. Also tests parts of a list, and
+ * refused requests. */
 #include "render/output/particle_list.h"
 
 #include "physics/orbit/timelike.h"

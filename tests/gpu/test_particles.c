@@ -1,5 +1,5 @@
-/* Particles as the device computes them, against the closed form in double precision and against tracks: phases
- * after long times, periods, the seed; and frames that show them. */
+/* Tests of particles as the device computes them, compared with the closed form in double precision and with tracks:
+ * phases after long times, periods, and the seed. Also tests frames that show them. */
 #include "render/emit/particles.h"
 
 #include "physics/orbit/orbit_bound.h"
@@ -130,7 +130,7 @@ static void test_periods(void **state)
         }
         for (int i = 0; i < N; i++) {
             struct kd_orbit_frequencies f = frequencies(spins[s], r[i]);
-            /* Next to the ISCO the oscillation is too slow and too small for the float that reports r. */
+            /* next to the ISCO the oscillation is too slow and too small to be resolved in r, which is a float */
             if (f.r < 0.1 * f.phi)
                 continue;
             judged++;

@@ -1,6 +1,6 @@
-/* Matter at a radio frequency: each ray's brightness temperature against the integral of emission and absorption
- * along the Kerr-Schild oracle's path, with velocities from the metric's components and emissivities in CGS; fluxes
- * in Jy; and numbers beyond single precision. */
+/* Tests of matter at a radio frequency. Each ray's brightness temperature is compared with the integral of emission and
+ * absorption along the Kerr-Schild oracle's path, with velocities from the metric's components and emissivities in CGS.
+ * Also tests fluxes in Jy, and numbers beyond single precision. */
 #include "render_support.h"
 
 #include "cgs.h"

@@ -1,5 +1,5 @@
-/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any
- * time, and against the expected steady stream; switched off they cost nothing. */
+/* Tests of particles that fall from the ISCO, as the device places them. They are compared with geodesics integrated
+ * from the metric, at any time, and with the expected steady stream. When they are switched off they cost nothing. */
 #include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
@@ -137,8 +137,8 @@ static void test_stream(void **state)
     }
 }
 
-/* w' of the lens map, integrated in single precision, against the value from the ray's constants in double, with the
- * sign of the closed form. */
+/* w' of the lens map, which is integrated in single precision, equals the value from the ray's constants in double
+ * precision, with the sign of the closed form. */
 static void test_slopes(void **state)
 {
     (void)state;

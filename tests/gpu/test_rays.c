@@ -1,5 +1,5 @@
-/* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction,
- * fate, and each ray's stated error against its true error. */
+/* Tests of listed rays on the device, in both precisions. Radius, azimuth, delay, direction and fate are compared with
+ * the Kerr-Schild oracle, and each ray's stated error with its true error. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/internal.h"
@@ -138,7 +138,7 @@ static void test_double(void **state)
     check(KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 1e-9, 2e-9, 1e-9, 1e-6);
 }
 
-/* Median error of the crossing of an order by an engine in double precision. */
+/* Median error of the crossings of one order, by an engine in double precision. */
 static double median_error(enum kd_engine engine, uint32_t steps, int order)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS];

@@ -84,8 +84,8 @@ static double neither(const struct kd_frame *a, const struct kd_frame *b, const 
     return (double)n / PIXELS;
 }
 
-/* A frame's stated residual, from some 200 pixels, is close to that of all; most of a sum of squares comes from few
- * of them. */
+/* A frame estimates its residual from some 200 pixels. The estimate is close to the residual of all pixels, although
+ * most of a sum of squares comes from few of them. */
 static void residual(const struct kd_frame *adaptive, const struct kd_frame *truth)
 {
     double left = sqrt(off(adaptive, truth)), said = adaptive->accuracy.pixel_error;
@@ -234,7 +234,7 @@ static void test_faint(void **state)
     for (int y = 0; y < H; y++)
         kinds[y * W] = kinds[y * W + W - 1] = 1;
     pixels[3 * (3 * W + 4)] += 400;  /* curvatures of 800 and 400: less than 1311 */
-    pixels[3 * (5 * W + 11)] += 100; /* of 200 and 100: the former exceeds the floor, 132 */
+    pixels[3 * (5 * W + 11)] += 100; /* curvatures of 200 and 100; the former exceeds the floor, 132 */
     struct kd_choice choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 9 + 1);
     kd_choice_finish(&choice);

@@ -1,5 +1,5 @@
-/* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits,
- * cancelling. */
+/* Tests of frames on the device: what must not change the picture (bands, slices, the cache), what must change it,
+ * limits, and cancelling. */
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 

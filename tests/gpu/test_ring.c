@@ -1,5 +1,5 @@
-/* The ring projection: edges of the orders in a lens map against the solved ones, pixel by pixel; the measured
- * e^-gamma; its light against that of a plane picture. */
+/* Tests of the ring projection. The edges of the orders in a lens map are compared with the solved ones, pixel by
+ * pixel; also the measured e^-gamma, and the light of a ring picture with that of a plane picture. */
 #include "render_support.h"
 
 #include "physics/null/lensing.h"

@@ -1,5 +1,5 @@
-/* Ringing of a struck hole: light of image orders 1 and up follows the hole's mode, by numbers of another method
- * (tests/oracle/qnm_reference.py); order 0 is unchanged; nothing is traced again. */
+/* Tests of the ringing of a struck hole. The light of image orders 1 and up follows the hole's mode, by numbers of
+ * another method (tests/oracle/qnm_reference.py). The light of order 0 is unchanged, and nothing is traced again. */
 #include "render_support.h"
 
 #include "qnm_reference.h"
@@ -161,7 +161,8 @@ static void test_lumps(void **state)
     }
 }
 
-/* Light that a ringing hole adds to a disk's, over all samples, and its difference from another disk's. */
+/* sum: the light that a ringing hole adds to a disk's, over all samples; off: the difference of this light from that of
+ * another disk. */
 struct change { double sum, off; };
 
 static struct kd_frame at_time(struct kd_scene scene, double t, double amplitude)

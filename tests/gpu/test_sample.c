@@ -62,7 +62,7 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* relative errors of w over the condition, for both maps; differences of directions */
+    /* between, followed: errors of w relative to the condition, in either map; sky: differences of directions */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };

@@ -1,5 +1,5 @@
-/* sky.image: places of a panorama in the picture, their brightness, what covers what, and missing panoramas. The
- * panorama is synthetic, with a mark at each of some bright stars. */
+/* Tests of sky.image: places of a panorama in the picture, their brightness, what covers what, and missing panoramas.
+ * The panorama is synthetic, with a mark at each of some bright stars. */
 #include "image/png.h"
 #include "render/output/png.h"
 #include "render/render.h"

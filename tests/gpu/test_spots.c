@@ -1,5 +1,5 @@
-/* Hot spots and the light of a picture: against sums over rays of the Kerr-Schild oracle, which shares no equation
- * with the kernels; against limits far from the hole; and self-consistency. */
+/* Tests of hot spots and the light of a picture. They are compared with sums over rays of the Kerr-Schild oracle, which
+ * shares no equation with the kernels, and with limits far from the hole. Also tests self-consistency. */
 #include "render_support.h"
 
 #include "kerr_schild.h"

@@ -1,5 +1,5 @@
-/* Images of one star, Sirius: their places and light, by the Kerr-Schild oracle and, for a hole without spin, by
- * quadrature of the lens equation. The sky is rotated to put the star at a place. */
+/* Tests of the images of one star, Sirius: their places and light. They are compared with the Kerr-Schild oracle and,
+ * for a hole without spin, with quadrature of the lens equation. The sky is rotated to put the star at a place. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/sky/frame.h"
@@ -231,8 +231,8 @@ static struct blob by_the_lens_equation(double beta, double turned, int side, in
                            0.5 * (WIDTH - 1) + off * cos(turned), 0.5 * (HEIGHT - 1) - off * sin(turned) };
 }
 
-/* Each image of a star behind the hole, and both together, however close to the caustic: all around it, so that no
- * place on the grid of rays is left out. */
+/* Each image of a star behind the hole, and both together, however close to the caustic. The star goes all round the
+ * hole, so that no position relative to the grid of rays is left out. */
 static void behind(const double *betas, size_t n, int rounds)
 {
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
@@ -450,7 +450,7 @@ static void next_to_the_curve_of_fast_holes(void **state)
     }
 }
 
-/* All stars: the picture has the same bytes each time. In bands it has the same bytes except at their edges. */
+/* With all stars the picture has the same bytes each time. In bands it has the same bytes except at their edges. */
 static void whole_skies(void **state)
 {
     (void)state;
@@ -575,8 +575,8 @@ static void kept_and_made_anew(void **state)
     }
 }
 
-/* Bright images only: those above half the threshold are present, with their light, at their places to a fifth of a
- * ray; many others are not; the plan says so; and the map has no footprints. */
+/* With bright images only, those above half the threshold are present, with their light, at their places to a fifth of
+ * a ray. Many others are absent. The plan says so, and the map has no footprints. */
 static void bright_images(void **state)
 {
     (void)state;

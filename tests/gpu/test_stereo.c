@@ -1,5 +1,5 @@
-/* Stereo pairs: each half is the picture of that eye, byte for byte; and the hole's displacement is the Euclidean
- * parallax of two eyes. */
+/* Tests of stereo pairs. Each half is the picture of that eye, byte for byte, and the hole's displacement is the
+ * Euclidean parallax of two eyes. */
 #include "render_support.h"
 
 static struct kd_scene pair_from(double spin, double r, double distance)

@@ -1,7 +1,7 @@
-/* Polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays against an integration that shares
- * no step with the march: the ray and the vectors across it transported in Kerr-Schild coordinates by Runge-Kutta
- * (tests/oracle/kerr_schild_transport.c), coefficients in CGS with Bessel functions by quadrature, and the transfer
- * equation by Runge-Kutta with the 4 x 4 matrix at each place, from the far end. */
+/* Tests of polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays. They are compared with an
+ * integration that shares no step with the march. The ray and the vectors across it are transported in Kerr-Schild
+ * coordinates by Runge-Kutta (tests/oracle/kerr_schild_transport.c). Coefficients are in CGS, with Bessel functions by
+ * quadrature. The transfer equation is solved by Runge-Kutta with the 4 x 4 matrix at each place, from the far end. */
 #include "render_support.h"
 
 #include "kerr_schild_transport.h"
@@ -161,7 +161,7 @@ static void grows(struct place *p, const double s[4], double out[4])
         out[i] = p->j[i] - out[i];
 }
 
-/* From the far end: light moves towards the observer. */
+/* Integrates from the far end, since light moves towards the observer. */
 static void integrate(double s[4])
 {
     memset(s, 0, 4 * sizeof *s);

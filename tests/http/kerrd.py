@@ -714,8 +714,8 @@ class Kerrd(unittest.TestCase):
         self.assertNotIn("light", self.event(session, b'"revision":2'))
 
     def test_named_stars_are_where_the_picture_has_their_light(self):
-        """A star without neighbours gives its pixels F g^4 / (solid angle of the sky). The listed magnitude gives the
-        same light, and so does the magnification over the pixel's own solid angle."""
+        """A star without neighbours gives its pixels the light F g^4 / (solid angle of the sky). Its listed magnitude
+        and its listed magnification, divided by the pixel's own solid angle, give the same light."""
         width, height, fov, ask = 400, 240, 80, "application/vnd.kerrd.stars+json"
         scene = {
             "spacetime": {"spin": 0.9},

@@ -17,10 +17,10 @@ MODULES = {
     "scene": {"base", "physics"},
     "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
-    "orbit": {"base", "physics", "scene", "image"},  # of scene: as quantity
+    "orbit": {"base", "physics", "scene", "image"},  # of scene, the same as quantity
     "observe": {"base"},
     "integral": {"base", "observe", "physics", "scene", "image", "render"},  # of render: plans and frames
-    "playground": {"base", "physics", "scene", "image"},  # of scene: as quantity
+    "playground": {"base", "physics", "scene", "image"},  # of scene, the same as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
     "job": {"base", "scene", "playground", "render"},  # of render: what frames become

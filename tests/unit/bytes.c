@@ -1,4 +1,5 @@
-/* Bytes held by clients: the total, a client's share, the reserve for small ones, and the one that may exceed. */
+/* Tests of the bytes that clients hold: the total, a client's share, the reserve for small ones, and the one that may
+ * exceed the total. */
 #include "server/http/bytes.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* Shortest decimals against printf and strtod, which are independent. */
+/* Tests of shortest decimals, compared with printf and strtod, which are independent. */
 #include "base/decimal.h"
 
 #include <math.h>
@@ -111,7 +111,7 @@ static void any_bits(void **state)
     }
 }
 
-/* Same as printf and strtod, unless the two decimals are equally close within rounding. */
+/* The result is that of printf and strtod, unless the two candidates are equally close within rounding. */
 static void rounded(void **state)
 {
     (void)state;

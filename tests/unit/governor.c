@@ -1,4 +1,5 @@
-/* Governor and ladder, on machines that are steady, noisy, temporarily loaded, recorded, and adversarial. */
+/* Tests of the governor and its ladder, on machines that are steady, noisy, temporarily loaded, recorded, and
+ * adversarial. */
 #include "governor_recorded.h"
 #include "governor_simulation.h"
 
@@ -1076,7 +1077,8 @@ static void wide_frames_come_back_where_much_stays(void **state)
     kd_governor_least(&governor, 0.5, 100);
     double now = 0;
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5); /* 56 ms */
-    assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 50) == 0.25); /* 111 ms, on a quarter 59 */
+    /* 111 ms; with a quarter of the width 59 ms */
+    assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 50) == 0.25);
     for (int i = 0; i < 300; i++)
         assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 1) < 0.5);
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 60) == 0.5);

@@ -1,4 +1,5 @@
-/* Memory that a picture may take, on devices that share the host's memory and on those with their own. */
+/* Tests of the memory that a picture may take, on devices that share the host's memory and on devices with their
+ * own. */
 #include "render/device/memory_share.h"
 
 #include "render/accuracy/table.h"

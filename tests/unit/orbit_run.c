@@ -206,8 +206,8 @@ static void to_its_end_instead(void **state)
     free(samples);
 }
 
-/* The tolerance is per period. After ten periods the error is within ten times it, and the error of t, compared with
- * that of r, within a hundred times. */
+/* The tolerance is per period. After ten periods the error is at most ten tolerances, and the error of t, compared with
+ * the error of r, at most a hundred. */
 static void methods_agree(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Carlson's and Legendre's integrals against quadratures of their definitions to 40 digits
- * (tests/oracle/null_reference.py); Jacobi's functions against the integrals that they invert. */
+/* Tests of Carlson's and Legendre's integrals, compared with quadratures of their definitions to 40 digits
+ * (tests/oracle/null_reference.py). Jacobi's functions are compared with the integrals that they invert. */
 #include "physics/math/carlson.h"
 #include "physics/math/elliptic.h"
 

@@ -1,5 +1,5 @@
-/* The colour of a black body against published chromaticities and efficacies, and against a second quadrature whose
- * Planck function is itself tested by the Stefan-Boltzmann law. */
+/* Tests of the colour of a black body. It is compared with published chromaticities and efficacies, and with a second
+ * quadrature, whose Planck function is itself tested by the Stefan-Boltzmann law. */
 #include "physics/disk/colour.h"
 
 #include <math.h>

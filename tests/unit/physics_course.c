@@ -1,6 +1,6 @@
-/* The course of a ray, place by place, against the Hamiltonian integrated in Kerr-Schild coordinates: another method
- * and other coordinates, without a formula in common. Places between crossings are checked by rays that start from
- * there. */
+/* Tests of the course of a ray, place by place. It is compared with the Hamiltonian integrated in Kerr-Schild
+ * coordinates, which is another method in other coordinates, without a formula in common. Places between crossings are
+ * checked by rays that start from there. */
 #include "physics/null/null_course.h"
 
 #include "kerr_schild.h"

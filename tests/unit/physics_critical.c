@@ -1,6 +1,6 @@
-/* Critical curve, spherical photon orbits and local frames against searches with 60 digits for the ray that just
- * does not turn (tests/oracle/critical_reference.py), against published values, and against closed-form rays on both
- * sides of the curve. */
+/* Tests of the critical curve, spherical photon orbits and local frames. They are compared with searches in 60 digits
+ * for the ray that just does not turn (tests/oracle/critical_reference.py), with published values, and with closed-form
+ * rays on both sides of the curve. */
 #include "physics/null/critical.h"
 
 #include "physics/null/null_geodesic.h"

@@ -1,5 +1,5 @@
-/* Bending of light against quadrature from the metric (tests/oracle/deflection_reference.py), published numbers, and
- * its limits of weak and strong fields. */
+/* Tests of the bending of light, compared with quadrature from the metric (tests/oracle/deflection_reference.py), with
+ * published numbers, and with its limits of weak and strong fields. */
 #include "physics/math/quadrature.h"
 #include "physics/null/deflection.h"
 #include "physics/spacetime/kerr.h"

@@ -1,5 +1,5 @@
-/* Epicyclic frequencies, effective potentials and frame dragging against numbers worked out from the metric and
- * Carter's potentials (tests/oracle/equator_reference.py). */
+/* Tests of epicyclic frequencies, effective potentials and frame dragging, compared with numbers computed from the
+ * metric and Carter's potentials (tests/oracle/equator_reference.py). */
 #include "physics/orbit/orbit_bound.h"
 #include "physics/spacetime/epicyclic.h"
 #include "physics/spacetime/kerr.h"

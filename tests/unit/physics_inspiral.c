@@ -1,5 +1,5 @@
-/* Peters's inspiral against the quadrupole formula itself summed over an orbit, against quadrature
- * (tests/oracle/inspiral_reference.py) and against published data of pulsars. */
+/* Tests of Peters's inspiral. It is compared with the quadrupole formula summed over an orbit, with quadrature
+ * (tests/oracle/inspiral_reference.py), and with published data of pulsars. */
 #include "physics/waves/inspiral.h"
 
 #include "inspiral_reference.h"

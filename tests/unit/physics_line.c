@@ -1,6 +1,6 @@
-/* Line profiles and spectra of disks against sums over rays of the image plane; transfer functions and the image of
- * the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h); lamps against rays in
- * flat space and in Schwarzschild's metric. */
+/* Tests of line profiles and spectra of disks, compared with sums over rays of the image plane. Transfer functions and
+ * the image of the disk are compared with rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h), and
+ * lamps with rays in flat space and in Schwarzschild's metric. */
 #include "physics/disk/disk_image.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/lamppost.h"
@@ -178,8 +178,8 @@ static void tolerated(double a, double i, const struct kd_line_params *closest, 
     within("total", a, i, profile.total / total, 1, 2e-4);
 }
 
-/* 200 000 rays: this sum itself is off by up to 5e-4; with 36 times as many rays by 1e-4. The profile's estimate of
- * its error must hold, and be below the 0.3 % that is asked for. */
+/* The sum over 200 000 rays is itself off by up to 5e-4; with 36 times as many rays by 1e-4. The profile's estimate of
+ * its error must hold, and be below the requested 0.3 %. */
 static void test_cumulative_share(void **state)
 {
     static const struct { double a, i; } cases[] = { { 0, 30 }, { 0.5, 60 }, { 0.998, 30 }, { 0.998, 80 } };
@@ -381,8 +381,8 @@ static struct start start_of(double a, double u, double alpha, double beta)
     return (struct start) { path.r[0], kd_disk_redshift(kd_hole(a), path.r[0], path.momentum[0]) };
 }
 
-/* The Jacobian d(g, r)/d(alpha, beta) by rays of the reference; their error of 1e-11 over the step is 1e-8, and the
- * square of the step leaves 1e-6. */
+/* The Jacobian d(g, r)/d(alpha, beta), by differences between rays of the reference. The rays' error of 1e-11 divided
+ * by the step is 1e-8; the square of the step leaves 1e-6. */
 static double slopes_of(double a, double u, double alpha, double beta)
 {
     const double h = 2e-3;
@@ -404,7 +404,7 @@ static void test_transfer_function(void **state)
         struct kd_transfer_ring ring;
         assert_true(kd_disk_image_init(&image, kd_hole(a), i * RADIAN));
         assert_true(kd_transfer_ring_of(&image, r, &ring));
-        /* At its ends g does not change along the ring, so that the Jacobian is the slope of r times a factor; the
+        /* At the ends of a ring g does not change along it, so that the Jacobian is the slope of r times a factor. The
          * ends are taken from rays of the reference. */
         for (int end = 0; end < 2; end++) {
             alpha = ring.alpha[end], beta = ring.beta[end];

@@ -1,5 +1,5 @@
-/* Null geodesics in closed form against Taylor series with 20 digits (tests/oracle/null_reference.py): every case of
- * roots, start and degeneracy, and rays 1e-10 from the critical curve. */
+/* Tests of null geodesics in closed form, compared with Taylor series of 20 digits (tests/oracle/null_reference.py):
+ * every case of roots, start and degeneracy, and rays 1e-10 from the critical curve. */
 #include "physics/null/null_geodesic.h"
 
 #include "null_reference.h"
@@ -120,8 +120,9 @@ static void mirrors(void **state)
     }
 }
 
-/* No jump at a = 0, on the axis, at beta = 0 or in the equatorial plane: the answers differ by the slope times the
- * change. A change of 1e-13 is far below any tolerance and some 500 roundings; slopes here are below 100. */
+/* The answers do not jump at a = 0, on the axis, at beta = 0 or in the equatorial plane: they differ by the slope times
+ * the change of the input. A change of 1e-13 is far below any tolerance and equals some 500 roundings; slopes here are
+ * below 100. */
 static void continuity(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Random null geodesics in closed form against the Hamiltonian integrated in Kerr-Schild coordinates: another method
- * and other coordinates, without a formula in common. */
+/* Tests of random null geodesics in closed form, compared with the Hamiltonian integrated in Kerr-Schild coordinates.
+ * This is another method in other coordinates, without a formula in common. */
 #include "physics/null/null_geodesic.h"
 
 #include "kerr_schild.h"

@@ -1,6 +1,6 @@
-/* Every kind of observer against a metric that is written here in the form of its line element (Boyer & Lindquist
- * 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision; constants of motion against frames
- * computed in Kerr-Schild coordinates. */
+/* Tests of every kind of observer. The metric used for comparison is written here in the form of its line element
+ * (Boyer & Lindquist 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision. Constants of
+ * motion are compared with frames computed in Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/kerr.h"

@@ -1,5 +1,5 @@
-/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against known
- * properties. */
+/* Tests of timelike geodesics, compared with quadrature (tests/oracle/orbit_reference.py), with each other, and with
+ * known properties. */
 #include "physics/orbit/orbit_lanes.h"
 #include "physics/spacetime/kerr.h"
 

@@ -1,5 +1,6 @@
-/* Images of places: those in the equatorial plane of a spinning hole against rays in closed form, which cross it
- * there; those off the plane, for a hole without spin, against the same rays in a plane rotated to be the equator's. */
+/* Tests of images of places. Places in the equatorial plane of a spinning hole are compared with rays in closed form,
+ * which cross the plane there. Places off the plane of a hole without spin are compared with the same rays in a plane
+ * that is rotated to be the equator's. */
 #include "physics/null/null_geodesic.h"
 #include "physics/null/place_image.h"
 

@@ -1,5 +1,6 @@
-/* Rings seen by observers inside them, next to the hole and beyond the horizon, against rays integrated in ingoing
- * Kerr-Schild coordinates, from frames computed in these coordinates (tests/oracle/kerr_schild.h). */
+/* Tests of rings seen by observers inside them, next to the hole and beyond the horizon. They are compared with rays
+ * integrated in ingoing Kerr-Schild coordinates, from frames computed in these coordinates
+ * (tests/oracle/kerr_schild.h). */
 #include "physics/null/ring_view.h"
 #include "physics/spacetime/kerr.h"
 

@@ -1,5 +1,5 @@
-/* The sky that observers see, against frames and rays in Kerr-Schild coordinates: which directions are dark, the
- * shift of light from the others, its smallest and largest value, and the size of the dark disk. */
+/* Tests of the sky that observers see, compared with frames and rays in Kerr-Schild coordinates: which directions are
+ * dark, the shift of light from the others, its smallest and largest value, and the size of the dark disk. */
 #include "kerr_schild.h"
 #include "physics/null/sky_view.h"
 #include "physics/spacetime/kerr.h"
@@ -196,8 +196,8 @@ static void extremes(void **state)
     }
 }
 
-/* The dark disk for rain in Schwarzschild: r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), a quadratic equation for the
- * tangent of half the angle; for an observer at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
+/* The dark disk in Schwarzschild. For rain r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), which is a quadratic equation
+ * for the tangent of half the angle. For an observer at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
 static void round_disks(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tidal disruption against published numbers and for consistency. */
+/* Tests of tidal disruption, compared with published numbers and tested for consistency. */
 #include "physics/waves/tidal.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/math/quadrature.h"

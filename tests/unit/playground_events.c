@@ -1,5 +1,5 @@
-/* Events in the playground: inspiral against Peters' closed form, mergers to rounding, debris that comes back, and
- * hostile scenes. */
+/* Tests of events in the playground: inspiral, compared with Peters' closed form; mergers, exact to rounding; debris
+ * that comes back; and hostile scenes. */
 #include "playground_support.h"
 
 #include "physics/waves/inspiral.h"

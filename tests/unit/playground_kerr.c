@@ -1,5 +1,5 @@
-/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit/orbit_bound.h), which does
- * not integrate in steps; and snapshots, which continue to the bit. */
+/* Tests of bodies with gravity "kerr", compared with the closed form of bound orbits (physics/orbit/orbit_bound.h),
+ * which does not integrate in steps. Also tests that a snapshot continues to the bit. */
 #include "playground_support.h"
 
 #include "physics/orbit/orbit_bound.h"
@@ -9,7 +9,8 @@
 #include <stdlib.h>
 
 /* A body starts with the velocity v measured by an observer of zero angular momentum, and moves for a hundred radial
- * periods: its place at each of a thousand times is that of the closed form at the same time, found by bisection. */
+ * periods. At each of a thousand times its place is that of the closed form at the same time, which is found by
+ * bisection. */
 static void test_bodies_follow_the_closed_form(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Orbits of bodies of the playground against known results, which share no equation with the stepping. */
+/* Tests of orbits of the playground's bodies, compared with known results that share no equation with the stepping. */
 #include "playground_support.h"
 
 static void add(struct kd_playground *p, double mass, double x, double y, double vx, double vy)

@@ -17,7 +17,7 @@ static struct kd_dynamic_bodies *shown(struct kd_playground *p)
     return crowd;
 }
 
-/* Places are the body's; the energy of a body moving by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
+/* The place shown is the body's. The energy of a body that moves by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
  * direction stays. */
 static void bodies(void **state)
 {

@@ -1,5 +1,5 @@
-/* Tests of kd_rays_trace with the closed-form engine, against geodesics in Kerr-Schild coordinates; and of its
- * threads, cancellation and errors. */
+/* Tests of kd_rays_trace with the closed-form engine, compared with geodesics in Kerr-Schild coordinates; and tests of
+ * its threads, cancellation and errors. */
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 #include "render/rays/rays.h"

@@ -161,7 +161,8 @@ static double shown(double u, double off)
                 area);
 }
 
-/* A place next to the critical curve, and the star where the reference's ray from there ends. */
+/* A place next to the critical curve, and the star in the direction in which the reference's ray from this place
+ * ends. */
 struct place { double u, off, x, y; };
 
 static struct kd_vec star_of(double spin, double inclination, struct place *at)

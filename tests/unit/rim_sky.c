@@ -1,5 +1,5 @@
-/* Tests of the origin of rays next to the critical curve: by integration in Kerr-Schild coordinates, and by closed
- * form for each ray of the rim. */
+/* Tests of the origin of rays next to the critical curve. It is compared with integration in Kerr-Schild coordinates,
+ * and with the closed form for each ray of the rim. */
 #include "kerr_schild.h"
 #include "render/view/camera.h"
 #include "render/view/rim_sky.h"

@@ -1,5 +1,5 @@
-/* Tests of skies: the catalogue and its counts, orientations against published places, generated stars, the panorama
- * and its packing. */
+/* Tests of skies: the catalogue and its star counts, orientations compared with published places, generated stars, the
+ * panorama and its packing. */
 #include "render/sky/frame.h"
 #include "render/sky/panorama.h"
 #include "render/sky/star.h"
@@ -127,8 +127,8 @@ static struct kd_stars stars_of(int model, int seed, double limit)
     return stars;
 }
 
-/* As many generated stars as the catalogue has where it is complete, within a quarter; the same for one seed, others
- * for another. */
+/* The number of generated stars is that of the catalogue where it is complete, within a quarter. One seed always gives
+ * the same stars, and another seed gives others. */
 static void made_up_stars(void **state)
 {
     (void)state;
