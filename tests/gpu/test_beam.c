@@ -1,5 +1,5 @@
-/* A telescope's beam, and brightness in false colour: synthetic light through the passes beam, expose, bloom and
- * post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
+/* Tests of a telescope's beam, and of brightness in false colour: synthetic light goes through the passes beam, expose,
+ * bloom and post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
 #include "made_up_light.h"
 
 #include "image/colour_map.h"
@@ -277,7 +277,7 @@ static void none_is_nothing(void **state)
     assert_true(with.device_bytes == without.device_bytes && with.n_passes == without.n_passes && !with.beam.cell);
 }
 
-/* A beam of some pixels in a picture of many: more cells than a device can bind. */
+/* A beam of some pixels in a large picture needs more cells than a device can bind. */
 static void too_many_cells_are_refused(void **state)
 {
     (void)state;

@@ -56,7 +56,7 @@ static struct kd_playground *many(double spin)
                                            .temperature_k = LEAST_K + 2 * i,
                                            .x = { r * s * cos(phi), r * s * sin(phi), r * u },
                                            .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
-        struct kd_error none; /* some motions are at the edge between two kinds: others are drawn */
+        struct kd_error none; /* a motion at the edge between two kinds is an error, and another one is drawn instead */
         i += !kd_playground_add(p, &body, NULL, &none);
     }
     return p;
@@ -485,7 +485,7 @@ static void test_lit(void **state)
             sum += layer_of(&frame, "intensity")[p];
             if (x * x + y * y < 1)
                 want += 0.5 / M_PI * falls_on(&scene, at, normal) *
-                        pow(1 - 2 / r, 2); /* and its own redshift, ^4 of the square root */
+                        pow(1 - 2 / r, 2); /* the factor of its own redshift: the fourth power of the square root */
         }
         printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want,
                most);

@@ -237,7 +237,7 @@ static void check_sky(int steps)
                 continue;
             double s = sqrt(fmax(0, 1 - p->u * p->u));
             double gain = hypot(q->u - p->u, s * turn(q->sky_phi - p->sky_phi)) / 1e-6;
-            /* The oracle stops at r = 1e8: 1e-8 b from the limit. */
+            /* the oracle stops at r = 1e8, where the direction differs by 1e-8 b from the limit */
             double error = hypot(u[k] - p->u, s * turn(phi[k] - p->sky_phi)) / (1 + gain);
             worst = fmax(worst, error);
             compared++;

@@ -1,5 +1,5 @@
-/* Pixels with several rays through a volume: their light is the mean of their rays', whatever the driver does with
- * many loops in succession. */
+/* Tests of pixels with several rays through a volume. Their light is the mean of their rays' light, whatever the driver
+ * does with many loops in succession. */
 #include "render_support.h"
 
 #include "render/frame/probe.h"
@@ -44,7 +44,7 @@ static double mean_of_rays(const float *single, int x, int y)
 
 static double off(double is, double want) { return fabs(is / want - 1); }
 
-/* Sixteen rays a pixel, and as many as each needs. */
+/* Tests sixteen rays in each pixel, and as many rays as each pixel needs. */
 static void test_mean(void **state)
 {
     (void)state;

@@ -273,9 +273,9 @@ static void test_edges(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light with delay D shows the disk at t - D: a pixel of slow light equals that of a fast-light picture at t - D, D
- * being the delay of its ray, for an observer at infinity and a near one. Not to the last step, because a grid
- * rotated by a part of a cell is blurred differently. */
+/* Light with delay D shows the disk at t - D. So a pixel of slow light equals that of a fast-light picture at t - D,
+ * where D is the delay of its ray, for an observer at infinity and a near one. They are not equal to the last step,
+ * because a grid that is rotated by a part of a cell is blurred differently. */
 static void test_slow_light(void **state)
 {
     (void)state;

@@ -61,7 +61,7 @@ static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t 
     }
 }
 
-/* The emitters' light as it arrives, combined front to back from their own parts. */
+/* The light as it arrives: the parts of the emitters, combined front to back. */
 static void add_up(const struct kd_probed_ray *told, double sum[3])
 {
     double through = 1;

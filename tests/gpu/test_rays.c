@@ -300,8 +300,8 @@ static void test_starts(void **state)
     }
 }
 
-/* Stated errors of the Kerr-Schild engines, against the oracle: a bound for 999 of 1000 rays, 1 if fate or crossings
- * differ. Their azimuths count turns as the closed form's do. */
+/* The stated errors of the Kerr-Schild engines, compared with the oracle. They are a bound for 999 of 1000 rays, and 1
+ * if fate or crossings differ. The engines' azimuths count turns as those of the closed form do. */
 static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision, int h)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];

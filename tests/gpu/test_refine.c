@@ -1,5 +1,5 @@
-/* Adaptive sampling: a picture whose pixels get as many rays as they need, against pictures with 1, 16 or 64 for
- * all. */
+/* Tests of adaptive sampling: a picture whose pixels get as many rays as they need is compared with pictures that have
+ * 1, 16 or 64 rays in every pixel. */
 #include "render/frame/choose.h"
 #include "render/frame/residual.h"
 #include "render/render.h"
@@ -123,7 +123,7 @@ static void test_as_good(void **state)
     }
 }
 
-/* A smaller target error leaves less, for more pixels. */
+/* A smaller target leaves a smaller error, and more pixels are chosen. */
 static void test_target(void **state)
 {
     (void)state;
@@ -244,7 +244,7 @@ static void test_faint(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Chosen pixels of a synthetic picture. */
+/* Tests which pixels of a synthetic picture are chosen. */
 static void test_choice(void **state)
 {
     (void)state;
@@ -255,7 +255,7 @@ static void test_choice(void **state)
             pixels[3 * k + c] = (uint16_t)(4000 * (k % W) + 300 * (k / W));
     struct kd_choice choice = bent(pixels, W * H);
     assert_true(choice.list.n > 0);
-    for (size_t i = 0; i < choice.list.n; i++) /* none inside */
+    for (size_t i = 0; i < choice.list.n; i++) /* no pixel inside is chosen */
         assert_true(place(&choice, i).x == 0 || place(&choice, i).x == W - 1 || place(&choice, i).y == 0 ||
                     place(&choice, i).y == H - 1);
     kd_choice_finish(&choice);

@@ -241,7 +241,7 @@ static void test_progress(void **state)
 }
 
 struct glances {
-    const struct kd_frame *want; /* NULL: it has its own exposure */
+    const struct kd_frame *want; /* NULL: the picture has an exposure of its own */
     uint32_t rows[64], n;
 };
 

@@ -348,7 +348,8 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
             j = (struct vec3) { j.x + v * along.x, j.y + v * along.y, j.z + v * along.z };
         }
     const struct vec3 n = seen_by(scene, middle, &g);
-    /* From areas of the plane to solid angles of view: cos^3; the pixel is in the middle of its own picture. */
+    /* The factor cos^3 converts areas of the plane to solid angles of view; the pixel is in the middle of its own
+     * picture. */
     const double square = fabs(cos(c->angle) * ty - sin(c->angle) * tx) / length; /* of outwards and along */
     return fabs(dot(n, cross(i, j))) / square * pow(dot(middle, middle), 1.5) * pixel * pixel;
 }

@@ -32,7 +32,7 @@ static const float *layer_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* One ray: its places, from the observer on. */
+/* The places of one ray, from the observer on. */
 enum { PLACES = 120000 };
 struct place { double step, j[4], k[4][4]; };
 static struct ray {

@@ -1,5 +1,5 @@
-/* The accuracy table: choices from synthetic tables, the JSON document in both directions, the file, and the sets of
- * rays. */
+/* Tests of the accuracy table: choices from synthetic tables, the JSON document in both directions, the file, and the
+ * sets of rays. */
 #include "physics/spacetime/kerr.h"
 #include "render/device/accuracy_store.h"
 

@@ -1,4 +1,4 @@
-/* A client's long-term allowance of device time, with a simulated clock. */
+/* Tests of a client's long-term allowance of device time, with a simulated clock. */
 #include "server/http/allowance.h"
 
 #include <math.h>

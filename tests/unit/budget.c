@@ -1,4 +1,4 @@
-/* Shares of the device's time, with a simulated clock, and against another algorithm. */
+/* Tests of the shares of the device's time, with a simulated clock and compared with another algorithm. */
 #include "server/session/budget.h"
 
 #include <math.h>
@@ -99,11 +99,11 @@ static void a_single_pause_or_a_slow_frame_says_little(void **state)
     assert_true(kd_budget_demand(e, b.now) > 0.66);
     frame(&b, e, 0, 20, 1e5); /* a long pause */
     assert_true(kd_budget_demand(e, b.now) == 0);
-    kd_budget_ask(e, b.now); /* counts at once */
+    kd_budget_ask(e, b.now); /* the request counts immediately */
     assert_true(kd_budget_demand(e, b.now) > 0.66);
     kd_budget_end(e, b.now, 100);
     assert_true(kd_budget_demand(e, b.now) < 0.81);
-    for (int k = 0; k < 9; k++) /* rare, regular requests are a small demand */
+    for (int k = 0; k < 9; k++) /* requests that are rare and regular are a small demand */
         frame(&b, e, 0, 20, 380);
     assert_true(fabs(kd_budget_demand(e, b.now) - 0.05) < 1e-9);
 }

@@ -1,4 +1,4 @@
-/* Colour maps, judged by lightness and hue as displayed: sRGB decoded, XYZ by the standard's matrix, CIELAB. */
+/* Tests of colour maps by lightness and hue as displayed: sRGB decoded, XYZ by the standard's matrix, CIELAB. */
 #include "image/colour_map.h"
 
 #include <math.h>

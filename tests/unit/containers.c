@@ -1,5 +1,5 @@
-/* Numeric files read back: texts of any length in FITS cards, the checksum by its definition, members of a ZIP file,
- * attributes of an EXR file; and each of them truncated. tests/cli/files.py uses third-party readers. */
+/* Tests that numeric files read back: texts of any length in FITS cards, the checksum by its definition, members of a
+ * ZIP file, and attributes of an EXR file. Each file is also truncated. tests/cli/files.py uses third-party readers. */
 #include "image/exr.h"
 #include "image/fits.h"
 #include "image/unzip.h"

@@ -1,5 +1,5 @@
-/* Pixels on the critical curve, judged by the fates of rays in closed form, which do not use the curve; and the
- * places of rays within such a pixel. */
+/* Tests of the pixels on the critical curve. They are judged by the fates of rays in closed form, which do not use the
+ * curve. Also tests the places of rays within such a pixel. */
 #include "render/view/critical_pixels.h"
 
 #include "physics/null/null_geodesic.h"

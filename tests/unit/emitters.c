@@ -386,7 +386,7 @@ static void brightness_of_skies(void **state)
         scene.disk.model = KD_DISK_NONE;
         assert_true(kd_scene_sky_brightness(&scene) == 0.2);
         scene.spots.count = 1;
-        assert_true(kd_scene_sky_brightness(&scene) == 0.2); /* it is off */
+        assert_true(kd_scene_sky_brightness(&scene) == 0.2); /* the spot is off */
         scene.spots.at[0].brightness = 1;
         assert_true(kd_scene_sky_brightness(&scene) == 0.01);
         scene.sky.brightness = 3;

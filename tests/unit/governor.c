@@ -141,7 +141,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
-    asked.camera.projection = KD_PROJECTION_RING; /* photon rings, one above the other: as many as requested */
+    asked.camera.projection = KD_PROJECTION_RING; /* the picture has as many photon rings, one above the other, as
+                                                   * were requested */
     asked.accuracy.orders = 7;
     kd_ladder_make(&asked, &bounds, &ladder);
     for (size_t i = 0; i < ladder.n_rungs; i++)
@@ -212,7 +213,7 @@ static void settles_on_a_steady_machine(void **state)
     assert_true(reached > 200 && hopeless > 20);
 }
 
-/* Frames report only their total time. */
+/* The same if frames report only their total time. */
 static void settles_when_told_only_totals(void **state)
 {
     (void)state;
@@ -231,7 +232,7 @@ static void settles_when_told_only_totals(void **state)
     }
 }
 
-/* A first estimate avoids the slow frames. */
+/* With a first estimate there are no slow frames at the beginning. */
 static void begins_where_it_is_told_to_expect(void **state)
 {
     (void)state;
@@ -817,8 +818,8 @@ static void time_keeps_the_rays_at_the_curve(void **state)
     assert_true(dragged.rung && dragged.quality.critical == 2);
 }
 
-/* In a drag the rays near the critical curve and the stars are reduced, on any rung but the first; while time
- * advances and at rest all are there. */
+/* In a drag there are fewer rays near the critical curve and fewer stars, on any rung but the first. While time
+ * advances, and at rest, all are there. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
 {
     (void)state;

@@ -169,7 +169,7 @@ static void symmetric_and_continuous(void **state)
     }
 }
 
-/* A ray traced in closed form, 1e-9 outside the curve, leaves; inside it falls in. */
+/* A ray traced in closed form that is 1e-9 outside the curve escapes; one that is 1e-9 inside falls in. */
 static void the_edge_of_the_shadow(void **state)
 {
     (void)state;
@@ -265,7 +265,7 @@ static void from_far_away(void **state)
 }
 
 /* Area and mean radius by another rule: polygons with points at equal steps of Bardeen's parameter, extrapolated.
- * And Johannsen & Psaltis' asymmetry A of a displaced circle is 0. */
+ * Johannsen & Psaltis' asymmetry A of a displaced circle must be 0. */
 static double polygon(double a, double u, int n)
 {
     double s = sqrt(1 - u * u), low = kd_kerr_photon_orbit(kd_hole(a)), high = kd_kerr_photon_orbit(kd_hole(-a)),

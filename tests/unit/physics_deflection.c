@@ -150,7 +150,7 @@ static void outside_the_domain(void **state)
     assert_true(isnan(kd_deflection(kd_hole(0.5), -30)));
 }
 
-/* x^p y^q, whose integral is Euler's beta function: an integrable singularity at either end. */
+/* x^p y^q, whose integral is Euler's beta function. It has an integrable singularity at either end. */
 static double power(double x, double y, const void *context)
 {
     const double *p = context;

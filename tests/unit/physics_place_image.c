@@ -86,8 +86,8 @@ static void test_off_the_plane_without_spin(void **state)
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
         assert_true(fabs(turn(atan2(here.beta, here.alpha) - side)) < 1e-6);
-        /* In the equator seen at 60 degrees, the place at that angle from the line of sight: cos(psi) = sin(60)
-         * cos(phi'). */
+        /* The place in the equator, seen at 60 degrees, that is at this angle from the line of sight: cos(psi) =
+         * sin(60) cos(phi'). */
         const double c = cos(psi) / sin(60 * RADIAN);
         if (fabs(c) > 1)
             continue;

@@ -401,7 +401,8 @@ static void the_greatest_merge(void **state)
     kd_playground_destroy(q);
 }
 
-/* The smallest stars and radii allowed give no NaN, torn apart or not, and a snapshot of them can be continued. */
+/* The smallest allowed stars and radii give no NaN, whether they are torn apart or not, and a snapshot of them can be
+ * continued. */
 static void the_least_stars(void **state)
 {
     (void)state;

@@ -135,8 +135,8 @@ static void circles_are_no_refusals(void **state)
     assert_true(worst < 1e-11);
 }
 
-/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also exactly at the times when steps end, 256 of
- * them a turn. */
+/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2). It is exact also at the times when steps end, of which
+ * there are 256 in a turn. */
 static void circles_go_round_evenly(void **state)
 {
     (void)state;

@@ -214,7 +214,7 @@ static void no_text_is_lost_in_silence(void **state)
     struct kd_buffer file = { 0 }, out = { 0 };
     static const uint8_t text[] = "\0\0\0\5tEXtkey\0x\0\0\0\0";
     struct kd_png png;
-    sample(&file, 8); /* holds two */
+    sample(&file, 8); /* this file has two texts */
     size_t before = (size_t)((uint8_t *)memmem(file.data, file.size, "IDAT", 4) - file.data) - 4;
     kd_buffer_append(&out, file.data, before);
     for (int n = 3; n <= 110; n++) {
