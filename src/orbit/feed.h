@@ -31,7 +31,8 @@ enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
 
-/* Works on a batch of many orbits, on another thread than kd_orbit_feed_more. False when nothing is left to begin. */
+/* Works on a batch of many orbits, on another thread than kd_orbit_feed_more. Returns false when no orbit is left to
+ * begin. */
 bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
 
 #endif

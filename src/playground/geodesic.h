@@ -1,7 +1,8 @@
-/* The exact timelike Kerr geodesic of a test body, by coordinate time. One thread a geodesic.
+/* The exact timelike Kerr geodesic of a test body, as a function of coordinate time. A geodesic belongs to one thread
+ * at a time.
  *
- * Integrates in Mino time with a fixed step, as physics/orbit/orbit_path.h; the place at a coordinate time is found
- * between two steps. Positions are x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta) of the
+ * It is integrated in Mino time with a fixed step, like physics/orbit/orbit_path.h. The place at a coordinate time is
+ * found between two steps. Positions are x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta) of the
  * Boyer-Lindquist coordinates. A velocity is measured by the local observer of zero angular momentum along e_r,
  * e_theta, e_phi; its components are combined as if these were directions in flat space. */
 #ifndef KD_PLAYGROUND_GEODESIC_H

@@ -288,8 +288,8 @@ static void nothing_in_common(void **state)
             fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
 }
 
-/* The power of the pattern's waves in bands, and its change from pixel to pixel along a radius, which winding up
- * would increase: constant in time within the scatter of patterns. */
+/* Two measures are constant in time within the scatter of patterns: the power of the pattern's waves in bands, and the
+ * pattern's change from pixel to pixel along a radius, which winding up would increase. */
 static void nothing_winds_up(void **state)
 {
     (void)state;

@@ -8,7 +8,8 @@
 
 #include <cmocka.h>
 
-/* Linear light can be recovered from these: no film curve, no dither, no clipping (g^4 stays below 16), 16 bits. */
+/* With these settings linear light can be recovered from the pixels: no film curve, no dither, no clipping (g^4 stays
+ * below 16), 16 bits. */
 #define LINEAR "\"style\":{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false}"
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 

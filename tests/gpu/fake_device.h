@@ -154,7 +154,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Map(VkDevice device, VkDeviceMemory m
     return result;
 }
 
-/* Checks for whole atoms of the largest size that Vulkan allows, inside the block. */
+/* Checks that a range consists of whole atoms, of the largest size that Vulkan allows, inside its block. */
 static struct fake_memory *fake_range(const VkMappedMemoryRange *range)
 {
     struct fake_memory *m = fake_find(range->memory);

@@ -150,7 +150,7 @@ static void a_point_stays_where_it_is(void **state)
     }
 }
 
-/* Positions of bands and slices, and whether cells are texels or storage, change no byte. */
+/* The positions of bands and slices, and whether cells are texels or storage, do not change a byte. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -230,8 +230,9 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     }
 }
 
-/* Each brightness has its colour of the map, also after a tone curve and for coloured light: luminance counts. A
- * table of 1024 is linear between its entries; beyond white and below black the ends apply. */
+/* Each brightness has its colour of the map, also after a tone curve and for coloured light, of which the luminance
+ * counts. A table of 1024 entries is linear between them. Beyond white and below black the colours at the ends
+ * apply. */
 static void brightness_has_the_colour_of_the_map(void **state)
 {
     (void)state;

@@ -218,7 +218,7 @@ static void a_point_stays(void **state)
         }
 }
 
-/* Positions of bands, and whether cells are texels or storage, change no byte. */
+/* The positions of bands, and whether cells are texels or storage, do not change a byte. */
 static void bands_and_readers(void **state)
 {
     (void)state;

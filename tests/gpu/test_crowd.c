@@ -70,7 +70,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi,
                             within, MOST, at);
     double least = INFINITY;
-    for (int i = 0; i < n; i++) /* the first that meets it, otherwise the nearest */
+    for (int i = 0; i < n; i++) /* the first body that the ray meets, or otherwise the nearest */
         if (least > RADIUS && at[i].b < least) {
             least = at[i].b;
             *delay = at[i].delay;
@@ -378,7 +378,7 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
             const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] },
                          d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
             const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length,
-                         /* circular orbit in Schwarzschild's metric, relative to an observer at rest */
+                         /* the speed of a circular orbit in Schwarzschild's metric, relative to an observer at rest */
                 v = 1 / sqrt(r - 2);
             const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length,
                          g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);

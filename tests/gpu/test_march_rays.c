@@ -149,7 +149,7 @@ static struct kd_scene tall(int width, int samples, int left, int top, int colum
     return scene;
 }
 
-/* The light of one ray followed alone, over that of its pixel. */
+/* The light of one ray that is followed alone, divided by the light of its pixel. */
 static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
 {
     struct kd_capacity c;

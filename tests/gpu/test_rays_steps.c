@@ -121,8 +121,8 @@ static void test_mino(void **state)
     }
 }
 
-/* The steps lie on the ray: a trace with twice the steps has one at each step of the coarser one, at the same place
- * up to the coarser one's error. */
+/* The steps lie on the ray. A trace with twice as many steps has a step at each step of the coarser trace, at the same
+ * place up to the coarser trace's error. */
 static void test_refined(void **state)
 {
     (void)state;

@@ -48,7 +48,7 @@ static void assert_same(struct kd_frame *a, struct kd_frame *b)
     kd_frame_finish(b);
 }
 
-/* A scene that differs only in what the lens map does not depend on reuses the map. */
+/* A scene reuses the lens map if it differs only in fields on which the map does not depend. */
 static void test_reuse(void **state)
 {
     (void)state;
@@ -377,7 +377,8 @@ static void test_asides(void **state)
     kd_renderer_destroy(o.r);
 }
 
-/* A lens map made by another store is sufficient for a whole frame: refinement needs more buffers than the map. */
+/* A lens map made by another store is sufficient for a whole frame, although refinement needs more buffers than the
+ * map. */
 static void test_a_map_that_is_handed_over(void **state)
 {
     (void)state;
@@ -459,7 +460,8 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* Pictures rendered in the background leave resources for the next one, up to a bound, and the last one all of them. */
+/* A picture rendered in the background leaves resources for the next one, up to a bound. The last one leaves all of its
+ * resources. */
 static void test_what_idle_asides_keep_is_bounded(void **state)
 {
     (void)state;

@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* 1 if a pixel sees the plane nearer than `source` exactly when the edge says so. Pixels too close to the edge for
- * alpha and beta to decide do not count. */
+/* Returns 1 if a pixel sees the plane nearer than `source` exactly when the edge says so. Pixels too close to the edge
+ * for alpha and beta to decide do not count. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {

@@ -163,7 +163,7 @@ static struct place expected(double l, double b)
     return (struct place) { (0.5 - left / (2 * M_PI)) * WIDTH, (0.5 - b / M_PI) * HEIGHT, 0 };
 }
 
-/* Marks and catalogue stars coincide, both where trigonometry has them. */
+/* Marks and catalogue stars coincide, at the places that trigonometry gives. */
 static void marks_and_stars(void **state)
 {
     const char *image = *state;

@@ -110,8 +110,8 @@ static void take(void *user, const struct ks_carried *at)
         field[i] += along * flow[i];
     const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow),
                  c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
-    /* The field perpendicular to the ray: its component along the light's direction in the matter's frame is
-     * subtracted. */
+    /* The component of the field perpendicular to the ray: its component along the light's direction in the matter's
+     * frame is subtracted. */
     double across[4];
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);

@@ -286,7 +286,7 @@ static void strokes_of_another_are_not_seen(void **state)
 
 /* Unused time is lent */
 
-/* A session with a small demand, at whatever rate, costs the others only that. */
+/* A session with a small demand takes from the others only this demand, whatever its rate of requests. */
 static void who_asks_for_little_gets_little(void **state)
 {
     (void)state;

@@ -297,7 +297,7 @@ static void measures(void **state)
     near(m.asymmetry, 0, 1e-14, "asymmetry", 0.9, 0);
     near(m.area, M_PI * m.mean_radius * m.mean_radius, 1e-12, "area", 0.9, 0);
     near(m.width, m.height, 1e-13, "width", 0.9, 0);
-    /* D is 2 a sin(i) for slow holes (Bardeen 1973; Chan et al. 2013 fit the rest). */
+    /* For slow holes D is 2 a sin(i) (Bardeen 1973; Chan et al. 2013 fit the rest). */
     struct kd_critical slow = curve_of(1e-5, 0.5, INFINITY, KD_OBSERVER_STATIC);
     near(kd_critical_measure(&slow).displacement, 2e-5 * sqrt(0.75), 1e-13, "displacement", 1e-5, 0);
 }

@@ -56,7 +56,7 @@ static void the_rings_of_gralla_holz_wald(void **state)
     }
 }
 
-/* The same edges found by rays in closed form, as close to the critical curve as alpha and beta can resolve: just
+/* The same edges are found by rays in closed form, as close to the critical curve as alpha and beta can resolve. Just
  * inside an edge the source is nearer. */
 static void rays_agree(void **state)
 {

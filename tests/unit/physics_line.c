@@ -275,8 +275,8 @@ static void test_bins_add_up(void **state)
         within("bin", 0.9, fine[2 * e], many[2 * e] + many[2 * e + 1], few[e], 1e-12);
 }
 
-/* The laws of limb darkening and emissivity, and the conversion to photons, seen face on, where all the light of a
- * ring has one energy. */
+/* Tests the laws of limb darkening and emissivity, and the conversion to photons, for a disk seen face-on, where all
+ * the light of a ring has one energy. */
 static void test_face_on(void **state)
 {
     double edges[] = { 0.1, 0.6, 0.7, 0.8, 0.9, 0.99 }, share[5];
@@ -287,7 +287,8 @@ static void test_face_on(void **state)
         struct kd_line_profile profile;
         struct kd_error error;
         assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
-        /* g = sqrt(1 - 3/r), b of the ring by its ray: rings of equal width in r, with an area of pi d(b^2) */
+        /* the rings have equal widths in r and areas of pi d(b^2), with g = sqrt(1 - 3/r) and b of the ring by its
+         * ray */
         double in[5] = { 0 }, all = 0, b2 = 0;
         for (int k = 0; k <= 4000; k++) {
             double r = 6 * pow(200. / 6, k / 4000.), low = 0, high = 2 * r;

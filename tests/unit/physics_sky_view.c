@@ -139,8 +139,9 @@ static void directions(void **state)
     }
 }
 
-/* Directions with one value of g form a circle about the axis along which E changes most. For g 1e-5 beyond an
- * extreme value the whole circle is dark, or there is none; for g 1e-5 short of it some of it is seen. */
+/* Directions with one value of g form a circle about the axis along which E changes most. For a g that is 1e-5 beyond
+ * an extreme value, the whole circle is dark, or there is none. For a g that is 1e-5 short of it, some of the circle is
+ * seen. */
 static bool circle_is_seen(const struct seer *s, const struct ks_frame *f, double g, int directions)
 {
     static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };

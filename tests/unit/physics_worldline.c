@@ -82,7 +82,7 @@ static void near(const char *what, const struct fall *f, double proper_time, dou
         fail_msg("spin %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->r, proper_time, what, got, wanted);
 }
 
-/* The reference is good to some 1e-10; next to r = 0 its steps are too long, so that it stops when half of the
+/* The reference is accurate to some 1e-10. Next to r = 0 its steps are too long, so that it stops when half of the
  * remaining way to the end is left. */
 static void what_falls_is_where_its_clock_says(void **state)
 {

@@ -157,7 +157,7 @@ static void debris_is_all_there(void **state)
     free(pieces);
 }
 
-/* A single piece is at its place: the centroid of its four nodes. */
+/* A single piece is at the right place: the centroid of its four nodes. */
 static void a_piece_is_at_its_place(void **state)
 {
     (void)state;

@@ -99,9 +99,9 @@ static void redshift(void **state)
     assert_true(inside && outside && step > 0 && step < 2e-3);
 }
 
-/* Radii fall until the turning point and rise after it: if the next crossing is nearer the hole, the ray is still on
- * its way in (so the photon leaves outwards), and if the last one was nearer, it is on its way out. Rays close to
- * the critical curve cross the plane on both parts, always inside the ISCO at a = 0. */
+/* Radii fall until the turning point and rise after it. If the next crossing is nearer the hole, the ray is still on
+ * its way in (so that the photon leaves outwards). If the last crossing was nearer, the ray is on its way out. Rays
+ * close to the critical curve cross the plane on both parts, always inside the ISCO at a = 0. */
 static void redshift_knows_the_turning_point(void **state)
 {
     (void)state;

@@ -345,7 +345,7 @@ static void a_field_in_microarcseconds(void **state)
     patched(&scene, "{\"camera\":null}");
     assert_true(scene.camera.field_m == 46 && isinf(scene.camera.field_uas));
 
-    /* outside the range of the field in M: the message is about the one that was given */
+    /* The width is outside the range of the field in M: the message is about the field that was given */
     patched(&scene, "{\"camera\":{\"field_uas\":1e10}}");
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/camera/field_uas");

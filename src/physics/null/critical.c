@@ -64,9 +64,9 @@ static struct place see(const struct kd_critical *c, double at)
 
 static double beta2_at(const void *curve, double at) { return label(curve, at).beta2; }
 
-/* An observer in the equatorial plane sees the equatorial orbit itself at an end of the curve. Others see the orbit
- * whose turning point is at the observer's latitude; near the axis that is far from the equatorial one, in units of
- * sin i. */
+/* The place of an end of the curve. An observer in the equatorial plane sees the equatorial orbit itself there. Others
+ * see the orbit whose turning point is at the observer's latitude. Near the axis its place is far from that of the
+ * equatorial orbit, in units of sin i. */
 static double end(const struct kd_critical *c, double equatorial)
 {
     double limit = copysign(1, equatorial);

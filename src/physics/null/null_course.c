@@ -206,7 +206,8 @@ static double length_of(const struct course *c)
     return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
 }
 
-/* True if a ray in ingoing coordinates comes from no outside: traced back, it reaches the past horizon from within. */
+/* True if a ray in ingoing coordinates does not come from outside the hole: traced back, it reaches the past horizon
+ * from within. */
 static bool is_dark(const struct course *c)
 {
     return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0;

@@ -24,9 +24,9 @@ double kd_null_radial_potential(const struct kd_null_motion *m, double r)
     return r * (r * (r * r + m->quadratic) + 2 * m->k) + m->constant;
 }
 
-/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, the quartic with b = 0: from `x`, until it stops
- * moving. From a suitable start it is monotone in exact arithmetic, so a reversal means that it is within rounding
- * of the root. */
+/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, for the quartic with b = 0. It starts from `x` and
+ * stops when x no longer moves. From a suitable start it is monotone in exact arithmetic, so that a reversal means that
+ * x is within rounding of the root. */
 static double newton(const double *k, int degree, double x)
 {
     double direction = 0;

@@ -49,8 +49,8 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
 
 struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r);
 
-/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the turning point (its mirror image beyond)
- * or the horizon; INNER: any sign, up to the horizon. */
+/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the horizon or the turning point, beyond which
+ * it is the mirror image. INNER: tau of any sign, up to the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
 /* Only the radius, at Mino time tau from infinity: 0 if the ray reaches the horizon before, INFINITY if it has

@@ -76,7 +76,8 @@ static double extreme(const struct kd_sky_view *v, double points[EDGE_POINTS][3]
     return sign * fmax(there, sample);
 }
 
-/* Polar coordinates about the middle of the dark disk, in the frame of the edge: every angle meets the edge once. */
+/* True if the direction is in the dark disk. It is compared with the edge in polar coordinates about the middle of the
+ * dark disk, in the frame of the edge: every angle meets the edge once. */
 static bool is_dark(const struct kd_sky_view *v, const double k[3])
 {
     double right = k[0], up = k[1], inwards = k[2];
