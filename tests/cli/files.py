@@ -174,7 +174,7 @@ class Files(support.Case):
         header = self.opened(self.shot("e.fits", *rolled, layers=["r"]))[0].header
         alpha, beta = WCS(header, key="A").pixel_to_world_values(
             0, 35
-        )  # 15.75 pixels left of the centre and 8.75 above it; the upper side points along alpha
+        )  # 15.75 pixels left of the centre and 8.75 above it; the camera is rolled, so that upwards is along alpha
         self.assertAlmostEqual(float(alpha), 4 + 8.75, places=9)
         self.assertAlmostEqual(float(beta), 15.75, places=9)
         east, north = WCS(header).pixel_to_world_values(0, 35)

@@ -151,7 +151,7 @@ class View(Case):
 
     def test_kitty_before_sixel(self):
         self.assertEqual(kitty(Terminal(*SMALL, answer=KITTY[:12] + SIXEL).sent)[1], self.rendered(*SMALL))
-        # the first query is answered too late, and another answer comes in between
+        # kitty's answer comes too late, after that of sixel
         shown = Terminal(*SMALL, answer=SIXEL + KITTY[:12])
         self.assertIn(b"\x1bP", shown.sent)
 

@@ -301,7 +301,8 @@ class Scarce(Case):
         because after a restart a different one might be measured."""
         server = self.start(by=self.faults.start)
         scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
-        self.faults.files(faults.RENAME, errno.ENOSPC, 4)  # three attempts for the accepted job, one for its exposure
+        # three renames when the job is accepted, and one for the record of its attempt
+        self.faults.files(faults.RENAME, errno.ENOSPC, 4)
         job = self.make({"scene": scene, "keyframes": [{"frame": 5, "scene": {"time": 25}}]}, server=server)
         self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server), 20), self.status(job, server))
         told = self.status(job, server)

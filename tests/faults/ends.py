@@ -34,7 +34,7 @@ class Descriptors(state.Case):
         paths = ("/healthz", "/metrics", "/v1/render?" + daemon.SMALL)
         good = [
             ask(connection, "GET", path.replace("/metrics", "/readyz")) for connection, path in zip(held, paths)
-        ]  # metrics are first requested when no descriptor is left
+        ]  # metrics are requested for the first time when no descriptor is left
         job = self.make({"scenes": [{**SCENE, "time": 50}] * 20}, server=server)
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
         limits = resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE)

@@ -1,5 +1,6 @@
-/* Pictures of all directions have no edges: the light of a star is the same everywhere, also on the seam between
- * left and right and at the poles, and so is the glare of a lens. The hole is so far away that space is flat. */
+/* Tests that pictures of all directions have no edges. The light of a star is the same everywhere, also on the seam
+ * between left and right and at the poles, and so is the glare of a lens. The hole is so far away that space is
+ * flat. */
 #include "render/sky/frame.h"
 #include "render/sky/star.h"
 #include "render/view/camera.h"

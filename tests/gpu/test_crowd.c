@@ -389,8 +389,8 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
     return sum;
 }
 
-/* Light that falls on a moving body: transformed into its frame by the matrix of the boost, a photon's four
- * components at a time. */
+/* Light that falls on a moving body is transformed into the body's frame by the matrix of the boost: the four
+ * components of one photon at a time. */
 static void test_lit_moving(void **state)
 {
     (void)state;

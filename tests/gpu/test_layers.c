@@ -512,7 +512,7 @@ static void test_tiny_fields(void **state)
         scene.camera.yaw_deg = views[v].yaw_deg;
         struct kd_frame frame = frame_of(&scene);
         const float *is = numbers_of(&frame, views[v].layer);
-        int there = 0; /* not the whole picture is disk */
+        int there = 0; /* counts pixels of the disk, which does not fill the picture */
         for (int i = 0; i < PIXELS; i++) {
             there += is[i] > 0;
             if (views[v].there ? is[i] <= 0 : !isnan(is[i]))

@@ -95,8 +95,8 @@ static void test_wide(void **state)
     kd_frame_finish(&frame);
 }
 
-/* An extremal hole, and an observer who falls near it: a ray that grazes the horizon has light all the same, through
- * every kind of gas that fills space. */
+/* With an extremal hole and an observer who falls near it, a ray that grazes the horizon still has light, through every
+ * kind of gas that fills space. */
 static void test_extremal(void **state)
 {
     (void)state;

@@ -378,9 +378,9 @@ static void test_sphere(void **state)
     }
 }
 
-/* Whole pictures against published values: Gold et al. 2020, table 1; the program Blacklight (White 2022); ipole's
- * model/riaf/riaf.txt. Blacklight's rays are parallel, but its observer is at rest at 1000 M: 230 GHz there are 230
- * sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
+/* Fluxes of whole pictures are compared with published values: Gold et al. 2020, table 1; the program Blacklight (White
+ * 2022); ipole's model/riaf/riaf.txt. Blacklight's rays are parallel, but its observer is at rest at 1000 M. Its 230
+ * GHz are 230 sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
 static void test_published(void **state)
 {
     (void)state;

@@ -133,7 +133,7 @@ static void test_stream(void **state)
         double mean = FALLING / BINS, sigma = sqrt(mean * (1 - 1.0 / BINS));
         for (int b = 0; b < BINS; b++)
             assert_true(fabs(phases[b] - mean) < 4 * sigma && fabs(turns[b] - mean) < 4 * sigma);
-        assert_true(same < 40); /* 13 would be so by chance */
+        assert_true(same < 40); /* 13 would be equal by chance */
     }
 }
 

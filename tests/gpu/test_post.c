@@ -167,8 +167,8 @@ static void no_number(void **state)
         }
 }
 
-/* White and brighter light stays white: dither does not overflow the last level, nor lower it by more than one of 16
- * bits; black stays black. */
+/* White and brighter light stays white: dither does not overflow the last level, nor does it lower the level by more
+ * than one of 16 bits. Black stays black. */
 static void ends(void **state)
 {
     (void)state;

@@ -76,7 +76,7 @@ static void flow_of(const struct kd_scene *scene, double a, double r, double g[4
         v[i] = size * turns[i];
 }
 
-/* A torus: its velocity there, and h - 1; most: the maximum of h - 1. */
+/* Velocity of a torus at a place, and h - 1 there; most: the maximum of h - 1. */
 static double torus_at(const struct kd_volume *v, double a, double g[4][4], double flow[4], double *most)
 {
     double inner[4][4], mid[4][4], orbit[4], low[4];
@@ -439,8 +439,8 @@ static struct coefficients kappa_integrals(double kappa, double w, double turn, 
     return o;
 }
 
-/* The fits of a kappa distribution against the integrals, which use no fit: within a quarter for emission (a third
- * for V), and for rotation within the accuracy of thermal fits. */
+/* The fits of a kappa distribution are compared with the integrals, which use no fit. They agree within a quarter for
+ * emission (a third for V), and for rotation within the accuracy of thermal fits. */
 static void test_kappa_fits(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Device memory: shared blocks, reuse, release, refusal. */
+/* Tests of device memory: shared blocks, reuse, release, and refusal. */
 #include "support.h"
 
 static void small_ones_share_a_block(void **state)

@@ -1,4 +1,5 @@
-/* Placement of barriers without a device: each case by hand, then random programs against the definition. */
+/* Tests of the placement of barriers, without a device: each case by hand, and then random programs compared with the
+ * definition. */
 #include "support.h"
 
 #include "vk/hazard.h"

@@ -239,7 +239,7 @@ class Kinds(daemon.Owned):
         number = int(answer.header("Kerrd-Frame"))
         while int(answer.header("Kerrd-Revision")) < int(
             self.status(session)["revision"]
-        ):  # the format comes eventually, even if not at once
+        ):  # the change is shown eventually, if not at once
             answer = self.get(session, f"lossy=70&after={number}")
             number = int(answer.header("Kerrd-Frame"))
         self.assertIsNone(answer.header("Kerrd-Patched"))

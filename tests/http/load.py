@@ -86,7 +86,9 @@ class Plans(daemon.Case):
                 return sum(map(int, f.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
 
         before = seconds()
-        for _ in range(40):  # if the objects were listed, each request would mark 134 MB and take 0.1 s at best
+        # if the pixels at the critical curve were listed, the marks would take 134 MB for each request, and 0.1 s at
+        # best
+        for _ in range(40):
             self.assertProblem(
                 self.daemon.post("/v1/plan", '{"image":{"width":32768,"height":32768}}'), 422, "too-large"
             )

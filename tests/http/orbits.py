@@ -237,7 +237,7 @@ class Orbits(daemon.Case):
         for t in threads:
             t.join()
         body = json.dumps({"orbits": [{"p": 8, "e": 0.5}] * 3000, "duration": {"periods": 1000}}).encode()
-        with self.daemon.connect(60) as s:  # waits for the whole answer first, and then only for the first bytes
+        with self.daemon.connect(60) as s:  # the client requests the whole answer, but leaves before it comes
             s.sendall(
                 b"POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n"
                 % len(body)

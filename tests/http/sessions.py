@@ -554,7 +554,7 @@ class Sessions(daemon.Owned):
         self.assertTrue(1 < two - one < 10 * (time.monotonic() - begun))
         self.patch(session, {"motion": None})
         three = self.status(session)["scene"]["camera"]["azimuth_deg"]
-        self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # its time stands still
+        self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # the camera stops where it is
         self.assertEqual(self.status(session)["scene"]["camera"]["azimuth_deg"], three)
 
     FALL = {**SCENE, "time": 0, "spacetime": {"spin": 0, "mass_msun": 4.3e6}, "camera": {"r": 8, "observer": "infall"}}

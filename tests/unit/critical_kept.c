@@ -1,5 +1,5 @@
-/* The cached list of a camera is computed once, is eventually evicted, and equals that of kd_critical_pixels_of
- * whatever was cached before. */
+/* Tests of the cached list of a camera: it is computed once, is eventually evicted, and equals that of
+ * kd_critical_pixels_of whatever was cached before. */
 #include "render/view/critical_kept.h"
 
 #include "scene/table.h"

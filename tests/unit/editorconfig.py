@@ -72,7 +72,7 @@ def wrong(root):
                 yield f"{where}:{number}: blanks or CR at the end"
             if b"\t" in line and not (
                 number > 1 and line.startswith(b"\t") and data.startswith(b"#!/usr/bin/make ")
-            ):  # the rules for this suffix ask for tabs
+            ):  # make requires tabs
                 yield f"{where}:{number}: a tab"
 
 

@@ -556,8 +556,8 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Bounds failed climbs: since the wait doubles after each, 3 s (2^n - 1) <= T, plus those before the first wait, one
- * a rung; each is at most between a descent and a climb of the whole ladder. */
+/* Bounds the number n of failed climbs: since the wait doubles after each, 3 s (2^n - 1) <= T. In addition there are
+ * those before the first wait, one for each rung. Each causes at most a descent and a climb of the whole ladder. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;

@@ -65,8 +65,8 @@ static void test_rings_are_where_rays_lead(void **state)
         }
 }
 
-/* The nodes of the table lie where rays meet their ring, although most are found from one ray and one step whose
- * result is not checked: within 5e-7 of r up to 80 degrees, 3e-6 at 85. Next to edge on within 2e-5. */
+/* The nodes of the table lie where rays meet their ring, although most are found from one ray and one step whose result
+ * is not checked. The error is within 5e-7 of r up to 80 degrees, 3e-6 at 85, and 2e-5 next to edge-on. */
 static void test_nodes(void **state)
 {
     static const double spins[] = { 0, 0.9, 0.998, 0.99999, -0.998 }, inclinations[] = { 0, 40, 72, 80, 85, 86.9 };

@@ -157,8 +157,8 @@ static void continuity(void **state)
     within(0, 0, "r below beta = 0", fabs(kd_null_trace(&down).crossing[0].r / r - 1), 1e-12);
 }
 
-/* Across the axis: alpha -> 0 from the two sides gives azimuths that differ by pi to either side, and alpha = 0
- * exactly one of them. */
+/* Across the axis: alpha -> 0 from the two sides gives azimuths that differ by 2 pi. alpha = 0 gives exactly one of
+ * them. */
 static void the_axis(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static void principal_rays(void **state)
     double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0);
     within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
-           1e-7); /* a double root of U: the rounding of alpha under a square root */
+           1e-7); /* at a double root of U the rounding of alpha is under a square root */
     within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
     struct kd_null_ray axis = { .spin = a, .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
     p = kd_null_trace(&axis);

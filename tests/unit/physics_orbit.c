@@ -67,7 +67,7 @@ static void frequencies_are_the_averages(void **state)
         struct kd_orbit_bound b = bound_of(&o);
         struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&b);
         double bound = 1e-14 * condition(e);
-        if (e->e == 0 && e->p < 6.01) /* so near the ISCO Upsilon_r is the root of a difference of 1e-4 */
+        if (e->e == 0 && e->p < 6.01) /* so near the ISCO, Upsilon_r is the square root of a difference of 1e-4 */
             bound = 1e-12;
         close_to(i, "Upsilon_r", f.mino_r, e->mino_r, 2 * bound * e->mino_r);
         close_to(i, "Upsilon_theta", f.mino_theta, e->mino_theta, bound * e->mino_theta);
@@ -273,7 +273,7 @@ static void circles_at_the_edge(void **state)
     }
 }
 
-/* From E, L and Q back to the turning points; just inside them the same constants give another kind of motion. */
+/* E, L and Q give the turning points again. Just inside them the same constants give another kind of motion. */
 static void constants_and_back(void **state)
 {
     (void)state;
@@ -419,8 +419,8 @@ static void see(void *user, int lane)
     seen->w[lane] = seen->lanes->path[lane]->place[KD_PATH_W].value;
 }
 
-/* Equal to the last bit, each lane with its own number of steps of its own length, and each reports every
- * periastron. */
+/* The lanes equal single paths to the last bit, although each lane takes its own number of steps of its own length.
+ * Each lane reports every periastron. */
 static void lanes_are_paths(void **state)
 {
     (void)state;

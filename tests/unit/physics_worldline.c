@@ -1,6 +1,6 @@
-/* Observers that move by their own clock, compared with Hamilton's equations in ingoing Kerr-Schild coordinates. These
- * are integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the metric by
- * differences. They use no separation of variables, and no integral over r. */
+/* Tests of observers that move by their own clock. They are compared with Hamilton's equations in ingoing Kerr-Schild
+ * coordinates, integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the
+ * metric by differences. This uses no separation of variables, and no integral over r. */
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/infall.h"
 #include "physics/spacetime/kerr.h"

@@ -173,8 +173,8 @@ static void mergers_keep_mass_and_momentum(void **state)
     kd_playground_destroy(p);
 }
 
-/* The slope of the rate at which debris comes back, by least squares over the decade that begins at twice the time
- * of the first piece; the counting does not use Kepler's law. Half of the debris is bound. */
+/* The slope of the rate at which debris comes back, by least squares over the decade that begins at twice the time of
+ * the first piece. The counting does not use Kepler's law. Half of the debris is bound. */
 static void debris_comes_back_as_the_fifth_third_power(void **state)
 {
     (void)state;

@@ -219,9 +219,9 @@ static void fall(void **state)
     published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
 }
 
-/* The sky that rain sees in Schwarzschild: light from behind is as above; light from the side, with L = 0 and p^r =
- * 0 in rain's frame, is unshifted; and at the horizon the dark disk has the radius 2 atan(2/sqrt(27)), with E = 1/(1
- * - cos sqrt(2/r)) at its edge. */
+/* The sky that rain sees in Schwarzschild. Light from behind is as above. Light from the side, with L = 0 and p^r = 0
+ * in rain's frame, is unshifted. At the horizon the dark disk has the radius 2 atan(2/sqrt(27)), with E = 1/(1 - cos
+ * sqrt(2/r)) at its edge. */
 static void sky_of_rain(void **state)
 {
     (void)state;

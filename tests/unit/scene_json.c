@@ -209,8 +209,8 @@ static void old_names_are_read(void **state)
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
     picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* this field did not exist then */
-    picture.sky.brightness = preset.sky.brightness;               /* nor this word */
-    picture.source = preset.source;                               /* nor these */
+    picture.sky.brightness = preset.sky.brightness;               /* nor did this word */
+    picture.source = preset.source;                               /* nor did these fields */
     assert_memory_equal(&picture, &preset, sizeof picture);
     struct kd_scene scene = of("{\"spots\":[{\"r\":10},{\"r\":11},{\"r\":12},{\"r\":13}]}");
     patched(&scene, "{\"spot2\":{\"r\":20},\"spot3\":null,\"spot1\":{\"size\":2}}");

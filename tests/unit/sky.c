@@ -173,8 +173,8 @@ static void packing(void **state)
     }
 }
 
-/* The Milky Way is black at the poles and on average some 22 magnitudes a square arcsecond in its plane, and nowhere
- * negative; the coarsest level is the mean. */
+/* The Milky Way is black at the poles. In its plane it has on average some 22 magnitudes a square arcsecond. It is
+ * nowhere negative, and the coarsest level is the mean. */
 static void the_milky_way(void **state)
 {
     (void)state;

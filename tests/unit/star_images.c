@@ -55,9 +55,9 @@ static struct kd_sky_map map_of(const struct sky *sky)
     return (struct kd_sky_map) { .width = WIDTH, .height = HEIGHT, .coarse = 0.15, .of = sky, .row = row_of };
 }
 
-/* Each star in the picture has one image, where the camera has it, with the pixel's own solid angle, cos^3 over the
- * square of the distance; left stays left unless mirrored. If the observer circles, the star it matches is the one
- * rotated back. */
+/* Each star in the picture has one image, at the place that the camera gives. It has the pixel's own solid angle, cos^3
+ * over the square of the distance. Left stays left unless the camera mirrors. If the observer circles, the star that an
+ * image belongs to is the one rotated back. */
 static void a_plain_camera(void **state)
 {
     (void)state;

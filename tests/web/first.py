@@ -17,7 +17,7 @@ class First(Browser):
             text = route.fetch().text()
             changed, n = re.subn(
                 r"""(first_view ?= ?)(['"])[^'"]*\2""", rf'\1"{first}"', text
-            )  # as it is written, or shortened
+            )  # the script as it is written, or minified
             self.assertEqual(n, 1)
             route.fulfill(body=changed, content_type="text/javascript")
 

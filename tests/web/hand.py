@@ -74,7 +74,7 @@ class Hand(Browser):
         self.assertTrue(daemon.eventually(lambda: self.field(page, "camera.azimuth_deg") != camera))
 
     def test_the_card_follows_the_pointer_until_it_is_pinned(self):
-        page = self.open(FACE_ON)  # wide enough for the card beside the picture
+        page = self.open(FACE_ON)  # in this window there is room beside the card
         self.card(page, lambda: page.click("#ask"))
         box = page.locator("#stage").bounding_box()
         cross = lambda: page.evaluate('(({ style }) => [style.left, style.top])(document.getElementById("cross"))')
@@ -198,7 +198,7 @@ class Hand(Browser):
             y = box["y"] + 12
             touch((195, y), (195 + way * 40, y), (195 + way * 110, y + 4))
             page.wait_for_selector(f"#gallery [data-preset={chosen}][aria-pressed=true]")
-        stands("low", "out of the way")  # a press that was no tap on its handle
+        stands("low", "out of the way")  # the swipe was no tap on the handle of the sheet
         touch((195, line["y"] + 12), (170, line["y"] + 12))
         touch((195, line["y"] + 12), (130, line["y"] - 60))
         tilt = self.field(page, "camera.inclination_deg")
