@@ -44,7 +44,8 @@ def find_kerrz():
 
 
 def time_kerrz(program, mapper, flags, side, core):
-    """Rays/s from the time that kerrz prints: its tracing and mapping, without starting up or writing the file."""
+    """Rays per second from the time that kerrz prints. It contains tracing and mapping, but neither the start nor the
+    writing of the file."""
     with tempfile.TemporaryDirectory() as folder:
         text = measure.one_core(
             [

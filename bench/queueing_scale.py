@@ -120,7 +120,7 @@ def curve(n, measured):
     out = {}
     for load in (
         LOADS if n < 1000 else (load for load in LOADS if load < 1)
-    ):  # of a thousand it takes minutes, and from 1 on they are as a hundred
+    ):  # with a thousand servers it takes minutes, and from a load of 1 on the result is that of a hundred
         each = EACH if n < 1000 else EACH // 5
         logs = [renders(n, load, measured, each, seed=seed)[0] for seed in range(max(1, 20 // n))]
         out[load] = round(p95([row for log in logs for row in log]), 4)

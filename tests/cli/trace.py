@@ -1,5 +1,5 @@
-"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats. numpy computes which case of
-roots it is."""
+"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats. The case of its roots is
+compared with numpy's."""
 
 import csv
 import io

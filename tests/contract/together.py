@@ -133,7 +133,7 @@ TIMELINE = (
     "proper_time is %.9g M; it must be 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
     "%s follows a keyframe at %.9g, the last place that there may be",
     "%s is given with motion.proper_time_rate; only one of them may be given",
-    "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each is behind the one before it
+    "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each keyframe is later than the one before it
     "keyframes/%zu/frame is %s; it must be |a whole number from %u to %u",
     "frames is %s; it must be |a whole number from %u to %u",
     'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" of an observer that falls from further out without leaving its latitude',
@@ -395,7 +395,7 @@ TOGETHER = [
             "velocity is %.9g c; it must be %s",
             "position is %.9g M from the hole; it must be more than %g M: closer in all is the hole's",
             "there is no such body in a snapshot: it is the hole's, or faster than c",
-            "name is no string of up to %zu bytes",  # a schema counts characters
+            "name is no string of up to %zu bytes",  # a schema counts characters, not bytes
             "r is %.16g; it must be above the horizon at %.9g",  # this and what follows: with gravity "kerr"
             "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
             "the motion from r = %.16g cannot be followed in double precision",

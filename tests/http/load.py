@@ -86,8 +86,7 @@ class Plans(daemon.Case):
                 return sum(map(int, f.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
 
         before = seconds()
-        # if the pixels at the critical curve were listed, the marks would take 134 MB for each request, and 0.1 s at
-        # best
+        # listing the pixels at the critical curve would take 134 MB of marks and at least 0.1 s for each request
         for _ in range(40):
             self.assertProblem(
                 self.daemon.post("/v1/plan", '{"image":{"width":32768,"height":32768}}'), 422, "too-large"

@@ -466,8 +466,8 @@ class Integrals(daemon.Case):
         )
 
     def test_transfer_functions_are_lines(self):
-        """A narrow ring's line is the sum over its near and far side: F = pi r f g^2/sqrt(g* (1 - g*)) dg* dr, with g*
-        = (1 - cos x)/2."""
+        """The line of a narrow ring is the sum over its near and far side: F = pi r f g^2/sqrt(g* (1 - g*)) dg* dr,
+        with g* = (1 - cos x)/2."""
         n, r, width = 400, 9, 1e-3
         stars = [(1 - math.cos(math.pi * (k + 0.5) / n)) / 2 for k in range(n)]
         told = self.post(

@@ -105,7 +105,7 @@ class Stops(Case):
         server.process.kill()
         server.wait()
         server = self.start()
-        self.until(second, "done", server)  # the first job is done
+        self.until(second, "done", server)  # the second job goes first, because the first has a failed attempt
         self.assertEqual(self.status(first, server)["state"], "running")
         self.assertEqual(server.stop(), 0)
         self.write(first, "job.json", json.dumps({**self.record(first), "attempts": 7}))

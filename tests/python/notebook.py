@@ -1,7 +1,7 @@
-"""The widget in JupyterLab, in headless Chromium: turned by a hand, changed from a cell, and without its server.
+"""Tests of the widget in JupyterLab, in headless Chromium: dragged, changed from a cell, and without its server.
 
-    notebook.py KERRD FOLDER SHOTS              pictures of what was seen go to SHOTS
-    notebook.py KERRD FOLDER --picture FILE     no test, but the picture of docs/python.md
+notebook.py KERRD FOLDER SHOTS              pictures of what was seen go to SHOTS
+notebook.py KERRD FOLDER --picture FILE     no test: makes the picture of docs/python.md
 
 JupyterLab is that of venv-jupyter/ (scripts/setup --jupyter), Playwright that of venv/.
 """

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Compares the model of bench/queueing.py with closed forms of queues: M/M/1, M/D/1, Erlang's C, weights, and limits.
+"""Compares the model of bench/queueing.py with closed forms of queues.
 
-The weights are those of shares.h, and the limits those that refuse.
+These are M/M/1, M/D/1, Erlang's C, the shares that follow from the weights of shares.h, and the refusals that follow
+from limits.
 
 queueing.py BENCH
 """
