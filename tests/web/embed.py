@@ -1,5 +1,7 @@
-"""A hole in a page of another origin: embed.py KERRD FOLDER (browser.py). The page stands at localhost, the server at
-127.0.0.1, which is another site to a browser."""
+"""Tests of a picture embedded in a page of another origin: embed.py KERRD FOLDER (browser.py).
+
+The page is at localhost and the server at 127.0.0.1, which are different sites to a browser.
+"""
 
 import base64
 import gzip
@@ -19,7 +21,7 @@ def code_of(text):
 
 
 class Page(http.server.SimpleHTTPRequestHandler):
-    """A site of its own; each page contains what its query says."""
+    """Serves the other site. Each page contains what its query says."""
 
     bodies = {}
 
@@ -45,7 +47,7 @@ class Embed(Browser):
         cls.addClassCleanup(site.shutdown)
         super().setUpClass("--embed-origin", cls.origin if cls.listed else "https://elsewhere.example")
 
-    def tearDown(self):  # requests go to the site as well
+    def tearDown(self):  # requests go to the other site as well
         for context in self.contexts:
             for page in context.pages:
                 page.goto("about:blank")
@@ -83,7 +85,7 @@ class Embed(Browser):
         )
 
     def canvas(self, page):
-        """A checksum of the live picture; None: there is none."""
+        """A checksum of the live picture; None if there is none."""
         return page.evaluate("""() => {
             const canvas = document.querySelector('kerr-hole').shadowRoot.querySelector('canvas');
             if (canvas.hidden) return null;
@@ -130,7 +132,7 @@ class Listed(Embed):
         page = self.show(self.element('preset="smooth" interactive', 20), viewport={"width": 1000, "height": 640})
         self.assertTrue(daemon.eventually(lambda: self.posters(page) >= 2))
         self.assertEqual(self.sessions(), 0)
-        page.evaluate("document.body.style.columns = 3")  # several in sight
+        page.evaluate("document.body.style.columns = 3")  # several pictures are visible
         buttons = page.get_by_role("button", name="Move it")
         page.wait_for_timeout(500)
         for k in range(3):
