@@ -198,6 +198,19 @@ class Documents(unittest.TestCase):
     def test_http(self):
         self.run_all("docs/http.md", 6)
 
+    def test_other_languages(self):
+        self.made("docs/other-languages.md", 2, "hole.png", "radii.csv", "spot.png")
+        text = ROOT.joinpath("docs/other-languages.md").read_text()
+        asked = {
+            language: set(
+                re.findall(r'http://[^"]+', "".join(re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)))
+            )
+            for language in ("sh", "julia", "r")
+        }
+        self.assertEqual(len(asked["sh"]), 3)
+        self.assertEqual(asked["julia"], asked["sh"], "curl stands for Julia")
+        self.assertEqual(asked["r"], asked["sh"], "curl stands for R")
+
     def test_observers(self):
         self.run_all("docs/physics/observers.md", 1)
 

@@ -43,7 +43,7 @@ def texts(root):
         folders[:] = sorted(
             name
             for name in folders
-            if name == ".ci" or not name.startswith((".", "__", "build")) and not name.endswith(".egg-info")
+            if name == ".ci" or not name.startswith((".", "__", "build", "venv-")) and not name.endswith(".egg-info")
         )
         for name in sorted(names):
             path = pathlib.Path(folder) / name

@@ -6,6 +6,7 @@ The page is at localhost and the server at 127.0.0.1, which are different sites 
 import base64
 import gzip
 import http.server
+import pathlib
 import threading
 import urllib.request
 import zlib
@@ -13,6 +14,8 @@ import zlib
 from browser import Browser, main
 
 import daemon
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def code_of(text):
@@ -127,6 +130,44 @@ class Listed(Embed):
         page.keyboard.press("Escape")
         self.assertTrue(daemon.eventually(lambda: self.sessions() == 0))
         self.assertEqual(page.get_by_role("button", name="Move it").count(), 1)
+
+    def test_the_client_of_the_package(self):
+        """clients/javascript in a browser, in a page of another origin; tests/javascript has all that it does."""
+        client = ROOT.joinpath("clients/javascript/client.js").read_text()
+        page = self.show("")
+        page.route("**/client.js", lambda route: route.fulfill(body=client, content_type="text/javascript"))
+        told = page.evaluate(
+            """async url => {
+                const { Client, Problem } = await import('/client.js'), hole = new Client(url), image = { width: 64, height: 36 };
+                const { width, height } = await createImageBitmap((await hole.render({ image })).blob);
+                const { accuracy, approximations } = await hole.render({ image });
+                const live = await hole.session({ image }), first = await live.frame();
+                await live.patch({ spacetime: { spin: 0.5 } });
+                let last;
+                for await (last of live.frames({ quality: 50, untilFinal: true }));
+                await live.close();
+                const job = await hole.job({ scene: { image } });
+                await job.wait();
+                const { type } = await job.result();
+                await job.close();
+                const pointer = await hole.render({ image: { width: 0 } }).catch(error => error instanceof Problem && error.pointer);
+                return { size: [width, height], rays: accuracy.rays, approximations: approximations.length, first: first.revision,
+                    last: last.revision, final: last.final, type, pointer };
+            }""",
+            self.base,
+        )
+        self.complaints.clear()  # the refusal is one
+        self.assertGreaterEqual(told.pop("rays"), 64 * 36)
+        self.assertGreater(told.pop("approximations"), 3)
+        wanted = {
+            "size": [64, 36],
+            "first": 1,
+            "last": 2,
+            "final": True,
+            "type": "image/png",
+            "pointer": "/image/width",
+        }
+        self.assertEqual(told, wanted)
 
     def test_twenty_on_a_page(self):
         page = self.show(self.element('preset="smooth" interactive', 20), viewport={"width": 1000, "height": 640})
