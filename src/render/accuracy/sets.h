@@ -29,7 +29,7 @@ struct kd_accuracy_view { double spin, inclination_deg; };
 
 uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out[KD_ACCURACY_VIEWS]);
 
-/* The n rays of one of its views: 2 n numbers. */
+/* Writes the n rays of one view of the set: 2 n numbers. */
 void kd_accuracy_rays(enum kd_accuracy_set set, uint32_t view, size_t n, double *alpha_beta);
 
 #endif

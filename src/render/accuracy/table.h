@@ -57,7 +57,7 @@ struct kd_accuracy_choice {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps;
-    double error, rays_per_s; /* the tolerance that it meets; its speed on the bulk set */
+    double error, rays_per_s; /* the tolerance that the row meets; its speed on the bulk set */
 };
 
 /* The tolerance that a row meets; INFINITY if none. */

@@ -81,7 +81,7 @@ struct kd_accuracy_report {
     /* for an interpolated lens map: rays that were traced for it (nodes shared by slices count twice); pixels' rays
      * in smooth cells. 0: not interpolated */
     uint64_t traced, interpolated;
-    uint32_t sampled, crossings; /* rays traced again; crossings compared */
+    uint32_t sampled, crossings; /* rays that were traced again; crossings that were compared */
     uint32_t differ;             /* crossings that only one of the two has; rays with different fates */
     double median, worst;        /* relative error of the radius */
     uint64_t followed;           /* rays traced beyond the plan's, by refinement, on */

@@ -51,8 +51,8 @@ enum kd_status kd_emitter_buffers_kernel(const struct kd_emitter_buffers_work *w
                                          const struct kd_vk_pipeline_params *kernel, const uint32_t *constants,
                                          size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
 
-/* The sky's is in device/skies.c, which keeps panoramas for all pictures of a renderer. That of matter at a radio
- * frequency is in device/grids.c, which reads volume.grid. */
+/* The buffers of the sky are in device/skies.c, which keeps panoramas for all pictures of a renderer. Those of matter
+ * at a radio frequency are in device/grids.c, which reads volume.grid. */
 extern const struct kd_emitter_buffers kd_emitter_buffers_sky, kd_emitter_buffers_plasma;
 
 #endif

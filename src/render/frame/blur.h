@@ -1,6 +1,6 @@
-/* Motion blur: averages the light of several pictures, at times while a shutter is open, before exposure, bloom and
- * tone curve. The average is of linear light, for each pixel, on the host, in double precision. Only the thread that
- * has the renderer. */
+/* Motion blur: averages the light of several pictures, at times while a shutter is open. This comes before exposure,
+ * bloom and tone curve. The average is of linear light, for each pixel, on the host, in double precision. Only the
+ * thread that has the renderer. */
 #ifndef KD_RENDER_FRAME_BLUR_H
 #define KD_RENDER_FRAME_BLUR_H
 

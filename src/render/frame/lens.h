@@ -21,8 +21,8 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_c
 /* Number of dispatches for the light of a pixel with `rays` rays, one for each kd_slice.ray: the march follows one
  * ray at a time. */
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
-/* Dispatches of both kernels without their size: from rays of a camera (view/layout.h) to a lens map, and from there
- * to the radiance of a band. */
+/* The dispatches of both kernels, without their size: from rays of a camera (view/layout.h) to a lens map, and from
+ * there to the radiance of a band. */
 struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
@@ -47,19 +47,20 @@ struct kd_frame_part {
 };
 struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *job, const struct kd_frame_list *list,
                                       uint64_t number);
-/* Range of its pixels, counted from its first, that lies in a band: from *from up to but not including *to. */
+/* The range of the part's pixels, counted from its first, that lies in a band: from *from up to but not including
+ * *to. */
 void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band,
                            uint64_t *from, uint64_t *to);
-/* Uploads their places, which follow the planes. */
+/* Uploads the places of the part's pixels, which follow the planes. */
 enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_frame_part *part);
 
 /* Describes the light of the plan's pixel again, if it is in a part that has just been lit. */
 enum kd_status kd_frame_probe_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
 
-/* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band). The list of
- * open rays is emptied before rays are traced. Afterwards those on the list are traced again (settle.c):
- * kd_frame_settle submits what is recorded, waits, and records the writes to the map. Rays that stay open are
- * counted in job->undecided. */
+/* Rays that the kernels leave open, in a band of the grid or a part of a list (part: NULL for the band).
+ * kd_frame_forget_open empties the list of open rays; call it before rays are traced. kd_frame_settle then traces the
+ * rays on the list again (settle.c): it submits what is recorded, waits, and records the writes to the map. Rays that
+ * stay open are counted in job->undecided. */
 enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_frame_part *part);
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 
