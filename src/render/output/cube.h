@@ -36,9 +36,9 @@ struct kd_cube {
     struct kd_cube_layer layers[KD_WORDS_MOST];
     size_t n_layers;
     unsigned seen;     /* scenes scanned so far */
-    uint64_t *places;  /* offsets of the numbers in the files: n_layers a scene */
-    struct kd_wcs wcs; /* of the first scene */
-    bool wcs_differ;   /* whether any scene has another one */
+    uint64_t *places;  /* offsets of the layers' numbers in the scenes' files: n_layers for each scene */
+    struct kd_wcs wcs; /* world coordinates of the first scene */
+    bool wcs_differ;   /* whether any scene has other world coordinates */
     struct kd_cube_texts {
         char *at[KD_CUBE_TEXTS];
         size_t n;
@@ -54,12 +54,12 @@ enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cub
 void kd_cube_finish(struct kd_cube *cube);
 /* Scans some more scenes. *over: all are done. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
-/* What is stored for a scene: hash, accuracy of its picture, and flux. */
+/* The bytes stored for a scene: hash, accuracy of its picture, and flux. */
 static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene)
 {
     return cube->rows + (size_t)scene * KD_CUBE_ROW;
 }
-/* Joins all texts: "a; b". */
+/* Joins all texts into one: "a; b". */
 enum kd_status kd_cube_join(const struct kd_cube_texts *texts, struct kd_buffer *out);
 /* Bytes of a layer's numbers in one scene. */
 static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)

@@ -56,11 +56,11 @@ struct kd_format {
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
-/* JPEG frames of live views, of the quality given in kd_picture; not in the table. jpeg.c */
+/* JPEG frames of live views, with the quality given in kd_picture. This format is not in the table. jpeg.c */
 extern const struct kd_format kd_format_jpeg;
 
-/* FITS files of the scenes of a cube; not in the table. They have exactly the layers that image.layers names, so
- * that all scenes have the same. fits.c */
+/* FITS files of the scenes of a cube. They have exactly the layers that image.layers names, so that all scenes have the
+ * same layers. This format is not in the table. fits.c */
 extern const struct kd_format kd_format_cubed;
 
 /* The first is the default. formats.c */

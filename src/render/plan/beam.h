@@ -19,8 +19,10 @@
 
 struct kd_beam_grid {
     uint32_t cell;          /* pixels along the side of a cell; 0: no beam, or one too narrow to show */
-    uint32_t columns, rows; /* of the grid; if cells are larger than pixels, one more on each side of the picture */
-    uint32_t height;        /* of the picture: the rows of cells before they are summed, one for each row of pixels */
+    uint32_t columns, rows; /* of the grid; if cells are larger than pixels, there is one more cell on each side of the
+                             * picture */
+    uint32_t height;        /* rows of the picture: each row of pixels has a row of cells before these are summed to the
+                             * grid */
     double sigma;           /* standard deviation of the blur, in cells */
     uint32_t reach;         /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */
 };
@@ -28,7 +30,7 @@ struct kd_beam_grid {
 /* The grid for a valid scene's picture. */
 struct kd_beam_grid kd_beam_of(const struct kd_scene *scene);
 
-/* Bytes of the rows of cells, one for each row of pixels; and of one grid. */
+/* Bytes of the rows of cells, one for each row of pixels. kd_beam_cells_bytes: bytes of one grid. */
 static inline uint64_t kd_beam_lines_bytes(const struct kd_beam_grid *beam)
 {
     return 16ull * beam->columns * beam->height;

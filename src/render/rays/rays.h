@@ -32,7 +32,7 @@ struct kd_rays_params {
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;              /* per half period, a multiple of 4; 0: the engine's default; closed form: 0 */
     double tolerance;            /* > 0: rays whose own error exceeds it are traced again more finely; 0: none */
-    double holds; /* tolerance that the setting meets by the table, for the answer; 0: no tolerance was asked for */
+    double holds; /* the tolerance that the setting meets by the table, for the answer; 0: no tolerance was asked for */
     /* 0: rays are labels, for any observer at this place. Otherwise 1 + enum kd_observer: rays are directions in
      * this observer's frame, with the parameters of kd_observer_motion: */
     int observer;
@@ -68,12 +68,12 @@ struct kd_ray_end {
 /* Whether two ends are equal bit for bit, ignoring padding. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
-/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set. With a
- * tolerance, each ray that is undecided or exceeds it by its own error is traced again with more steps in double
- * precision, then in closed form; what still exceeds it is beyond double precision. rays: 2 n numbers. crossings: n
- * * orders records, those of one ray together; unused ones are NaN. ends: n. renderer may be NULL for
- * KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL with a pointer
- * such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
+/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set.
+ * With a tolerance, each ray that is undecided or exceeds it by its own error estimate is traced again with more steps
+ * in double precision, then in closed form. A ray that still exceeds it is beyond double precision.
+ * rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer
+ * may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL
+ * with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error);

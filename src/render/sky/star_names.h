@@ -16,8 +16,8 @@ struct kd_star_name {
     char designation[KD_STAR_NAME]; /* in that case "α Lyr", by J. Bayer or J. Flamsteed; else "" */
 };
 
-/* Reads the next one, the brightest first. *text: NULL at the first call; it becomes NULL after the last name, and
- * then *out is not set. */
+/* Reads the next name, that of the brightest star first. *text: NULL at the first call; it becomes NULL after the last
+ * name, and then *out is not set. */
 void kd_star_name_next(const char **text, struct kd_star_name *out);
 
 #endif

@@ -26,16 +26,16 @@
 #define KD_RIM_SEEN 0.1         /* fraction of KD_STAR_LEAST; motion makes stars brighter */
 #define KD_RIM_PIXELS 14.0      /* width of the rim in pixels: there neighbouring pixels end far apart */
 #define KD_RIM_NOISE \
-    1.3e-3 /* The rim is at least this wide, times its radius in pixels: beyond that width the rounding of 32 bits, \
-              7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
-#define KD_RIM_MOST 1.0 /* its width is at most this fraction of its radius */
+    1.3e-3 /* The width of the rim is at least this times its radius in pixels: beyond that width the rounding of 32 \
+            * bits, 7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
+#define KD_RIM_MOST 1.0 /* the width of the rim is at most this fraction of its radius */
 
 struct kd_rim {
     bool there;
     /* relative distances from the curve: beyond `none` images come from the grid alone, within `full` from the rim
      * alone; between them their light is shared */
     double none, full;
-    double last; /* the least relative distance of its rays */
+    double last; /* the least relative distance from the curve of the rim's rays */
     /* rad, roughly: the most by which the sky shifts from one point of the curve to the next, from the first ray in
      * to the last */
     double winds;
@@ -43,7 +43,7 @@ struct kd_rim {
     bool flat;
     double ahead[3], right[3],
         up[3]; /* axes of the plane in the observer's frame; at infinity `ahead` is (alpha, beta) of the middle */
-    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, by angle from `right`; to 1e-4 */
+    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, by the angle from `right`; to 1e-4 */
     struct kd_critical curve;
 };
 
