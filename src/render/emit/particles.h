@@ -4,13 +4,17 @@
  * (render/emit/plunging.h). Each then starts again at another azimuth, a hash of its number and the count of its falls.
  * The position at any time t is a closed form. Angular frequencies are in double. Their phases at t reach the device as
  * 32-bit fractions of a turn, whose sums wrap exactly, so that t may be arbitrarily large.
+ *
  * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. The light of the smooth disk
  * is multiplied by the ratio of the number counted at a node to the number expected there. Falling particles have a
  * grid of their own, over phase and azimuth at the ISCO.
+ *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of
  * Kerr),
+ *
  *    ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
  *    latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u'
+ *
  * with u and u' in [0, 1], and dOmega/dr at constant E and L, so that nothing diverges at the ISCO, where kappa -> 0,
  * and r - r_isco never changes sign. Pure; the device's part is render/emit/deposit.h. */
 #ifndef KD_RENDER_EMIT_PARTICLES_H

@@ -4,6 +4,7 @@
  * disk of alpha = 0.1 and h/r = 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). A particle orbits the hole 3 times
  * (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17 for
  * turbulent gas. At the end light that escapes has g < 0.02 and less than 1e-6 of its brightness.
+ *
  * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's time
  * that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel of gas is
  * at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. Its surface density

@@ -27,6 +27,7 @@ void kd_choice_finish(struct kd_choice *choice);
 /* Chooses pixels whose second difference reaches twice pixel_error of white in any channel, across, down or diagonally.
  * The second difference decides because on a linear gradient one ray at the pixel's centre is already exact, whatever
  * the slope. Outside the picture is taken as dark, because light may end at the edge.
+ *
  * In a smooth picture the remaining pixels may hold more than KD_CHOOSE_LEFT of the sum of squares of all second
  * differences, which is proportional to the sum of squares of errors. Then the pixels with the next largest differences
  * are chosen as well, until only that much remains, down to KD_CHOOSE_FLOOR of the bound. KD_ENOMEM. */

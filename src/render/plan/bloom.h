@@ -1,4 +1,5 @@
 /* Glare of a lens (style.bloom): how much light is spread and how far. Any thread.
+ *
  * A grid of KD_BLOOM_ROWS rows of square cells covers the picture; further grids each have half as many cells along a
  * side. Each grid holds the light as a quadratic B-spline, is smoothed once, and is interpolated by such a spline.
  * Light of a point thus falls off as a sum of near Gaussians. The n-th has standard deviation d 2^n, where d is the

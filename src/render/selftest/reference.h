@@ -1,5 +1,6 @@
 /* Reference numbers of the self-test. They are in reference.c. tests/oracle/selftest_reference.py makes that file from
  * the metric, by quadrature and by Taylor series in 38 digits, without any formula of src/ or shaders/.
+ *
  * A gain is the change of an answer for a relative change of the input: the sum of |x df/dx| over the spin, the
  * inclination, the radius and the two coordinates of a ray, with logarithms in place of r and g. */
 #ifndef KD_RENDER_SELFTEST_REFERENCE_H

@@ -1,5 +1,6 @@
 /* Follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve single precision loses
  * 1e-4 to 1e-2 rad of a ray's final direction.
+ *
  * The angles of physics/null/null_bend.h are smooth functions of the curve's point and of the logarithm of the
  * distance. In each grid they are computed at some tens to hundreds of rays and interpolated to the others by
  * polynomials through Chebyshev extrema, along the curve and across it. The number of nodes is chosen so that the
