@@ -49,9 +49,9 @@ quad quad_at(uint x, uint row)
 #endif
 
 const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
-           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of its blocks */
+           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of blocks in these */
 
-/* Sum of earlier bands for block n of an invocation. */
+/* The sum of earlier bands for the invocation's n-th block. */
 vec3 begun(uint at, uint n, uint left) { return BEGUN && n < EACH && n < left ? blocks[at + n].rgb : vec3(0); }
 
 void main()

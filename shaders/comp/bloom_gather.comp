@@ -24,7 +24,7 @@ vec3 light(int at) { return blocks[at].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* Numbers along an axis: pixels, pixels a block, blocks, cells. */
+/* Numbers along an axis: of pixels, of pixels a block, of blocks, of cells. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
 /* A block, and its weights for two adjacent cells. */
 struct kd_tap {
@@ -32,8 +32,8 @@ struct kd_tap {
     float a, b;
 };
 
-/* First of the blocks whose centres are at most 1.5 cells from the centres of cell i or the next one; the others
- * follow it. */
+/* First of the blocks whose centres are at most 1.5 cells from the centres of cell i or of the next cell. The other
+ * such blocks follow it. */
 int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);

@@ -1,16 +1,17 @@
-/* Kernel: footprint of each ray, the size of what it stands for, on the disk for each crossing, and in the sky
- * (shared/lens.h).
+/* Kernel: footprint of each ray: the size of the area that the ray stands for, on the disk for each crossing, and in
+ * the sky (shared/lens.h).
  *
  * A step of the camera is a square in the picture. To first order the map takes it to a parallelogram, and a disc of
  * one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest singular value of the
  * map's derivative J:
+ *
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
  * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
- * it to second order; so do two on one side, at the edge of the picture or of the buffer; one neighbour gives it to
- * first order. Without a neighbour on either side, the ray is isolated at an edge, and its footprint is
- * KD_FOOTPRINT_EDGE. Half the second difference is included as well, because a map that turns back within a step still
- * has a size. It is of second order, too.
+ * it to second order. So do two neighbours on one side, which are used at the edge of the picture or of the buffer. One
+ * neighbour gives it to first order. Without a neighbour on either side, the ray is isolated at an edge, and its
+ * footprint is KD_FOOTPRINT_EDGE. Half the second difference is included as well, because a map that turns back within
+ * a step still has a size. It is of second order, too.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
  * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
@@ -122,8 +123,8 @@ kd_oval on_grid(uint n, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and how many neighbours lack what the ray
- * has. */
+/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and how many neighbours lack a spot where the
+ * ray has one. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;
@@ -185,8 +186,8 @@ kd_oval on_lattice(uint n, uint at)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
-    /* Four rays of a pixel without adjacent pixels are collinear: the change along their line is taken for all
-     * directions. */
+    /* If a pixel has four rays and no adjacent pixels, the rays are collinear: the change along their line is taken for
+     * all directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
                                                         : kd_longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),
@@ -235,7 +236,7 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        for (; n < ORDERS; n++) { /* crossings are without gaps */
+        for (; n < ORDERS; n++) { /* crossings have no gaps */
             if (map_at(at + n * push.stride) <= 0.0)
                 break;
             kd_oval o = footprint(n, at, grid);

@@ -12,8 +12,8 @@
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of
  * Kerr),
  *
- *    ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
- *    latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u'
+ *   ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
+ *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u'
  *
  * with u and u' in [0, 1], and dOmega/dr at constant E and L, so that nothing diverges at the ISCO, where kappa -> 0,
  * and r - r_isco never changes sign. Pure; the device's part is render/emit/deposit.h. */
