@@ -189,7 +189,7 @@ void main()
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    if (!PHI && !SKY) { /* a half period costs as much as storing that there is none */
+    if (!PHI && !SKY) { /* a half period costs as much as storing zeros for a missing crossing */
         for (; n < ORDERS; n++) {
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

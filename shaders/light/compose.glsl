@@ -3,23 +3,22 @@
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time; energy, momentum,
- * q: E, L and Carter's Q in units of the energy that the observer measures; footprint, shape: of this ray there, 0
- * if no emitter needs it (shared/lens.h). */
+/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time; energy, momentum, q:
+ * E, L and Carter's Q in units of the energy that the observer measures; footprint, shape: of the ray's footprint at
+ * the sample, 0 if no emitter needs them (shared/lens.h). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
     uint order;
 };
-/* The end of a ray that escapes; its footprint in radians; its energy in units of the energy that the observer
- * measures. */
+/* The end of a ray that escapes. footprint: radians; energy: in units of the energy that the observer measures. */
 struct kd_end { float u, phi, footprint, energy; };
-/* Contribution of one emitter at a sample: light including its opacity; opacity; luminance that is kept separately
- * as well. */
+/* Contribution of one emitter at a sample: its light, including its opacity; its opacity; and the luminance that is
+ * also kept separately. */
 struct kd_glow {
     vec3 light;
     float alpha, apart;
 };
-/* The ellipse across a ray that it stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
+/* The ellipse across a ray that the ray stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
  * as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
 struct kd_spread { vec3 plane, rise; };
 /* A point of a ray inside a volume. w = 1/r, u = cos(theta), and dw, du: their derivatives by Mino time in the
@@ -37,11 +36,11 @@ struct kd_midst {
     float ago;
     float nearest;
 };
-/* The medium at such a point. light: emission, and depth: optical depth, both per unit of the affine parameter by
+/* The medium at a point of a ray. light: emission, and depth: optical depth, both per unit of the affine parameter by
  * the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and matter of velocity U sees the path length
- * -k.U d lambda. With emissivity j and opacity alpha per its own length, depth = alpha (-k.U) and bolometric light =
- * j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about its own size;
- * where there is no matter, the distance to it. */
+ * -k.U d lambda. With emissivity j and opacity alpha per its own length, depth = alpha (-k.U) and bolometric light = j
+ * (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about its own size; where
+ * there is no matter, the distance to the matter. */
 struct kd_medium {
     vec3 light;
     float depth, grain;
@@ -89,7 +88,7 @@ const uint KD_ALONG_TRAITS =
 const uint KD_MET_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
 const bool KD_MARCHES = (KD_ALONG_TRAITS & KD_TRAIT_PRESENT) != 0u, KD_MEETS = (KD_MET_TRAITS & KD_TRAIT_PRESENT) != 0u;
-/* Whether light is multiplied by a factor of its order. */
+/* Whether an emitter multiplies light by a factor that depends on the light's image order. */
 const uint KD_OVER_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_OVERS = (KD_OVER_TRAITS & KD_TRAIT_PRESENT) != 0u;
@@ -98,7 +97,7 @@ const uint KD_END_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
-/* All emitters of a place share it: none hides another's light. */
+/* Adds the light of all emitters at a place. They share the place: none hides another's light. */
 void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
@@ -119,7 +118,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 }
 
 #ifdef KD_MARCH
-/* The sum of all emitters at a point, which share it. */
+/* The sum of all emitters at a point. They share the point: none hides another's light. */
 kd_medium kd_medium_at(kd_midst p)
 {
     kd_medium sum = kd_medium(vec3(0.0), 0.0, 1e30);
