@@ -19,7 +19,7 @@ static enum kd_status damaged(struct kd_error *error, const char *what)
     return kd_error_set(error, KD_EINVAL, "%s", what);
 }
 
-/* Finds the end record, which only its comment may follow. */
+/* Finds the end record. Only the record's own comment may follow it. */
 static bool find_end(const uint8_t *data, size_t size, size_t *at)
 {
     for (size_t n = END; n <= size && n <= END + COMMENT_MOST; n++)
