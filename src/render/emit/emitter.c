@@ -236,7 +236,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .band_pixels = band_pixels,
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .delay = (float)kd_particle_delay(scene),
-        /* Widened by more than a float's rounding: the emitter itself cuts off at the exact edge. */
+        /* The range is widened by more than a float's rounding: the emitter itself cuts off at the exact edge. */
         .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 means no crossing */
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .along_least = (float)(1 / along[1]),
@@ -257,7 +257,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
             e->fill(numbers, scene);
         if (e->tables)
             e->tables(&state->data.tables, scene);
-        memcpy(&state->of[i], scene, sizeof *scene); /* with padding: scenes are compared by memcmp */
+        memcpy(&state->of[i], scene, sizeof *scene); /* with padding, because scenes are compared by memcmp */
         state->filled[i] = true;
     }
 }

@@ -109,7 +109,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     return status;
 }
 
-/* Checks that coordinates grow in even steps, or that their logarithms do. */
+/* Checks that coordinates, or their logarithms if `logarithmic`, grow in even steps. */
 static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
                                  double most, struct kd_error *error)
 {
@@ -296,7 +296,8 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
     return n ? (float)exp2(sum / n) : nodes[KD_MATTER_FLOATS * i + TEMPERATURE];
 }
 
-/* Azimuthal components go as sin^2 theta near the axis. Divided by that, the value on the axis is the neighbour's. */
+/* Divides azimuthal components by sin^2 theta, with which they fall near the axis. On the axis the result is the
+ * neighbour's. */
 static void over_sine(struct kd_matter_grid *g, const double *theta)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
@@ -367,7 +368,7 @@ size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
 
-/* Unpacks the next array; false: u_con_t, the last, is missing. */
+/* Unpacks the next array. False: the array is u_con_t, the last one, and is missing. */
 static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
 {
     const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";

@@ -30,7 +30,7 @@ enum kd_status kd_choice_add(struct kd_choice *c, struct kd_pixel pixel, uint32_
     return KD_OK;
 }
 
-/* The largest second difference through a pixel. above, below: the adjacent rows, dark beyond the edge. */
+/* The largest second difference through a pixel. above, below: the adjacent rows; pixels beyond the edge are dark. */
 static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *below, uint32_t x, uint32_t width)
 {
     const int left = x > 0 ? -CHANNELS : 0, right = x + 1 < width ? CHANNELS : 0;
@@ -46,7 +46,7 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
     return most;
 }
 
-/* Collects pixels with a second difference of at least `floor`; *sum: of the squares over all pixels. */
+/* Collects pixels with a second difference of at least `floor`; *sum: sum of the squares over all pixels. */
 static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum,
                             struct kd_error *error)
 {

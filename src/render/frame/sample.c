@@ -37,10 +37,10 @@ enum kd_status kd_frame_sample_kernels(struct kd_frame_job *j)
     return status;
 }
 
-/* One pass over some rows. */
+/* One pass over some rows of a sampled map. */
 struct run {
     struct kd_frame_job *j;
-    struct kd_vk_buffer *lens; /* of the band */
+    struct kd_vk_buffer *lens; /* lens map of the band */
     struct kd_sample_grid grid;
     struct kd_sample_push push;
     struct kd_vk_binding camera;

@@ -65,17 +65,17 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
     }
 }
 
-/* One sentence a line, for readers of the file's properties. */
+/* Joins the approximations, one sentence a line, for readers of the file's properties. */
 static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_append(out, "", 0); /* gives a string even without approximations */
+    enum kd_status status = kd_buffer_append(out, "", 0); /* makes `out` a string even without approximations */
     for (size_t i = 0; i < plan->n_approximations && !status; i++)
         status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i].text);
     return status;
 }
 
-/* The canonical scene, and its hash. For a picture of a playground the document also identifies the state that is
- * shown, and cannot be read back as a scene. */
+/* Writes the canonical scene, and its hash. For a picture of a playground the document also identifies the state that
+ * is shown, and cannot be read back as a scene. */
 static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
     const struct kd_dynamic_bodies *crowd = picture->scene->crowd.at;

@@ -49,7 +49,7 @@ struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
     const double width = scene->image.width, height = scene->image.height;
     const uint32_t sight = kd_camera_sight(scene);
     if (scene->camera.projection == KD_PROJECTION_RING ||
-        scene->camera.stereo == KD_STEREO_PAIR) /* a pair of pictures has two of them */
+        scene->camera.stereo == KD_STEREO_PAIR) /* a pair has two pictures, each with coordinates of its own */
         return (struct kd_wcs) { 0 };
     if (sight == KD_SIGHT_PLANE)
         return in_tile(plane(scene), scene);

@@ -50,7 +50,7 @@ double kd_camera_twist(const struct kd_scene *scene)
     return falls ? kd_kerr_twist(kd_hole(at.spin), at.r) : 0;
 }
 
-/* Axes of the observer's frame. A valid scene has no observer where the frame does not exist. */
+/* Sets the axes of the observer's frame. A valid scene has no observer where the frame does not exist. */
 static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const struct kd_vantage *at)
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
@@ -104,8 +104,8 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
-/* Bound on (sum of the terms' sizes) - (size of their sum): the constant counts twice, and the smaller of the other
- * two, which may cancel. */
+/* Bound on (sum of the terms' sizes) - (size of their sum): twice the constant, and twice the smaller of the other two
+ * terms, which may cancel. */
 static double more_than_sum(double constant, double across, double up)
 {
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));

@@ -12,7 +12,8 @@ enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
     ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
-    SHARED = 4 /* up to this many grids the threads share each grid; beyond, each thread takes whole grids */
+    SHARED = 4 /* up to this many grids the threads work together on each grid; if there are more, each thread takes
+                * whole grids */
 };
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
@@ -103,7 +104,7 @@ static bool follow_on(const struct follower *f, bool along_u, double place, doub
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);
 }
 
-/* 1 if n intervals are accurate enough along a line, 0 if not, -1 if rays do not escape. */
+/* Whether n intervals are accurate enough along a line: 1 if they are, 0 if not, -1 if rays do not escape. */
 static int serves(const struct follower *f, const struct side *s, int n, bool along_u, double line)
 {
     struct angles at[MOST + 1], want;
@@ -121,7 +122,7 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
         if (apart(&sum, &want) >
-            0.1 * KD_RIM_EXACT) /* between the lines the error is larger; so is that of images next to a caustic */
+            0.1 * KD_RIM_EXACT) /* between the lines the error is larger; so is the error of images next to a caustic */
             return 0;
     }
     return 1;
@@ -239,7 +240,7 @@ static void fill_row(void *user, size_t row)
     }
 }
 
-/* Follows each ray of a row, where no polynomial of MOST intervals is accurate enough; 10 us a ray. */
+/* Follows each ray of a row by itself, where no polynomial of MOST intervals is accurate enough; 10 us a ray. */
 static void follow_row(void *user, size_t row)
 {
     struct sheet *o = user;
