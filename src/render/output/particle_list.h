@@ -1,12 +1,12 @@
 /* Lists the particles of a disk as numbers: one row for each particle, 32-bit floats, in the order of the requested
  * columns.
  *
- *    struct kd_particle_list list;
- *    kd_particle_list_init(&list, &scene, &error)                    a valid scene
- *    kd_particle_list_set(&list, "fields", "r,phi,energy", &error)   and "first", "stride", "count", "time"
- *    kd_particle_list_settle(&list, most_bytes, &error)
- *    for (size_t i = 0; i < list.n; i += n)
- *        kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
+ *     struct kd_particle_list list;
+ *     kd_particle_list_init(&list, &scene, &error)                    a valid scene
+ *     kd_particle_list_set(&list, "fields", "r,phi,energy", &error)   and "first", "stride", "count", "time"
+ *     kd_particle_list_settle(&list, most_bytes, &error)
+ *     for (size_t i = 0; i < list.n; i += n)
+ *         kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
  *
  * Coordinates are Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with
  * sin(phi), z = r sin(latitude): the ellipsoidal coordinates that Boyer-Lindquist ones become for M -> 0. Any thread,
