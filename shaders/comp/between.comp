@@ -196,7 +196,7 @@ void fill(uint at, uint to)
             copy(n, at, to);
             continue;
         }
-        for (int i = 0; i < 4; i++) /* w is written with the others */
+        for (int i = 0; i < 4; i++) /* w is written together with the other quantities */
             if ((QUANTITIES & beside[i]) != 0u &&
                 (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
                 interpolate(n, beside[i], at, to);

@@ -26,7 +26,7 @@ layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
 /* Numbers along an axis: of pixels, of pixels a block, of blocks, of cells. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
-/* A block, and its weights for two adjacent cells. */
+/* A block, and its weights for two adjacent cells along an axis. */
 struct kd_tap {
     int at;
     float a, b;
@@ -62,7 +62,7 @@ kd_tap tap(kd_bloom_axis axis, int i, int k)
     return tap_of(axis, within, at);
 }
 
-/* Block k in a picture of all directions; beyond an edge it is on the other side. */
+/* Block k in a picture of all directions; beyond an edge it is at the opposite edge. */
 kd_tap tap_around(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), within = bloom_column(k, count, true),

@@ -151,7 +151,7 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
     vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
     float there = other.there ? 1.0 : 0.0;
     if (!other.there)
-        d = vec3(0.0); /* it may be NaN */
+        d = vec3(0.0); /* the difference may be NaN */
     fit.xx += there * v.x * v.x;
     fit.xy += there * v.x * v.y;
     fit.yy += there * v.y * v.y;

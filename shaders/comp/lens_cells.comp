@@ -42,7 +42,7 @@ uint take(uint counts, uint n, uint each)
     return first;
 }
 
-/* Whether a cell overlaps the picture, or its requested rows. */
+/* Whether a cell overlaps the picture, or the rows of the picture that are requested. */
 bool is_wanted(uvec2 corner, uint side)
 {
     ivec2 low = place_of(corner), high = low + ivec2(int(side));
@@ -282,7 +282,7 @@ void main()
     push = push_;
     cam = camera_;
     uint i = gl_GlobalInvocationID.x;
-    if (push.level == 0u && i == 0u) /* workgroups along the other axes */
+    if (push.level == 0u && i == 0u) /* numbers of workgroups along the other axes */
         [[dont_unroll]]
         for (uint k = 0u; k < KD_SAMPLE_COUNTED / 4u; k++) {
             words[4u * k + 1u] = 1u;

@@ -122,7 +122,8 @@ void put_end(uint at, kd_patch_at s)
         put(at, kd_plane(KD_LENS_SKY_FOOTPRINT), kd_longest(dot(s.i, s.i), dot(s.j, s.j), dot(s.i, s.j)));
 }
 
-/* The rays of a column: first index in a plane, and first place in quarters of the cell; number and spacing. */
+/* The rays of a column: the first one's index in a plane and place in quarters of the cell; their number; their
+ * spacing. */
 struct kd_rows {
     uint at, n;
     float from, unit;
@@ -172,7 +173,7 @@ void main()
     const float state = state_of(c.node[12]);
     const uint last = OF_SKY ? 1u : min(crossings_of(state), ORDERS);
     uint n = 0u;
-    do { /* loops test at their ends, as in lens_closed.comp */
+    do { /* this loop tests at its end, as those in lens_closed.comp do */
         vec3 middle = value_of(c.node[12], n);
         fill_rows(lines_of(c, n, middle), rows, middle, n, captured(state));
     } while (++n < last);

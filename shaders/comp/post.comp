@@ -57,7 +57,7 @@ vec3 aces(vec3 c)
     const mat3 into = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
     const mat3 outof = mat3(1.60475 / d, -0.10208 / d, -0.00327 / d, -0.53108 / d, 1.10813 / d, -0.07276 / d,
                             -0.07367 / d, -0.00605 / d, 1.07602 / d);
-    c = into * min(c, vec3(1e6)); /* the curve squares it */
+    c = into * min(c, vec3(1e6)); /* the curve squares this, so it is limited */
     c = (c * (c + 0.0245786) - 0.000090537) / (c * (c + 0.4329510 / d) + 0.238081 / d);
     return outof * c;
 }

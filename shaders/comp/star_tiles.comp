@@ -61,7 +61,7 @@ kd_tile tile_about(uint at, bool whole)
     vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
     bool escape = whole && kd_sky_escapes(at);
     uint face = kd_face_of(kd_sky_galactic(n)).number;
-    vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine */
+    vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine rays */
     /* terms of u v^2 and u^2 v: the part of the corners that the other terms do not explain */
     vec2 corners = vec2(0.0), sides = vec2(0.0);
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);

@@ -15,10 +15,10 @@
     F(jansky_pixel)        /* Jy from one pixel of light 1, if all pixels have the same size */ \
     F(gold_light) F(gold_depth) /* log2 of light and depth of a length M at density 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
-    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power at which it falls */ \
-    F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; power at which it falls */ \
+    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power of r at which it falls */ \
+    F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; power of r at which it falls */ \
     F(steep)               /* distance from the axis over scale height; 0: no layer */ \
-    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power at which it falls */ \
+    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
     F(power_index) F(power_light) F(power_depth) /* for a power law of electrons */ \
     F(torus_momentum) F(torus_edge) F(torus_index) /* l; offset of ln h; density is h - 1 to this power */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
@@ -304,7 +304,7 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        /* at zero temperature no fit is valid, but there is no matter */
+        /* at zero temperature no fit is valid, but then there is no matter */
         m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD);
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else

@@ -20,7 +20,7 @@
     F(spread)              /* brightness of the panorama */ \
     U(columns) U(rows)     /* of the panorama's finest level, powers of two */ \
     F(texel)               /* log2 of a texel's size, radians */ \
-    /* rotation from directions, with azimuths minus the observer's, to galactic ones: rows */ \
+    /* rows of the rotation from directions, with azimuths minus the observer's, to galactic directions */ \
     F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)
 /* clang-format on */
 #define KD_TRAIT_SKY_GRID 64u
@@ -114,7 +114,7 @@ vec3 kd_sky_grid(float u, float phi)
     float longitude = phi - 2.0 * KD_PI * floor(phi / (2.0 * KD_PI));
     vec2 q = vec2(longitude, latitude) / emission.sky.spacing;
     vec2 d = abs(q - floor(q + 0.5));
-    d.x *= s; /* meridians keep their width towards the pole */
+    d.x *= s; /* so that meridians have the same width towards the pole */
     float line = min(d.x, d.y) < 0.025 ? 1.0 : 0.0;
     vec3 base = longitude < KD_PI ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
                                   : (u > 0.0 ? vec3(0.45, 0.16, 0.30) : vec3(0.48, 0.33, 0.08));

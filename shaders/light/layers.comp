@@ -11,7 +11,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "light/numbers.glsl"
 layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 
-/* A device need not preserve NaN in arithmetic: it is recognised and written by its bits. */
+/* NaN, recognised and written by its bits, because a device need not preserve NaN in arithmetic. */
 #define KD_NOTHING_BITS 0x7fc00000u
 #define KD_INFINITE_BITS 0x7f800000u
 #define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)

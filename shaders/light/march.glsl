@@ -469,7 +469,7 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
     y.lost = y.lost || y.steps++ >= 12u * STEPS; /* the ray circles without end */
-    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* otherwise it has fallen in */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* if not, the ray has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 

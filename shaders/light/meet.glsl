@@ -12,8 +12,7 @@
 #define KD_MEET_GLSL
 
 #define KD_MEET_SLACK \
-    0.02 /* of r, and 0.1 of the radius of the ball: a ray that passes a ball at a smaller distance is tested closely \
-          */
+    0.02 /* of r, plus 0.1 of the ball's radius: a ray that passes the ball within this distance is tested closely */
 #define KD_MEET_FAR 1e30
 
 /* An end of a step: (n, w), and the change of (n, w) over a step. */

@@ -12,7 +12,7 @@ float kd_layer_g(kd_sample s)
     return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
 }
 
-/* Temperature of the black body that the gas emits as, in its own frame, K. */
+/* Temperature, in the gas's own frame, of the black body as which the gas emits, K. */
 float kd_layer_temperature(kd_sample s)
 {
     if (kd_plunge_falls(s))

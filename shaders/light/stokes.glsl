@@ -47,7 +47,7 @@ kd_jones kd_jones_times(kd_jones a, kd_jones b)
     return kd_jones(s, re, im);
 }
 
-/* one S + (b c + its conjugate) S + two c S c*, where b c = p + i q. */
+/* The form one S + (b c + (b c)*) S + two c S c*, where b c = p + i q and c = re + i im. */
 vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3 im)
 {
     vec3 v = s.yzw, across = cross(re, im);

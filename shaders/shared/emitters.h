@@ -81,7 +81,7 @@
 #define KD_TRAIT_AZIMUTH \
     0x20000000u /* for volumes: the emitter needs the azimuth of a point, and the footprint of a ray there */
 #define KD_TRAIT_POINTS \
-    0x80000000u /* the emitter has points of light, which a separate pass spreads over pixels (comp/star_images.comp) \
+    0x80000000u /* the emitter has points of light, which a separate pass spreads over pixels: comp/star_images.comp \
                  */
 #define KD_TRAIT_SPREAD 0x40000000u /* the emitter emits light wherever a ray ends */
 

@@ -18,7 +18,7 @@ enum {
     SOS = 0xda,
 };
 
-/* State of one compression: libjpeg's, and that of its callbacks. */
+/* State of one compression: that of libjpeg, and that of the callbacks. */
 struct work {
     struct jpeg_compress_struct info; /* first member, so that libjpeg's pointer can be cast to ours */
     struct jpeg_error_mgr errors;

@@ -15,7 +15,7 @@ enum {
     GAP = 3,
     MARGIN = 4,
     PANEL_WIDTH = BAR_WIDTH + 2 * PADDING +
-        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond it by half their length */
+        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond the bar by half their length */
     PANEL_HEIGHT = 2 * PADDING + 2 * KD_FONT_HEIGHT + BAR_HEIGHT + TICK + 2 * GAP,
 };
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,

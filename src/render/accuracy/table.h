@@ -35,7 +35,7 @@ struct kd_accuracy_entry {
 };
 
 struct kd_accuracy_row {
-    enum kd_engine engine; /* KD_ENGINE_CLOSED: only its speed, on one core of the host */
+    enum kd_engine engine; /* for KD_ENGINE_CLOSED the row has only a speed, on one core of the host */
     enum kd_precision precision;
     uint32_t steps;
     struct kd_accuracy_entry sets[KD_ACCURACY_SETS];

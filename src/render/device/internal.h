@@ -33,7 +33,7 @@ struct kd_renderer {
         char *device, *cache_dir;
         bool validate, compiles_only;
         uint32_t deadline_ms;
-    } opening;                /* how it was opened */
+    } opening;                /* how the device was opened */
     struct kd_vk_info opened; /* description of the opened device */
     char *files;              /* kd_vk_cache_file without a suffix; NULL: there is no folder */
     struct kd_kernels kernels;
@@ -67,7 +67,7 @@ struct kd_renderer {
                                          * NULL: none */
     struct kd_verdict verdict;
     struct kd_capacity kept; /* as stored in the file */
-    uint32_t frames;         /* frames so far, as learn.c counts them */
+    uint32_t frames;         /* number of frames so far, as learn.c counts them */
     bool probing;            /* a pass costs the smallest of the measured costs instead of their mean */
     char name[800];          /* the next two, joined */
     char device[256], driver[520];

@@ -17,7 +17,7 @@ struct kd_panorama {
     uint32_t columns, rows;     /* of the finest level */
     char credit[KD_SKY_CREDIT]; /* author of the picture; "": unknown */
     uint64_t used;              /* time of the last use, counted */
-    bool shown;                 /* it was delivered to a request */
+    bool shown;                 /* the panorama was delivered to a request */
 };
 enum { KD_PANORAMAS = 3, KD_PANORAMAS_ASKED = 16 };
 
@@ -28,7 +28,7 @@ struct kd_panorama_key {
     bool ahead; /* preloaded: nobody waits for it */
 };
 struct kd_panoramas {
-    pthread_mutex_t lock; /* guards all of it */
+    pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
     struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of, which is not evicted */
     uint64_t used;
@@ -66,7 +66,7 @@ enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_sc
 void kd_panoramas_stop(struct kd_panoramas *panoramas);
 /* Evicts all but the n most recent ones, unless one is in progress. Render thread only, while no panorama is in use. */
 void kd_panoramas_rest(struct kd_panoramas *panoramas, unsigned n);
-uint64_t kd_panoramas_bytes(struct kd_panoramas *panoramas); /* bytes of their pixels; any thread */
+uint64_t kd_panoramas_bytes(struct kd_panoramas *panoramas); /* bytes of the cached panoramas' pixels; any thread */
 void kd_panoramas_finish(struct kd_panoramas *panoramas);
 
 #endif

@@ -67,7 +67,7 @@ const char *kd_renderer_device_name(const struct kd_renderer *renderer);
 const char *kd_renderer_type_name(size_t i); /* name of the i-th type of devices; NULL after the last */
 const char *kd_renderer_device(const struct kd_renderer *renderer);
 const char *kd_renderer_driver(const struct kd_renderer *renderer);
-/* Device memory of its buffers as of the last frame, bytes. Any thread. */
+/* Bytes of device memory in the renderer's buffers as of the last frame. Any thread. */
 uint64_t kd_renderer_held(const struct kd_renderer *renderer);
 /* Path of a file that belongs to this device and driver version (vk/vk.h): malloc'd, NULL if there is no folder. Any
  * thread. */

@@ -111,7 +111,7 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
         return KD_OK;
     KD_TRY(kd_vk_wait(r->vk, 0, error));
     give_back(r);
-    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* destroyed buffers are freed only now */
+    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* buffers that were destroyed before are freed only now */
     kd_allocator_trim();
     kd_renderer_count(r);
     const uint64_t sum = kd_renderer_kept_sum(r);

@@ -43,7 +43,7 @@ struct kd_lens_map {
     struct kd_rim_grids rim_grids;
     bool rim_known; /* whether rim and rim_grids are set */
     bool rim_traced;
-    struct kd_vk_buffer *rim_lens; /* directions of its rays, and its tables (frame/rim.c); NULL: never made */
+    struct kd_vk_buffer *rim_lens; /* directions and tables of the rim (frame/rim.c); NULL: never made */
     struct kd_star_key star_key;   /* key of the star light; lens "": it is missing or incomplete */
     struct kd_accuracy_report accuracy;
     uint64_t used;
@@ -81,7 +81,7 @@ struct kd_store {
     int32_t alone_x, alone_y;         /* the ray from which the places of those rays count */
     struct kd_vk_buffer *sample_head; /* head of the lists, on the host */
     struct kd_vk_buffer
-        *undecided; /* rays that the kernels leave open: a counter, then the places of kd_plan_open_most */
+        *undecided; /* rays that the kernels leave open: a counter, then the places of at most kd_plan_open_most rays */
     struct kd_vk_buffer *undecided_host; /* the same on the host */
 };
 

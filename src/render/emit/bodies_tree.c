@@ -126,7 +126,7 @@ static void part(struct ball *balls, size_t n, size_t k, int axis)
                 break;
             swap(&balls[i++], &balls[j--]);
         }
-        /* Up to j no ball is beyond `middle`; after j none is before it. */
+        /* Balls up to j are not beyond `middle`; balls after j are not before it. */
         if (k <= j)
             high = j;
         else
@@ -186,7 +186,7 @@ static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t
     grow(t, 2 * node + 1, balls + (n + 1) / 2, n / 2);
 }
 
-/* Balls of the visible bodies; returns their number. */
+/* Makes the balls of the visible bodies; returns their number. */
 static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                       struct ball *balls)
 {

@@ -13,7 +13,7 @@ KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
 const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY,
                                                                              ENTRY) };
 
-/* Kinds of emitters, by their place in the list. */
+/* Kinds of emitters: the list has an argument for each kind. */
 enum kind { AT_CROSSING = 1, HELPER = 2, MODULATE = 4, AT_END = 8, ALONG = 16, SURFACE = 32 };
 #define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
 #define IS_PART(number, name) [number] = HELPER,
@@ -205,7 +205,7 @@ static double height_of_all(const struct kd_scene *scene)
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
             most = fmax(most, kd_emitters[i]->height ? kd_emitters[i]->height(scene) : 1);
-    return most >= 1 ? 2 : most; /* no ray then stops at the axis */
+    return most >= 1 ? 2 : most; /* then no ray stops at the axis */
 }
 
 /* 1/r of the outermost knot in a volume; 0: none. */

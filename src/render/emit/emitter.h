@@ -112,7 +112,7 @@ size_t kd_emit_sentence_count(void); /* number of all approximations, in force o
 struct kd_emit_state {
     struct kd_emit_data data;
     struct kd_scene of[KD_EMITTER_COUNT]; /* scene from which each emitter was last filled */
-    bool filled[KD_EMITTER_COUNT];        /* whether it was filled */
+    bool filled[KD_EMITTER_COUNT];        /* whether each emitter was filled */
     bool colours, luminous;               /* whether the tables that depend on no scene are filled */
 };
 /* Brings the data up to date. band_pixels: pixels of the picture's bands (emit/frame.glsl). 15 ms the first time, and

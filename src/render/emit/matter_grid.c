@@ -45,7 +45,7 @@ struct kd_matter_reader {
     double *r, *theta;
     bool look;                    /* numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
-    size_t kind, done;            /* its index, and how many of its numbers are done */
+    size_t kind, done;            /* index of this array, and the number of its elements that are done */
 };
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
@@ -301,7 +301,7 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
 static void over_sine(struct kd_matter_grid *g, const double *theta)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
-    for (int pass = 0; pass < 2; pass++) /* the neighbours first, then the axis */
+    for (int pass = 0; pass < 2; pass++) /* first the nodes off the axis, then those on it */
         for (size_t i = 0; i < nodes_of(g); i++) {
             const size_t column = i / g->layers % g->columns, beside = column ? i - g->layers : i + g->layers;
             const double s2 = sin(theta[column]) * sin(theta[column]);

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define PER_CELL 5.0 /* particles a cell: the density then scatters by a third, in spots some pixels wide */
+#define PER_CELL 5.0 /* particles a cell; the density then scatters by a third, in spots some pixels wide */
 
 static double inner(const struct kd_scene *scene)
 {
@@ -97,7 +97,7 @@ uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *g)
     return kd_particle_guides_bytes(g) + 2 * KD_PARTICLE_EXPECTED_BYTES;
 }
 
-/* Words of each grid. */
+/* Number of words of each grid. */
 uint64_t kd_particle_words(const struct kd_particle_grid *g) { return (g->rows + 1ull) * g->columns; }
 uint64_t kd_particle_plunge_words(const struct kd_particle_grid *g)
 {

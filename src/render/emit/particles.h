@@ -100,7 +100,7 @@ struct kd_particle_listed {
     float latitude;
 };
 
-/* Converts these to positions of n particles: first, first + stride, ... */
+/* Converts the listed particles to positions of n particles: first, first + stride, ... */
 void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid,
                            const struct kd_particle_listed *got, uint32_t first, uint32_t stride, size_t n,
                            struct kd_particle_place *out);

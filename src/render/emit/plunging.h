@@ -25,7 +25,7 @@ struct kd_plunging {
     struct kd_plunge curve;
     double start, end;            /* radii of the curve's start and end */
     double time, omega;           /* time from start to end; angular velocity at the ISCO */
-    struct kd_plunge_event first; /* the curve's event at its start */
+    struct kd_plunge_event first; /* the event at which the curve starts */
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 

@@ -73,7 +73,8 @@ void kd_ray_path_at(const struct kd_ray_path *path, const struct kd_null_place *
 extern const char *const kd_ray_path_columns[KD_PATH_COLUMNS];
 void kd_ray_path_row(const struct kd_ray_path *path, size_t i, double out[KD_PATH_COLUMNS]);
 
-/* Write the members `radial` and `polar`, and `path`, of the current object; and two lines of plain text. */
+/* kd_ray_motion_json writes the members `radial` and `polar` of the current object, kd_ray_path_json the member `path`.
+ * kd_ray_motion_text appends two lines of plain text. */
 void kd_ray_motion_json(struct kd_json *json, const struct kd_ray_motion *motion);
 void kd_ray_path_json(struct kd_json *json, const struct kd_ray_path *path);
 enum kd_status kd_ray_motion_text(const struct kd_ray_motion *motion, struct kd_buffer *out);

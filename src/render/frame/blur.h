@@ -27,7 +27,7 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
 struct kd_blurred {
     struct kd_renderer *renderer;
     const struct kd_blur *blur;
-    const struct kd_scene *scene; /* of sample 0, with its plan from kd_blur_plan */
+    const struct kd_scene *scene; /* the scene of sample 0; its plan is from kd_blur_plan */
     const struct kd_plan *plan;
     bool aside;
     kd_progress_fn progress;

@@ -117,7 +117,7 @@ static uint32_t changed(const uint16_t *a, const uint16_t *b, size_t pixel)
     return (uint32_t)most;
 }
 
-/* Raises the marks of a pixel's neighbours to the amount by which it changed. */
+/* Raises the marks of a pixel's neighbours to the amount by which the pixel has changed. */
 static void mark_round(const struct kd_shown *now, struct kd_pixel p, uint32_t score, uint16_t *marks)
 {
     for (uint32_t y = p.y ? p.y - 1 : 0; y <= p.y + 1 && y < now->height; y++)

@@ -65,7 +65,7 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     c->crowd = (struct kd_dynamic_bodies *)scene->crowd.at;
     kd_dynamic_bodies_keep(c->crowd);
     c->plan = *plan;
-    c->plan.audit = 0; /* there is nothing to audit */
+    c->plan.audit = 0; /* a device that computes nothing has nothing to audit */
     return c;
 }
 

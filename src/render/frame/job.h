@@ -26,7 +26,7 @@ struct kd_frame_job {
     bool stars_kept;               /* whether that light is cached */
     uint64_t undecided;            /* rays of the lens map that were given up */
     uint64_t traced, interpolated; /* as in kd_accuracy_report */
-    double listed_ms, audit_ms;    /* the host's time for these rays; for the audit */
+    double listed_ms, audit_ms;    /* the host's time for tracing listed rays; for the audit */
     double kernels_ms;             /* the host's time for making missing kernels before they first run */
     kd_progress_fn progress;
     const struct kd_preview_hook *preview;
@@ -38,7 +38,7 @@ struct kd_frame_job {
     uint32_t lit;                   /* rows of pixels from the top whose light is complete */
     bool looking;                   /* a preview is being made */
     uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;                   /* whether its times are measurements of the passes' costs */
+    bool teaches;                   /* whether the job's times are measurements of the passes' costs */
     struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core, which is subtracted */
     struct kd_frame *frame;
     struct kd_error *error;
@@ -66,7 +66,7 @@ static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t 
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
 }
-/* The displayed light of a band: its radiance, or that after the beam. */
+/* The displayed light of a band: its radiance, or the radiance after the beam. */
 static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job *j, uint32_t band)
 {
     return j->plan->beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
@@ -101,11 +101,12 @@ struct kd_frame_list {
     struct kd_critical_lattice lattice;  /* the rays in each pixel */
     int camera;                          /* the camera that counts in steps of the lattice (view/layout.h) */
     uint64_t most;                       /* pixels whose lens map fits one buffer */
-    struct kd_vk_buffer *const *buffers; /* one for the first `most` of them, one for the next, ... */
-    bool again;                          /* one buffer is reused for all: no map is kept */
+    struct kd_vk_buffer *const *buffers; /* the first buffer is for the first `most` pixels, the next for the next ones,
+                                          * ... */
+    bool again;                          /* one buffer is reused for all pixels: no map is kept */
     bool between;     /* rays are interpolated instead of traced, on pixels where that is accurate (frame/lens.h) */
     bool layers;      /* layers of light are computed as well, not only the picture */
-    const char *pass; /* pass to which their time counts; NULL: the usual passes */
+    const char *pass; /* pass to which the time of these pixels counts; NULL: the usual passes */
 };
 /* needed: the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels along a side, at first and later; largest number of pictures */
-#define NEAR 1e-3 /* relative to the flux: pictures of 48 pixels agree with those of 128 better than this */
+#define NEAR 1e-3 /* relative to the flux: the fluxes of pictures of 48 and of 128 pixels differ by less than this */
 #define HELD 5e-5 /* remaining error; a flux is a sum of floats, accurate to 1e-6 */
 /* First guess of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at least as
  * the square root of the density, so that the slope is at least 1.5. */

@@ -92,7 +92,7 @@ static uint64_t counted(const struct kd_store *s, uint64_t at)
     return (uint64_t)two[0] + two[1];
 }
 
-/* Posts and reads back completed light, one band at a time. */
+/* Runs the post pass on completed light and reads the pixels back, one band at a time. */
 static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
 {
     struct kd_frame *frame = j->frame;

@@ -15,7 +15,7 @@
 /* Light of one emitter at a place. */
 struct kd_probed_glow {
     uint32_t emitter; /* index in kd_emitters */
-    float light[3];   /* including its opacity, without absorption in front of it */
+    float light[3];   /* light including the emitter's opacity, without absorption in front of it */
     float opacity;
     float through; /* fraction of this light that reaches the observer, including factors on all light at the place */
     bool points;   /* this is the emitter's points of light, spread over the pixel */
@@ -39,10 +39,10 @@ struct kd_probed_place {
  * parts if there are many. */
 struct kd_probed_stretch {
     uint32_t order;   /* of the next crossing, if there is one */
-    float w[2], u[2]; /* 1/r and cos(theta) at its ends */
+    float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */
     float delay[2];   /* delays of the light from both ends, as for a crossing; meaningless for an observer inside the
                        * horizon */
-    float light[3];   /* its contribution to the arriving light */
+    float light[3];   /* contribution of the stretch to the arriving light */
     float through[2]; /* transmission of everything in front, without and with this stretch */
 };
 #define KD_PROBED_STRETCHES 256
@@ -50,7 +50,7 @@ struct kd_probed_stretch {
 /* Contribution of one volume along the whole ray, as far as that was followed. */
 struct kd_probed_volume {
     uint32_t emitter;
-    float light[3]; /* as it arrives */
+    float light[3]; /* the volume's light as it arrives */
     float depth;
 };
 
@@ -58,7 +58,7 @@ struct kd_probed_volume {
 struct kd_probed_met {
     bool met;
     uint32_t emitter, which; /* index in kd_emitters; index in the emitter's list */
-    uint32_t order;          /* crossings of the plane before it */
+    uint32_t order;          /* number of crossings of the plane before the surface */
     /* 1/r, cos(theta), azimuth (source minus observer), redshift factor, cosine of the emission angle */
     float w, u, phi, g, cosine;
     float light[3], through; /* without absorption in front; transmission of everything in front */
@@ -73,7 +73,7 @@ struct kd_probed_ray {
     uint32_t steps, samples; /* of the march: number of integration steps, and of samples */
     struct kd_probed_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: records that did not fit */
-    bool transfers; /* volumes transfer polarised light: Stokes Q, U and V as they arrive */
+    bool transfers; /* volumes transfer polarised light; then `stokes` is Stokes Q, U and V as they arrive */
     float stokes[3];
     bool given_up; /* the engine gave the ray up, and the picture shows magenta */
     bool ended;    /* something may shine at the ray's end, which the next three members describe */

@@ -58,7 +58,7 @@ static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
 }
 
-/* The number of stars is not known yet; at most the catalogue's is assumed. */
+/* The number of stars is not known yet, so the catalogue's is assumed, the largest possible one. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);

@@ -105,7 +105,7 @@ enum kd_status kd_frame_strips(const struct kd_parted *p, struct kd_frame *out, 
             KD_TRY(begin(&part, p->plan->height, &frame, error));
         put_rows(&part, rows, &frame);
         rows += part.height;
-        if (part.told) { /* only one strip has it */
+        if (part.told) { /* only one strip has the description of the plan's pixel */
             frame.told = part.told;
             part.told = NULL;
         }

@@ -11,16 +11,15 @@
 static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8;
 static const double MORE =
     1.1; /* factor by which a target must change to count as another target: shares of a device fluctuate a little */
-static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: as a fraction of the target, and of the fixed
+static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget, as a fraction: of the target; of the fixed
                                                            * part */
 static const double COOLDOWN_MS = 1000;                   /* least time on a rung before a climb */
 /* time before climbing again to a rung that was too slow; doubled at each failure */
 static const double RETRY_MS = 3000;
 static const double SETTLE_MS = 50;                    /* reaction time: from a frame to the user's next change */
-static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* longest pause within a drag; longest pause between two drags
-                                                        * that count as one */
-static const double BLIND_MS = 2000;                   /* for how long lens maps are taken as not cached; doubled each
-                                                        * time */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* longest pause within a drag; between drags */
+/* time for which no lens map counts as cached; doubled each time */
+static const double BLIND_MS = 2000;
 /* fraction of the requested width, whatever kd_governor_least says */
 static const double NARROWEST = 0.25;
 /* fraction of the patience below which frames of the requested width are tried again */
@@ -500,7 +499,7 @@ struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double 
         return decision;
     double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at,
            left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
-    if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end them slightly early */
+    if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end a wait slightly early */
         return next_step(g, decision);
     decision.quality = g->shown;
     decision.wait_ms = g->shown.final ? INFINITY : left;

@@ -272,7 +272,7 @@ static void close_film(void *state)
 static size_t holds(const struct kd_gather_source *source)
 {
     (void)source;
-    return 2 * PICTURE_MAX; /* a picture's file, and its decoded pixels */
+    return 2 * PICTURE_MAX; /* the file of a picture, and the picture's decoded pixels */
 }
 
 const struct kd_gather_format kd_gather_mp4 = {

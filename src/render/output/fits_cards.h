@@ -10,7 +10,7 @@
 #define KD_FITS_FLUX \
     "FLUX_JY" /* card with the flux of a picture, a number; it is left out if the picture has no flux */
 
-/* The cards of a layer's HDU. wcs: NULL if the frames have different ones. */
+/* The cards of a layer's HDU. wcs: NULL if the frames have different world coordinates. */
 enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb,
                                  const struct kd_wcs *wcs);
 /* World coordinates of two axes. alternate: "" or one letter. */

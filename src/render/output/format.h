@@ -35,10 +35,10 @@ enum {
 struct kd_format {
     const char *name;       /* "png": value of `format=` and file name extension; lower case */
     const char *media_type; /* "image/png" */
-    const char *magic;      /* first bytes of each file; "": they vary */
-    const char *end;        /* last bytes of each file; NULL: they vary */
+    const char *magic;      /* first bytes of each file; "": the first bytes vary */
+    const char *end;        /* last bytes of each file; NULL: the last bytes vary */
     unsigned carries;
-    bool live; /* it supports KD_EFFORT_LIVE */
+    bool live; /* the format supports KD_EFFORT_LIVE */
     /* Adapts a scene so that its frame carries what the format needs; NULL: no change is necessary. KD_EINVAL at a
      * field if the scene has nothing to write. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);

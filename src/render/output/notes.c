@@ -126,7 +126,8 @@ enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *
                             "playground's snapshot, by "
                             "kerrd playground SNAPSHOT.json --picture FILE");
     struct kd_scene scene;   /* *out must not change if the document is refused */
-    kd_scene_smooth(&scene); /* fields missing from this complete document did not exist when it was written */
+    kd_scene_smooth(&scene); /* for fields that this complete document lacks, because they did not exist when it was
+                              * written */
     enum kd_status status = kd_scene_from_json(&scene, text, length, error);
     if (!status)
         *out = scene;

@@ -40,7 +40,7 @@ struct list {
     size_t n, room, n_rim; /* images; those of the rim come first */
 };
 
-/* Requests the directions in which rays end, and the optical depth of the disk before them. */
+/* Requests the directions in which rays end, and the optical depth of the disk in front of the sky. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     const bool disk = scene->disk.model != KD_DISK_NONE;

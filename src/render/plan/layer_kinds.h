@@ -31,7 +31,7 @@ struct kd_layer_kind {
     uint32_t n_classes;         /* 0: given by the largest value */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
-/* Whether it is a quantity of polarised light. */
+/* Whether the layer is a quantity of polarised light. */
 static inline bool kd_layer_is_polarized(int kind)
 {
     return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa ||

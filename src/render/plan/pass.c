@@ -146,7 +146,8 @@ INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(layered, plan->n_layers *pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
 INVOCATIONS(shown, plan->no_image ? 0 : pixels(plan, scene))
-/* Refinement examines the whole picture before its first round and after each. */
+/* The post pass also runs for refinement, which examines the whole picture before its first round and after each
+ * round. */
 INVOCATIONS(posted, shown(plan, scene) * (plan->adaptive ? 1 + KD_PLAN_REFINING_LOOKS : 1))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
 INVOCATIONS(beamed, plan->beam.cell ? shown(plan, scene) : 0)

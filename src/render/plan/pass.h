@@ -27,7 +27,7 @@ struct kd_scene;
     F(PIXEL_POST, "pixel_post", 30) \
     F(RAY_MARCH, "ray_march", 4000)     /* light of a ray through volumes */ \
     F(RAY_REFINED, "ray_refined", 400)  /* a ray planned for refinement, including its selection */ \
-    F(RAY_STARS, "ray_stars", 220)      /* a ray where stars are searched, and their images */ \
+    F(RAY_STARS, "ray_stars", 220)      /* a search for stars by a ray, and their images */ \
     F(SAMPLE_STARS, "sample_stars", 90) /* light of a ray under a sky of stars */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,

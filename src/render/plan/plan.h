@@ -73,7 +73,7 @@ struct kd_plan {
     uint32_t critical;
     uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
     uint64_t critical_pixels; /* number of these pixels */
-    uint64_t critical_part;   /* how many of them fit one buffer of their lens map */
+    uint64_t critical_part;   /* how many of these pixels fit one buffer of their lens map */
     uint32_t adaptive;        /* rays of a pixel after refinement (frame/refine.c); 0: no refinement */
     uint64_t listed_bytes;    /* size of the buffer for the lens map of refined pixels, filled part by part */
     enum kd_lens_path {
@@ -107,7 +107,7 @@ struct kd_plan {
     } shape;       /* shape of the picture for which that density is found; 0: this picture's own shape, which is
                     * subject to rounding to pixels */
     bool no_image; /* no pixels are made of the radiance */
-    bool numbers;  /* the frame is for a file of numbers: processing after the light is not part of it */
+    bool numbers;  /* the frame is for a file of numbers: no processing after the light is part of it */
     bool ring;     /* rays are listed, round the critical curve */
     bool ingoing;  /* the observer falls, in coordinates that are regular at the outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* layers besides the picture */

@@ -26,7 +26,7 @@ struct kd_rays_answer {
     double *alpha_beta; /* this and the next two are malloc'd */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
-    size_t undecided; /* this and the rest are set by kd_rays_answer_summarise */
+    size_t undecided; /* this and the following members are set by kd_rays_answer_summarise */
     /* With a tolerance: the number of rays that were traced again for it; the number that exceed it even so, including
      * undecided rays. */
     size_t followed_again, beyond;

@@ -110,7 +110,7 @@ void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, dou
     m.k = m.q + (m.l - a) * (m.l - a);
     struct point p = { { s, 0, u, isinf(r) ? 0 : 1 / r }, { -u * beta, -alpha, s * beta, 1 }, 0 };
     out->w = out->phi = 0;
-    if (isinf(r)) /* there w' = 1, so Mino time equals w */
+    if (isinf(r)) /* at infinity w' = 1, so Mino time equals w */
         p = approach(&m, p, 1 / fmax(far, 8 * hypot(alpha, beta)), out);
     cartesian(&m, &p, outward, out);
 }

@@ -83,7 +83,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
     }
 }
 
-/* Computes the true end points, as far as they can be known. *s: time of one core. */
+/* Computes the true end points, as far as they can be known. *s: the time that one core takes. */
 static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n,
                          struct kd_ray_crossing *crossings, struct kd_ray_end *ends, double *s)
 {
@@ -170,7 +170,7 @@ static double error_of(double value, double truth, int quantity)
     }
 }
 
-/* Appends the errors of one view to those already counted. */
+/* Appends the errors of one view to the errors already collected. */
 static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t,
                   struct kd_accuracy_entry *e, size_t counts[KD_ACCURACY_QUANTITIES])
 {

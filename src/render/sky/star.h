@@ -18,7 +18,7 @@
 struct kd_star {
     float x, y, z;
     float flux;   /* sr, as above */
-    float kelvin; /* of the black body that has its colour */
+    float kelvin; /* temperature of the black body that has the star's colour, K */
 };
 struct kd_stars {
     struct kd_star *at; /* the brightest first */

@@ -78,7 +78,7 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     s->told[s->n_told++] = (struct told) { x, y, image.mirrored, s->last[image.star] };
     s->last[image.star] = s->n_told;
     kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth,
-                    &image.y_by_azimuth); /* when the observer's azimuth grows, the sky turns the other way */
+                    &image.y_by_azimuth); /* when the observer's azimuth grows, the sky turns the other way round */
     return s->found(s->user, &image);
 }
 
@@ -104,7 +104,7 @@ struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* if it folds: its largest area, and places on both sides of the fold */
+    double area, beside[2][2]; /* of a cell that folds: the largest area, and places on both sides of the fold */
 };
 
 /* Whether a star may be bright enough where the map takes a cell to a solid angle `area`. */

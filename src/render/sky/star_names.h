@@ -12,7 +12,7 @@
 
 struct kd_star_name {
     size_t place;                   /* in the catalogue: kd_catalogue_star */
-    char name[KD_STAR_NAME];        /* "Vega"; "" if it has no proper name */
+    char name[KD_STAR_NAME];        /* "Vega"; "" if the star has no proper name */
     char designation[KD_STAR_NAME]; /* in that case "α Lyr", by J. Bayer or J. Flamsteed; else "" */
 };
 

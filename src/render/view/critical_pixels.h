@@ -52,7 +52,7 @@ static inline uint32_t kd_critical_steps(const struct kd_critical_lattice *l)
     return l->generator ? l->rays : l->shift;
 }
 
-/* Place of a ray in these steps. */
+/* Place of a ray, in steps of kd_critical_steps. */
 static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice *l, struct kd_pixel pixel,
                                                 uint32_t ray)
 {

@@ -22,9 +22,9 @@
 
 #define KD_RIM_LEAST 3e-5
 #define KD_RIM_NEAREST 1e-7     /* nearer than this, double precision loses 1e-6 rad and more */
-#define KD_RIM_BRIGHTEST 0.0235 /* sr: a star slightly brighter than Sirius, V = -1.5 (sky/star.h) */
+#define KD_RIM_BRIGHTEST 0.0235 /* flux in sr, of a star slightly brighter than Sirius: V = -1.5 (sky/star.h) */
 #define KD_RIM_SEEN 0.1         /* fraction of KD_STAR_LEAST; motion makes stars brighter */
-#define KD_RIM_PIXELS 14.0      /* width of the rim in pixels: there neighbouring pixels end far apart */
+#define KD_RIM_PIXELS 14.0      /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
 #define KD_RIM_NOISE \
     1.3e-3 /* The width of the rim is at least this times its radius in pixels: beyond that width the rounding of 32 \
             * bits, 7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
