@@ -8,8 +8,9 @@
  * tile has the same cells as its picture.
  *
  * The tolerance is relative, for w, angles and directions alike. Where the map is steep, the rounding of the camera's
- * directions to 32 bits may move it by more than that. The tolerance is then CONDITION times the change of ln w, or of
- * the angle, for a direction twice as far from the hole. A stricter tolerance would be missed because of noise. */
+ * directions to 32 bits moves the map by more than that, and a strict tolerance would be missed because of noise. The
+ * tolerance is then multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice as far
+ * from the hole. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -141,7 +141,7 @@ void main()
         kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root,
                             kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon));
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
-    /* Rounding at the start: of w, and of R, whose root is w'. */
+    /* Rounding errors at the start, in roundoffs. size: of R, whose root is w'; kick: of w and w' together. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);

@@ -21,7 +21,7 @@ float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
     return redshift ? sqrt(max(rest, 0.0)) / under : inversesqrt(x3) * all / under;
 }
 
-/* g itself. */
+/* The redshift factor g. */
 float kd_orbit_shift(float w, float energy, float momentum, uint traits)
 {
     float r = 1.0 / w;

@@ -14,8 +14,8 @@
 #ifndef KD_SYNCHROTRON_GLSL
 #define KD_SYNCHROTRON_GLSL
 
-/* Electrons: log2 of their density in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss; cosine, sine2: of
- * the angle between field and light in the frame of the matter, and the square of its sine. */
+/* Electrons. density, heat, field: log2 of their density in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss.
+ * cosine: of the angle between field and light in the frame of the matter; sine2: the square of the angle's sine. */
 struct kd_electrons { float density, heat, field, cosine, sine2; };
 /* light: log2 of the emissivity in units of e^2/c cm^-3 GHz (e in Gaussian units), 7.69558e-22 W m^-3 Hz^-1 sr^-1.
  * depth: log2 of the absorptivity in units of that over 2h GHz^3/c^2, 52.191 m^-1. steep: relative change of light per

@@ -63,10 +63,10 @@ struct kd_march_piece {
 #define KD_MARCH_WAITS false
 #endif
 
-/* A polynomial in the time within a step, from 0 to 1. */
+/* A polynomial in the time within a step, which goes from 0 to 1. */
 struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
 
-/* The quintic with these values, slopes and second derivatives at both ends. */
+/* The quintic with given values, slopes and second derivatives at both ends. */
 kd_quintic kd_quintic_of(float y0, float d0, float a0, float y1, float d1, float a1)
 {
     float rest = y1 - y0 - d0 - 0.5 * a0, slope = d1 - d0 - a0, bend = a1 - a0;

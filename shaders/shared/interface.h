@@ -261,7 +261,7 @@
     U(length_)               /* rows of the source */ \
     U(first_times) U(first_over) U(before) U(count) \
     F(from_scale)            /* units of the weights' argument per row of the source */ \
-    F(to_scale) F(shift)     /* the same per row of the result, which is shifted by `shift` */ \
+    F(to_scale) F(shift)     /* units of the weights' argument per row of the result, and the result's shift */ \
     F(weight)                /* factor of the whole sum */
 /* clang-format on */
 /* Push constants of beam_blur.comp. */

@@ -8,7 +8,7 @@ enum { PROFILES = KD_PROFILE_REFERENCE + 1 };
 static const struct {
     const char *name;
     uint32_t steps[2];             /* by precision: used where neither steps nor a profile are named */
-    uint32_t profile[2][PROFILES]; /* draft, interactive, balanced, high, reference */
+    uint32_t profile[2][PROFILES]; /* by precision, for the profiles draft, interactive, balanced, high, reference */
 } engines[KD_ENGINE_COUNT] = {
     [KD_ENGINE_CLOSED] = { .name = "closed" },
     [KD_ENGINE_MINO_RKN4] = { "mino-rkn4", { 32, 256 }, { { 8, 8, 16, 32, 32 }, { 8, 16, 64, 128, 512 } } },

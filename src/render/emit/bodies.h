@@ -21,7 +21,8 @@ struct kd_bodies_view {
     const struct kd_illumination *lit;
 }; /* lit: NULL if the disk does not illuminate them */
 
-/* The disk as a light source for bodies (bodies_illumination.c). False if the scene has no thin disk. */
+/* kd_illumination_of: prepares the disk as a light source for bodies (bodies_illumination.c). False if the scene has no
+ * thin disk. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
 struct kd_illumination {
     struct kd_illumination_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];

@@ -31,7 +31,7 @@ enum {
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
     double spin;
-    double r[2], theta[2]; /* of the first and the last row, of the first and the last column; r in M */
+    double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column */
     /* phi of the first layer; angle covered by all layers, radians: a turn or a whole fraction of it */
     double phi, turn;
     bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; otherwise the Boyer-Lindquist one */

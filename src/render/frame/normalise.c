@@ -19,7 +19,7 @@ enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels along a side, at first an
 
 struct search {
     struct kd_renderer *r;
-    struct kd_scene scene; /* the rendered scene, without density and size */
+    struct kd_scene scene; /* the scene to be rendered; each picture sets its density and size */
     double target, most;   /* Jy; ln of the largest scale */
     double slope;          /* d ln flux / d ln scale, from the last pictures */
     kd_progress_fn progress;

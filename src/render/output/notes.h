@@ -30,7 +30,7 @@ struct kd_notes {
     char flux[KD_FLUX_TEXT];   /* at a radio frequency, otherwise "" */
     char blur[KD_BLUR_TEXT];   /* for a mean of pictures, otherwise "" */
 };
-/* KD_ENOMEM. Call kd_notes_finish in any case. */
+/* Collects the metadata of a picture. KD_ENOMEM. Call kd_notes_finish in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 

@@ -238,7 +238,7 @@ static bool exact(const void *of, double x, double y, struct kd_vec *out)
     return true;
 }
 
-/* Converts from the map's rows to the picture's. */
+/* Converts an image from the map's rows to the picture's, and adds it. */
 static enum kd_status add_around(void *user, const struct kd_star_image *found)
 {
     struct kd_star_image image = *found;

@@ -43,8 +43,8 @@ struct kd_rim_grids {
 /* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
 
-/* Whether even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. About 5 ms for a fast
- * hole, no time for others. */
+/* Whether even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
+ * hole, and no time for others. */
 bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 
 /* Largest solid angle of the sky, sr, that a pixel may show with Sirius still visible; with some margin, since the
