@@ -91,9 +91,10 @@ bool straight(kd_biquadratic p, vec3 m)
     return dot(a, a) + dot(b, b) + dot(c, c) < BENT * BENT * (dot(i, i) + dot(j, j)); /* false for NaN */
 }
 
-/* Whether the error of the polynomial of crossing n, the third difference along x and y, is small relative to its
- * slopes. Each of the four rays two pixels away provides it, if it has such a crossing. A map that bends in opposite
- * directions on the two sides of a pixel has no second difference there. */
+/* Whether the error of the polynomial of crossing n is small relative to the polynomial's slopes. The error is the
+ * third difference along x and y. Each of the four rays two pixels away provides one, if that ray has such a crossing.
+ * The second difference alone would not do: it is 0 at a pixel where the map bends in opposite directions on both
+ * sides. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;

@@ -63,7 +63,7 @@ vec3 aces(vec3 c)
 }
 
 /* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, except for an offset of 0.04, its
- * brightness. Above, the largest channel tends to 1, and the colour to white, more slowly the brighter it is. */
+ * brightness. Above 0.8 the largest channel tends to 1, and the colour to white, the more slowly the brighter it is. */
 vec3 neutral(vec3 c)
 {
     const float start = 0.8 - 0.04, desaturation = 0.15, d = 1 - start;

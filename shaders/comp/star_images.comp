@@ -72,8 +72,8 @@ void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2
 }
 
 /* Next to a caustic a patch is thin: rounding of 32 bits, and terms of third order, are a large part of its width.
- * There it is the least-squares cubic for 7 x 7 rays: by the polynomials 1, u, u^2 - 4, u^3 - 7u, which are
- * orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
+ * There the map is the least-squares cubic for 7 x 7 rays. It is computed by the polynomials 1, u, u^2 - 4, u^3 - 7u,
+ * which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
 void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
 {
     float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);

@@ -73,8 +73,8 @@ void search(uint at)
     room = patch_ < 0.1 * (aa + bb) ? all : min(1.1 * KD_STAR_ROOM * room, all);
     kd_cells cells = kd_cells_of(face.number, middle - room, middle + room);
     kd_star_walk walk = kd_star_walk_from(cells, looks);
-    /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from
-     * star to star, and from cell to cell, until one is near, and the outer loop records it. */
+    /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from star
+     * to star, and from cell to cell, until a star is near, and the outer loop records this star. */
     for (;;) {
         bool near = false;
         for (;;) {

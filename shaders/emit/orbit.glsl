@@ -12,8 +12,8 @@
 /* g r^(-3/4) at r = 1/w: the factor for the temperature of a disk whose table holds T r^(3/4). */
 float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
 {
-    /* With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3: near the ISCO of a fast hole
-     * the left-hand side loses all digits. Its x^3 and r^(-3/4) cancel. */
+    /* With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
+     * left-hand side loses all digits. The x^3 of the right-hand side and r^(-3/4) cancel. */
     float r = 1.0 / w, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0)), all = x3 + cam.spin;
     precise float rest = d * d * (x + 2.0) - 2.0 * emission.frame.one_minus_a;
     bool doppler = (traits & KD_TRAIT_DOPPLER) != 0u, redshift = (traits & KD_TRAIT_REDSHIFT) != 0u;

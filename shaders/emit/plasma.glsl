@@ -196,8 +196,8 @@ kd_grid_node kd_grid_line(uint at, uint next, float part)
                         mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
 }
 
-/* phi of ingoing Kerr-Schild coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r - 1)
- * artanh(x)/x, x = (r+ - 1)/(r - 1). */
+/* phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi: int a/Delta dr = a/(r+ - r-) ln((r - r+)/(r - r-))
+ * = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
 float kd_grid_fallen(float r)
 {
     float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;

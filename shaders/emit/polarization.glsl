@@ -108,8 +108,8 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     return out_;
 }
 
-/* Stokes Q and U of the light of a crossing, relative to its I. A ray traced back from above the plane first goes
- * down through it, so that the light comes up; for an observer in the plane the direction of look decides. right:
+/* Stokes Q and U of the light of a crossing, relative to its I. A ray traced back from above the plane first goes down
+ * through the plane, so that the light comes up; for an observer in the plane the camera's direction decides. right:
  * kappa of the ray's place, from kd_polarization_right. */
 vec2 kd_polarization_at(kd_sample s, vec2 right, float up)
 {

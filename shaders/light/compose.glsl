@@ -21,14 +21,14 @@ struct kd_glow {
 /* The ellipse across a ray that the ray stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
  * as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
 struct kd_spread { vec3 plane, rise; };
-/* A point of a ray inside a volume. w = 1/r, u = cos(theta), and dw, du: their derivatives by Mino time in the
- * direction of tracing, against the light. The arriving photon has p_r = dw/kd_delta(w), p_theta = du/sin(theta),
- * and E, L and Q in `energy`, `momentum`, `q`, in units of the energy that the observer measures. speed: length in
- * (r, r n), M, per unit of Mino time, as if space were flat, where n is the direction from the hole; the unit of
- * grains. phi: azimuth, source minus observer; spread: what the ray stands for; both 0 without KD_TRAIT_AZIMUTH.
- * order: of the nearest crossing of the plane on the ray, where it changes at the extremes of cos(theta); 0 if
- * nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's innermost crossing of
- * the plane; 0: unknown. */
+/* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction
+ * of tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures;
+ * the arriving photon has these, p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in (r, r n), M, per
+ * unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this unit of
+ * length. phi: azimuth, source minus observer; spread: the ellipse that the ray stands for; both 0 without
+ * KD_TRAIT_AZIMUTH. order: of the nearest crossing of the plane on the ray; it changes at the extremes of
+ * cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's
+ * innermost crossing of the plane; 0: unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
@@ -45,9 +45,9 @@ struct kd_medium {
     vec3 light;
     float depth, grain;
 };
-/* A surface that a ray meets. time: Mino time from the observer; body: its number, or KD_NOBODY; crossed: crossings
- * of the plane before it; w, u, phi and dw, du: as in kd_midst; energy, momentum: E and L; cosine: of the emission
- * angle in the frame of the surface. */
+/* A surface that a ray meets. time: Mino time from the observer; body: the body's number, or KD_NOBODY; crossed: number
+ * of crossings of the plane before the surface; w, u, phi and dw, du: as in kd_midst; energy, momentum: E and L;
+ * cosine: of the emission angle in the frame of the surface. */
 struct kd_met {
     float time;
     uint body, crossed;

@@ -13,9 +13,9 @@
 #define KD_BLOOM_KNEE 0.4
 #define KD_BLOOM_MOST 64.0
 
-/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light: nothing below
- * FROM - KNEE, everything above FROM from FROM + KNEE on, and a parabola between. If y is 10^30 or more, or NaN,
- * nothing is spread. */
+/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light. With y the
+ * luminance, it is nothing if y is below FROM - KNEE, everything above FROM if y is above FROM + KNEE, and a parabola
+ * between. If y is 10^30 or more, or NaN, nothing is spread. */
 vec3 bloom_of(vec3 c, float strength)
 {
     float y = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;

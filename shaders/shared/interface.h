@@ -1,5 +1,5 @@
-/* Layouts and constants shared by C and GLSL. Only 4-byte scalars; each list is written once and expanded by both
- * sides; a test compares the offsets in the SPIR-V with offsetof. */
+/* Layouts and constants shared by C and GLSL. They consist of 4-byte scalars only. Each list is written once and
+ * expanded by both sides; a test compares the offsets in the SPIR-V with offsetof. */
 #ifndef KD_INTERFACE_H
 #define KD_INTERFACE_H
 
@@ -278,8 +278,8 @@
 #define KD_STOKES_UNTOLD 3e38
 #define KD_STOKES_LEAST_UNTOLD 1e38
 
-/* Push constants of photometry.comp. Each invocation sums KD_LIGHT_PIXELS pixels of a band to twice four sums, and
- * with Stokes Q, U and V to twice four more. */
+/* Push constants of photometry.comp. Each invocation sums KD_LIGHT_PIXELS pixels of a band to eight sums, and with
+ * Stokes Q, U and V to sixteen. */
 /* clang-format off */
 #define KD_LIGHT_FIELDS_(F, U) \
     U(pixels_x) U(pixels)     /* pixels a row; pixels of the band */ \
@@ -307,8 +307,8 @@
 #define KD_FATE_CAPTURED 1.0
 #define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
 
-/* Records of trace.glsl: numbers before the records, numbers a record, and the stages. A stage 0, 1, ... is a step
- * on the way to the crossing of that order, in w and u; the others hold the unit vector n and w. */
+/* Records of trace.glsl: numbers before the records, numbers a record, and the stages. A stage 0, 1, ... is a step on
+ * the way to the crossing of that order, in w and u. Records of the other stages hold the unit vector n and w. */
 #define KD_TRACE_HEADER 8
 #define KD_TRACE_RECORD 11
 #define KD_TRACE_START -1.0

@@ -1,5 +1,5 @@
-/* Elementary functions with known errors in both precisions: Vulkan allows its atan 4096 ulp and its sine 2^-11, and
- * has none of them in double. KD_DOUBLE: accurate to 1e-16 instead of 1e-7. */
+/* Elementary functions with known errors in both precisions. Vulkan allows 4096 ulp for its atan and 2^-11 for its
+ * sine, and has neither in double. KD_DOUBLE: accurate to 1e-16 instead of 1e-7. */
 #ifndef KD_MATH_GLSL
 #define KD_MATH_GLSL
 

@@ -1,5 +1,5 @@
-/* Writes ZIP files (PKWARE APPNOTE 6.3.10) in memory: members stored or deflated, without times, so that the same
- * members give the same bytes. unzip.h reads them. One thread a file. */
+/* Writes ZIP files (PKWARE APPNOTE 6.3.10) in memory. Members are stored or deflated, and have no times, so that the
+ * same members give the same bytes. unzip.h reads such files. One thread a file. */
 #ifndef KD_IMAGE_ZIP_H
 #define KD_IMAGE_ZIP_H
 

@@ -2,10 +2,10 @@
  * accuracy` measures it, GET /v1/accuracy serves it, and accuracy.tolerance is looked up in it. Plain values; any
  * thread.
  *
- * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h).
- * They cover all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR:
- * relative for r and g, absolute for phi (radians) and delay (M). A ray with another fate or another number of
- * crossings is counted in `differ`. */
+ * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h). An
+ * error covers all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR. It is
+ * relative for r and g, absolute for phi (radians) and delay (M). A ray whose fate or number of crossings differs from
+ * the closed form's is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -70,8 +70,8 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
                                   const struct kd_accuracy_limits *limits, struct kd_accuracy_choice *out,
                                   struct kd_error *error);
 
-/* The table used for tolerances until this device has its own: of llvmpipe, from bench/results. Errors hardly depend
- * on the device, speeds do. Any thread; never freed; NULL if out of memory. */
+/* The table used for tolerances until this device has a table of its own. It is that of llvmpipe, from bench/results:
+ * errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
 /* Appends the document of GET /v1/accuracy; reads it back, with KD_EINVAL for any other text. */

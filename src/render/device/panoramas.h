@@ -50,16 +50,16 @@ void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *a
  * before the first request. */
 void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
 
-/* Starts making the panorama of a scene if it has one that is not cached. Returns whether it is in progress.
- * Panoramas that were not delivered yet are evicted last. A waiting client calls again, so that an evicted one is
- * made once more. */
+/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is in
+ * progress. Panoramas that were not delivered yet are evicted last. A waiting client calls again, so that a panorama
+ * that was evicted meanwhile is made once more. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky, if a slot is free and nothing else is in progress, so that later
- * requests wait less. It is evicted first, and errors are reported to whoever requests it. */
+ * requests wait less. Such a panorama is evicted first, and errors are reported to whoever requests it. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* The panorama of a scene that has one; waits for it if necessary: some tenths of a second for a Milky Way, a second
- * for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is gone or
- * is not a valid picture; KD_ENOMEM. */
+/* The panorama of a scene that has one. Waits for it if necessary: some tenths of a second for a Milky Way, a second
+ * for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is gone or is
+ * not a valid picture; KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops other requests: `made` is not called any more until a new request. */

@@ -51,9 +51,9 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer);
 
 /* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading the picture of a scene's sky if it has one that is not cached: up to a second. Returns whether that
- * is in progress. A render waits for it with the device held; a client that polls until it is done and then renders
- * leaves the device to others meanwhile. Any thread. */
+/* Starts reading the picture of a scene's sky, if the scene has one that is not cached; this takes up to a second.
+ * Returns whether the reading is in progress. A render would wait for it while it holds the device. A client that polls
+ * until the reading is done, and renders then, leaves the device to others meanwhile. Any thread. */
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
@@ -74,12 +74,12 @@ uint64_t kd_renderer_held(const struct kd_renderer *renderer);
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
-/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays against the closed form in
- * double. sampled is 0 if that is impossible: a picture too large to keep its lens map, or one without crossings. */
+/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays against the closed form in double.
+ * sampled is 0 if no error can be measured: the picture is too large to keep its lens map, or has no crossings. */
 struct kd_accuracy_report {
     uint64_t undecided; /* rays of the whole picture that were given up; shown in magenta */
-    /* for an interpolated lens map: rays that were traced for it (nodes shared by slices count twice); pixels' rays
-     * in smooth cells. 0: not interpolated */
+    /* for an interpolated lens map: number of rays that were traced for it (nodes shared by slices count twice); number
+     * of the pixels' rays in smooth cells. 0: not interpolated */
     uint64_t traced, interpolated;
     uint32_t sampled, crossings; /* rays that were traced again; crossings that were compared */
     uint32_t differ;             /* crossings that only one of the two has; rays with different fates */

@@ -42,8 +42,9 @@ struct kd_emitter {
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that it reads; NULL: none */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies: what changes its light; NULL: nothing */
-    /* Its own device buffers, their bytes, and the invocations of the pass that fills them before light
-     * (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the buffers. */
+    /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
+     * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
+     * buffers. */
     const struct kd_emitter_buffers *own;
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
@@ -86,8 +87,8 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Computes the words of the specialisation constants; 0 for emitters that the scene does not have. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* What the scene's emitters need: quantities of the lens map; whether there is light at crossings of the plane, at
- * the ends of rays, with separate luminance, or from points. */
+/* What the scene's emitters need: quantities of the lens map; whether there is light at crossings of the plane, at the
+ * ends of rays, light with separate luminance, or light from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene);      /* whether there are volumes */

@@ -5,12 +5,12 @@
  *                 "kerr-schild", "units": {array: unit}}
  *   r theta phi   coordinates of rows, columns and layers, evenly spaced in log r, theta and phi. phi covers one turn
  *                 or a whole fraction of it, and may be missing
- *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi   (rows, columns) or (rows,
- *     columns, layers)
+ *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
+ *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
  *
- * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite
- * at the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
+ * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite at
+ * the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
 #ifndef KD_RENDER_EMIT_MATTER_GRID_H
 #define KD_RENDER_EMIT_MATTER_GRID_H
 

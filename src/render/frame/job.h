@@ -163,9 +163,9 @@ enum kd_status kd_frame_mean(struct kd_frame_job *job);
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* Sets the exposure from the completed light; waits for the device if it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
-/* Refine: trace more rays for the pixels that need them, at the frame's exposure; j->kinds records which. Residual:
- * measure the remaining error of the picture into the frame's accuracy; the light of the sampled pixels is
- * overwritten. */
+/* kd_frame_refine traces more rays for the pixels that need them, at the frame's exposure; j->kinds records which.
+ * kd_frame_residual measures the remaining error of the picture into the frame's accuracy; it overwrites the light of
+ * the sampled pixels. */
 enum {
     KD_REFINED_NOT,
     KD_REFINED_NOT_AT_CURVE,

@@ -27,9 +27,10 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struc
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                         struct kd_vk_buffer *lens, uint32_t band, int camera, int makes);
-/* Rays through volumes that a driver stopped early. kd_frame_forget_lost empties the list after a band's light, or a
- * sample's, before any of it is computed. kd_frame_follow_lost continues the rays listed since, for pixels lit by
- * `base`, with `march` and `turns` dispatches for each; it submits what is recorded and waits. */
+/* Rays through volumes that a driver stopped early are listed. kd_frame_forget_lost empties the list that follows a
+ * band's light, or a sample's; call it before any of that light is computed. kd_frame_follow_lost continues the rays
+ * listed since, for pixels lit by `base`, with `march` and `turns` dispatches for each; it submits what is recorded and
+ * waits. */
 enum kd_status kd_frame_forget_lost(struct kd_frame_job *job, struct kd_vk_buffer *light, const char *pass);
 enum kd_status kd_frame_follow_lost(struct kd_frame_job *job, const struct kd_vk_dispatch *base,
                                     const struct kd_slice *march, const struct kd_critical_lattice *lattice,
@@ -65,8 +66,8 @@ enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_fr
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 
 /* Rays of pixels on a square grid, interpolated in the lens map of the picture's grid (comp/between.comp).
- * kd_frame_has_between: whether that map has one ray a pixel and is complete. kd_frame_mark_between: for which
- * pixels that is accurate; a byte each, 1 or 0; waits for the device. */
+ * kd_frame_has_between: whether that map has one ray a pixel and is complete. kd_frame_mark_between: writes for each
+ * pixel whether interpolation is accurate, a byte of 1 or 0; waits for the device. */
 bool kd_frame_has_between(const struct kd_frame_job *job);
 enum kd_status kd_frame_mark_between(struct kd_frame_job *job, const struct kd_critical_pixels *pixels, uint8_t *marks);
 enum kd_status kd_frame_between(struct kd_frame_job *job, const struct kd_frame_part *part);

@@ -158,8 +158,8 @@ struct kd_governor {
 
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params);
 
-/* Sets the fraction of the device's time for this session: above 0 and at most 1, the initial value. It changes as
- * other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
+/* Sets the fraction of the device's time for this session: above 0 and at most 1, the initial value. The fraction
+ * changes as other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
 void kd_governor_share(struct kd_governor *governor, double share);
 
 /* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place of

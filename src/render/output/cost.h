@@ -1,5 +1,5 @@
-/* Estimated total cost of several frames from their plans, before any is rendered: those of a job, or the scenes of
- * a sweep, which share lens maps. Pure, any thread. */
+/* Estimated total cost of several frames from their plans, before any is rendered. The frames are those of a job, or
+ * the scenes of a sweep, which share lens maps. Pure, any thread. */
 #ifndef KD_RENDER_OUTPUT_COST_H
 #define KD_RENDER_OUTPUT_COST_H
 

@@ -1,9 +1,9 @@
-/* A cube: an array of each layer over all scenes of a sweep, made from the scenes' FITS files; shared by cube_fits.c
+/* A cube: for each layer an array over all scenes of a sweep, made from the scenes' FITS files. Shared by cube_fits.c
  * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences precede the
  * numbers.
  *
- * In FITS each layer is an image with the picture's axes, for "rgb" the three colours, then the axes of the sweep
- * from the last to the first. In NumPy its shape is (axes of the sweep, height, width[, 3]). Internal to
+ * In FITS a layer is an image whose axes are those of the picture, for "rgb" the three colours, then the axes of the
+ * sweep from the last to the first. In NumPy the array's shape is (axes of the sweep, height, width[, 3]). Internal to
  * render/output. */
 #ifndef KD_RENDER_OUTPUT_CUBE_H
 #define KD_RENDER_OUTPUT_CUBE_H

@@ -1,13 +1,12 @@
 /* A telescope's beam (style.beam_uas): light is convolved with a round Gaussian, before exposure, bloom and tone
  * curves. Any thread.
  *
- * The beam determines the resolution of the work, not the picture. If its standard deviation sigma is at least
+ * The work depends on the beam's resolution, not on the picture's. If the beam's standard deviation sigma is at least
  * KD_BEAM_CELLS cells of two pixels or more, light is gathered on a grid of square cells, blurred there, and
  * interpolated back. Gathering and interpolation use quadratic B-splines, which shift nothing and have a variance of
- * 1/4 each, in cells; the blur supplies the rest of sigma^2. The error is 3e-4 of the brightest value if all light
- * is in one cell, and less otherwise. Each axis is blurred by a pass of its own. For a narrower beam cells are
- * pixels, weighted by the Gaussian at their centres. The weights add up to 1, and there is no light outside the
- * picture. */
+ * 1/4 each, in cells; the blur supplies the rest of sigma^2. The error is 3e-4 of the brightest value if all light is
+ * in one cell, and less otherwise. Each axis is blurred by a pass of its own. For a narrower beam the cells are pixels,
+ * weighted by the Gaussian at their centres. The weights add up to 1, and there is no light outside the picture. */
 #ifndef KD_RENDER_PLAN_BEAM_H
 #define KD_RENDER_PLAN_BEAM_H
 

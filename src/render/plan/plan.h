@@ -89,8 +89,8 @@ struct kd_plan {
     bool points;                       /* some emitter consists of points of light */
     bool bright;                       /* only bright images of points are made, and none next to the critical curve */
     bool apart;                        /* the luminance of some emitter is kept beside the radiance */
-    /* numbers a pixel after the radiance: Stokes Q, U and V if polarised light is measured or marched layers need
-     * them; and Q and U of the separate luminance. 0: none */
+    /* numbers a pixel after the radiance: Stokes Q, U and V, if polarised light is measured or marched layers need
+     * them; Q and U of the separate luminance. 0: none */
     uint32_t stokes_words;
     bool ends;                /* some emitters shine at the ends of rays, and the lens map holds these ends */
     struct kd_march march;    /* the march for volumes and bodies; all 0: the scene has none, and light follows from the
@@ -130,9 +130,9 @@ struct kd_plan {
     /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: none are missing, or it
      * is not known */
     double kernels_ms;
-    /* The remaining settings come from the caller and not from the scene. For showing successive frames: if
-     * style.exposure is "auto", the exposure moves from exposure_from towards that of the picture by this fraction.
-     * 0, as set by kd_plan_make: the picture's own exposure. */
+    /* The remaining settings come from the caller and not from the scene. The next two are for showing successive
+     * frames. If style.exposure is "auto", the exposure moves by the fraction exposure_share from exposure_from towards
+     * the picture's own. exposure_share is 0, as set by kd_plan_make: the picture's own exposure. */
     double exposure_from, exposure_share;
     struct {
         bool on, steps;
@@ -151,8 +151,8 @@ struct kd_plan {
     char lens_key[65]; /* hash of everything that the lens map depends on */
 };
 
-/* scene must be valid (kd_scene_validate). KD_ETOOBIG, with the size, if it does not fit; KD_EINVAL at /accuracy/...
- * for an engine, precision or tolerance that is impossible with this device or camera. */
+/* scene must be valid (kd_scene_validate). KD_ETOOBIG, with the size, if the picture does not fit; KD_EINVAL at
+ * /accuracy/... for an engine, precision or tolerance that is impossible with this device or camera. */
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
                             struct kd_error *error);
 

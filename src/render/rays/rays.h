@@ -55,10 +55,11 @@ struct kd_ray_end {
     enum kd_ray_fate fate;
     uint32_t n_crossings; /* number of the requested orders that exist outside the horizon */
     double theta, phi;    /* direction of an escaping ray: polar angle and azimuth, source minus observer */
-    /* Estimated relative error of the worst crossing radius; without a crossing, of the direction in radians. It is
-     * an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither, for every engine. 1 or more: the
-     * number of crossings may be wrong by one next to the horizon or very far out (Mino engines, closed form), or
-     * the number or the fate differs from the closed form's (Kerr-Schild engines). */
+    /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its direction
+     * in radians. It is an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither, with every
+     * engine. A value of 1 or more means that the number of crossings may be wrong by one next to the horizon or very
+     * far out (Mino engines, closed form), or that the number or the fate differs from the closed form's (Kerr-Schild
+     * engines). */
     double error;
     /* at infinity, in units of the energy that the observer measures; only if the observer's motion is given */
     double energy;

@@ -19,7 +19,8 @@ struct kd_sky_picture {
     uint32_t width, height;
     float *texels;
     /* Texels of a row are narrower towards the poles. If set, each level is averaged along rows over 1/cos(latitude)
-     * texels, so that it is as coarse there as at the equator and the poles are not drawn as stars of many rays. */
+     * texels, so that a row is as coarse there as at the equator; otherwise the poles would look like stars with many
+     * rays. */
     bool even;
 };
 void kd_sky_picture_finish(struct kd_sky_picture *picture);

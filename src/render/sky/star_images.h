@@ -1,11 +1,11 @@
 /* Finds the images of stars under a map of rays to the sky: for each star the places of rays that end at it. Pure; any
  * thread.
  *
- * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within the latter has an
- * image in the former, at the same barycentric coordinates. From there Newton's method finds the ray that ends at
- * the star, if the map can follow single rays (star_root.h). Where the map folds between four rays, two images of a
- * star merge, and triangles miss both or report a false one; there each nearby star is searched from both sides of
- * the fold. A triangle with a side longer than `coarse` has no images. */
+ * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within a triangle of the sky
+ * has an image in the corresponding triangle of rays, at the same barycentric coordinates. From there Newton's method
+ * finds the ray that ends at the star, if the map can follow single rays (star_root.h). Where the map folds between
+ * four rays, two images of a star merge, and triangles miss both or report a false one. There each nearby star is
+ * searched from both sides of the fold. A triangle with a side longer than `coarse` has no images. */
 #ifndef KD_RENDER_SKY_STAR_IMAGES_H
 #define KD_RENDER_SKY_STAR_IMAGES_H
 
@@ -37,8 +37,8 @@ struct kd_sky_map {
     bool (*exact)(const void *of, double x, double y,
                   struct kd_vec *out); /* direction from which any single ray comes; false: unknown. NULL: no ray can be
                                         * followed */
-    /* The map between its rays, except `area`, to 1e-3 of a ray; it saves exact rays where there is no image. False:
-     * unknown. NULL: unknown everywhere. */
+    /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. It saves following exact
+     * rays where there is no image. False: unknown. NULL: unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
                    double y); /* whether an image near this place must be reported, to 0.01 rays; NULL: always */

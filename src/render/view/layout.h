@@ -66,9 +66,9 @@ _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push
                    sizeof(struct kd_post_push) <= 128,
                "the push constants that every device has");
 
-/* Cameras of a frame, in one buffer at offsets at which a binding may begin. In order: rays of the grid; rays at the
- * critical curve; extra rays of refined pixels, on the grid and at the curve; rays that measure the remaining error;
- * the whole picture that this one may be a tile of. */
+/* Cameras of a frame, in one buffer at offsets at which a binding may begin. In order: for rays of the grid; for rays
+ * at the critical curve; for extra rays of refined pixels, on the grid and at the curve; for rays that measure the
+ * remaining error; for the whole picture of which this one may be a tile. */
 enum {
     KD_CAMERA_GRID,
     KD_CAMERA_CRITICAL,

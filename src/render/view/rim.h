@@ -1,16 +1,16 @@
 /* Layout of the rim of the shadow, where images of stars are searched with extra rays. Next to the critical curve
- * neighbouring rays of a picture end too far apart for that. The extra rays are spaced by angle round the curve and by
- * the logarithm of the distance to it, in which every image order of the sky has the same width (docs/physics/sky.md).
- * rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be valid.
+ * neighbouring rays of a picture end too far apart for a search. The extra rays are spaced by the angle round the curve
+ * and by the logarithm of the distance to it, in which every image order of the sky has the same width
+ * (docs/physics/sky.md). rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be valid.
  *
- * The rim lies on a plane. For an observer at infinity it is (alpha, beta) about the curve's middle. For others it is
- * the tangent plane of the sky of directions at the curve's middle, with tangents of angles as coordinates. A place has
- * a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance from the middle is 1 + off
- * times that of the curve's point.
+ * The rim lies on a plane. For an observer at infinity this is the plane of (alpha, beta) about the curve's middle. For
+ * other observers it is the tangent plane of the sphere of directions at the curve's middle, with tangents of angles as
+ * coordinates. A place has a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance
+ * from the middle is 1 + off times that of the curve's point.
  *
- * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen
- * there, down to KD_RIM_NEAREST. An image at `off` of a star of flux F has at least the radiance F off
- * (radius/pixel)^2, and not much more unless the star is next to a caustic. */
+ * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen there,
+ * down to KD_RIM_NEAREST. An image at `off` of a star of flux F has at least the radiance F off (radius/pixel)^2, and
+ * not much more unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
