@@ -43,7 +43,7 @@ vec3 turned(vec3 d, bool angle)
     return d;
 }
 
-/* Values of the ray at a place of the map: for crossings w and a second quantity; for the sky a unit vector. */
+/* Values of the ray at a place of the map. For a crossing: w and a second quantity. For the sky: a unit vector. */
 vec3 crossing(uint n, uint quantity, uint at)
 {
     return vec3(lens[at + n * push.map_stride], lens[at + (kd_plane(quantity) + n) * push.map_stride], 0.0);
@@ -154,7 +154,7 @@ bool may(uint x, uint y, uint at)
     return yes;
 }
 
-/* An invocation is a pixel; its polynomials serve all of its rays. */
+/* An invocation processes a pixel; the pixel's polynomials serve all of its rays. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
 /* Writes w of crossing n, and a second quantity. */

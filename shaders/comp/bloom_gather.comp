@@ -38,7 +38,7 @@ int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
     return int(ceil((float(i) - 1) / step_ - 0.5)) -
-           (around && RAGGED ? 1 : 0); /* the right edge's narrow block is to the left of the left edge */
+           (around && RAGGED ? 1 : 0); /* beyond the left edge the next block is the right edge's narrow one */
 }
 
 /* A block, and its weights by the distance of its centre from that of cell i, in cells. */

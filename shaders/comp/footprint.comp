@@ -47,7 +47,7 @@ float map_at(uint at) { return lens[at]; }
 const uint FIRST = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u ? KD_LENS_FOOTPRINT : KD_LENS_SKY_FOOTPRINT;
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
-/* Where a ray ends: for a crossing (w, phi), for the sky a unit vector. */
+/* The spot where a ray ends: for a crossing (w, phi), for the sky a unit vector. */
 struct kd_spot {
     vec3 at;
     bool there;
@@ -81,7 +81,8 @@ struct kd_change {
     bool there;
 };
 
-/* The change at index `place` of `places` along the axis; step_: distance of neighbours in a plane of the map. */
+/* The change along the axis for the ray at index `place` of `places`; step_: distance of neighbours in a plane of the
+ * map. */
 kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;
@@ -131,7 +132,7 @@ struct kd_fit {
     float dd, count, lacks;
 };
 
-/* Which of the adjacent pixels are listed too; they are adjacent in the list. */
+/* Whether the left and the right adjacent pixel are listed too; they are then adjacent in the list. */
 struct kd_beside { bool left, right; };
 
 vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
@@ -142,7 +143,7 @@ kd_beside beside(uint pixel)
     return kd_beside(before == own - vec2(1.0, 0.0), after == own + vec2(1.0, 0.0));
 }
 
-/* Adds a neighbour of ray k, at the vector (vx, vy), to the fit; it may be in an adjacent pixel. */
+/* Adds a neighbour of ray k, at the vector (vx, vy), to the fit. The neighbour may be in an adjacent pixel. */
 void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
     int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;

@@ -124,8 +124,8 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     }
 }
 
-/* Nodes that are compared with a cell's check: along its middle row or its middle column, followed by the checking
- * ray next to the first of them. */
+/* A node of those that are compared with a cell's check. They are along the cell's middle row or middle column, and are
+ * followed by the checking ray next to the first of them. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
     uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
@@ -142,7 +142,7 @@ struct kd_line_told {
 };
 const kd_line_told KD_NOTHING_TOLD = kd_line_told(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
 
-/* Replaces NaN and infinity by a value outside every tolerance. */
+/* Replaces NaN and infinity by a value that is outside every tolerance. */
 float or_far(float x) { return kd_is_finite(x) ? x : 1e18; }
 
 void tell(inout kd_line_told t, vec3 v[6])

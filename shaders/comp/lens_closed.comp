@@ -152,7 +152,7 @@ void main()
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
-    kd_ray tilted = ray; /* in the plane the azimuth has no start, so a nearby ray is used */
+    kd_ray tilted = ray; /* in the plane the azimuth has no start, so a nearby ray is used instead */
     tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
     kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
     kd_state start;
@@ -198,7 +198,7 @@ void main()
             keep(at, n, leg.alive && polar.crosses, leg, drag);
         }
     }
-    /* These loops test at their ends: lavapipe executes the body of loops that test at their heads once more. */
+    /* These loops test at their ends: if a loop tests at its head, lavapipe executes its body once more than needed. */
     if ((PHI || SKY) && leg.alive && n < legs) {
         do {
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

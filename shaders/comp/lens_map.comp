@@ -136,7 +136,7 @@ void main()
                     part = float(j) + speed / (speed - y.dw);
                 if (INGOING && y.w > cam.horizon && y.dw < 0.0)
                     y.dw = kd_leaving(m, y.w, ray.e);
-                /* Beyond the horizon the values are meaningless: keep them finite. */
+                /* Beyond the horizon the values are meaningless, but must stay finite. */
                 y.w = clamp(y.w, -2.0, deepest);
                 low = min(low, y.w);
                 /* a ray on its way out may be inside the horizon */

@@ -216,7 +216,7 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
     return far < 1e-3 ? p : vec2(1e9);
 }
 
-/* Whether the map has a unique inverse over a ray's cell: its derivative changes by less than itself. */
+/* Whether the map has a unique inverse over a ray's cell: the map's derivative changes by less than itself. */
 bool is_plain(kd_patch m)
 {
     mat2 j = mat2(m.a, m.b);

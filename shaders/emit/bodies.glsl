@@ -72,7 +72,7 @@ vec3 kd_bodies_reflected(kd_met met)
     vec4 p = vec4(s * cos(met.phi), -s * sin(met.phi), met.u, met.w);
     vec3 y =
         vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
-    /* The normal in the body's frame, where light left at t' = R cos. */
+    /* The normal in the body's frame; light left the surface at t' = R cos. */
     vec4 v = kd_body_row(met.body, 3u), own = kd_body_row(met.body, 4u);
     y /= max(met.w, 1e-12);
     float t = (met.cosine * own.y / v.w + dot(v.xyz, y)) / (1.0 + v.z * own.x);

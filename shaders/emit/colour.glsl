@@ -14,8 +14,8 @@
 #define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T) \
     T(colour, KD_COLOUR_ROWS)   /* red, blue, and their differences to the next row */ \
-    T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and its difference to \
-                                   the next row */
+    T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and the difference to \
+                                 * the next row */
 #endif
 
 #ifdef KD_EMIT_CODE

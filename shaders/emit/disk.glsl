@@ -11,7 +11,7 @@
     F(fade)                /* reciprocal width of the outer fade, 1/M */ \
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening, K */ \
-    F(luminous)            /* log2 of the fraction that the eye perceives of a black body of that temperature */
+    F(luminous)            /* log2 of the fraction that the eye perceives of a black body's light at that temperature */
 /* clang-format on */
 #define KD_TABLES_disk(T) \
     T(disk, KD_DISK_TABLE)  /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the \

@@ -12,6 +12,6 @@
     F(along_knot)          /* 1/r of a sphere at which the light of a volume has an edge; 0: none */ \
     F(r_isco) \
     F(one_minus_a)         /* 1 - spin, which a float of the spin loses near 1 */ \
-    F(inner) F(outer)      /* edges of the disk, M, whether anything emits light between them or not */
+    F(inner) F(outer)      /* edges of the disk, M; set whether anything emits light between them or not */
 /* clang-format on */
 #endif

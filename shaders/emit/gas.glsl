@@ -29,7 +29,7 @@
     F(warp)        /* displacement at one standard deviation of an octave, in its own cells */ \
     F(loudness)    /* s_0, the amplitude of the first octave */ \
     F(persistence) /* s_(k+1)/s_k, the ratio of successive amplitudes */ \
-    F(finer)       /* squared ratio of the steps of successive octaves, including displacement */ \
+    F(finer)       /* squared ratio of the ray's steps, in cells, of successive octaves, including displacement */ \
     F(depth)       /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 /* Tables. The row of a ring: azimuth minus the observer's in radians, Omega, and the factor that converts a place in

@@ -55,7 +55,7 @@
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) in place of log2 of 0 */
 #define KD_PLASMA_SEEN \
-    7.0 /* scale heights, beyond which the density is below 2e-11 of the one in the plane and is taken as 0 */
+    7.0 /* scale heights from the plane; beyond, the density is below 2e-11 of that in the plane and is taken as 0 */
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -125,8 +125,8 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)), 0.0);
 }
 
-/* -ln(1 - z), for z from 0 to 1: GLSL's logarithm has an absolute error of 5e-7 near 1. By 2 artanh(y), whose next
- *   term is below 1e-8 of it. */
+/* -ln(1 - z), for z from 0 to 1. GLSL's logarithm has an absolute error of 5e-7 near 1, so 2 artanh(y) is used. The
+ * next term of its series is below 1e-8 of the result. */
 float kd_less_ln(float z)
 {
     float y = z / (2.0 - z), y2 = y * y;

@@ -102,7 +102,7 @@ float kd_stokes_rotates(vec3 k, float log2_x)
     return k.x * max(1.0 - 0.11 * log(1.0 + 0.035 * x), 0.0);
 }
 
-/* Q and V over I of emission and of absorption, and rho_Q and rho_V, as log2 and sign. */
+/* Ratios of Q and V to I, for emission and for absorption; rho_Q and rho_V, as log2 and sign. */
 struct kd_polarises { vec2 light, depth, turns, signs; };
 
 vec2 kd_stokes_held(vec2 part)

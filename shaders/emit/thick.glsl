@@ -54,7 +54,7 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 
-/* t': how much earlier light was at a place, per unit of Mino time along the ray backwards. */
+/* t': how much earlier light was at a place, per unit of Mino time backwards along the ray. */
 float kd_thick_time(kd_midst p, float s2)
 {
     float a = cam.spin, w2 = p.w * p.w, all = p.energy + a * (a * p.energy - p.momentum) * w2;
@@ -136,7 +136,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     1.0; /* by the amount of gas; octaves fade out from three times this value */
+                     1.0; /* how visible the octave is, by the amount of gas; octaves fade out from three times the
+                           * limit on */
         if (!(seen > 0.0))
             break;
         seen = min(0.5 * seen, 1.0);

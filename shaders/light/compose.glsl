@@ -140,7 +140,7 @@ kd_medium kd_medium_at(kd_midst p)
     return sum;
 }
 
-/* Advances by a length `way` of the affine parameter through a uniform medium: exact for any depth. */
+/* Advances through a uniform medium, by a length `way` of the affine parameter: exact for any depth. */
 void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {
     float x = medium.depth * way, passes = exp(-x);
@@ -179,7 +179,7 @@ void kd_beam_end(inout kd_beam beam, kd_end end)
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
-/* Points of light are spread over pixels independent of the pixels' own rays. */
+/* Adds points of light, which are spread over pixels independently of the pixels' own rays. */
 void kd_beam_points(inout kd_beam beam, uint pixel)
 {
 #define KD_POINTS_(number, name) \

@@ -25,12 +25,12 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* Uniform over all invocations, and read before the first branch: after one, lavapipe reads it again for each lane
- * and each use. */
+/* Numbers that are uniform over all invocations. They are read before the first branch: after one, lavapipe reads them
+ * again for each lane and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-/* The emitters' buffers, as texels if the map is: lavapipe reads storage buffers lane by lane, at ten times the
+/* The emitters' buffers are texels if the map is, because lavapipe reads storage buffers lane by lane, at ten times the
  * cost. */
 #define KD_OWN_stored(number, member) \
     layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };

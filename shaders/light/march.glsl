@@ -405,7 +405,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
-/* Whether a ray can reach the volumes, by w'^2 = R(w): from outside R must not vanish before. */
+/* Whether a ray can reach the volumes, by w'^2 = R(w): for a ray from outside R must not vanish before. */
 bool kd_march_meets(kd_geodesic m, kd_ray ray)
 {
     float w = emission.frame.along_least, w2 = w * w;
@@ -435,7 +435,7 @@ vec2 kd_quintic_hull(kd_quintic q)
 
 bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
 
-/* Whether a step may touch the volumes, or a crossing with light. */
+/* Whether a step may touch the volumes, or may contain a crossing with light. */
 bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);

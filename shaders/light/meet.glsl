@@ -64,7 +64,7 @@ kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float
     return kd_met_sight(v.w * (t - dot(v.xyz, y)), max(dot(y, y) - t * t, 0.0), long_ * p.w * p.w / (v.w * slow));
 }
 
-/* Time within the step at which the ray reaches the surface; above 1: it does not. */
+/* Time within the step at which the ray reaches the surface; above 1: the ray does not reach it. */
 float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 {
     vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u),

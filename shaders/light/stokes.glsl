@@ -18,7 +18,8 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and its rotation of them. */
+/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and the rotation of Q, U and V by
+ * it. */
 struct kd_stokes {
     vec4 light;
     float depth;

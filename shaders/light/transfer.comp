@@ -360,7 +360,7 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Follows the next piece of each listed ray that waits: of each pixel the ray with the number slice.ray. */
+/* Follows the next piece of each listed ray that waits, but of each pixel only of the ray with the number slice.ray. */
 void main()
 {
     kd_camera_read();

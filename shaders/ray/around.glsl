@@ -18,8 +18,8 @@ ivec2 kd_around(ivec2 at, ivec2 size)
     return at;
 }
 
-/* Moves a place next to a ray of the current map to its equivalent in the map; (-1, -1) if the map does not contain
- * it. */
+/* Moves a place next to a ray of the current map to the equivalent place in the map; (-1, -1) if the map does not
+ * contain the place. */
 ivec2 kd_around_neighbour(ivec2 at)
 {
     if (SIGHT == KD_SIGHT_SPHERE && !AT_RIM) {

@@ -18,7 +18,8 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* Call before the first branch: after one, lavapipe reads both again for each lane and each use. */
+/* kd_camera_read reads both. Call it before the first branch: after one, lavapipe reads them again for each lane and
+ * each use. */
 kd_slice slice;
 void kd_camera_read()
 {

@@ -51,7 +51,7 @@
 #define KD_SLICE_FIELDS_(F, U) \
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */ \
     U(band0)                /* first row of the band that the buffers hold */ \
-    U(stride)               /* rays of the band: distance between planes of the lens map */ \
+    U(stride)               /* number of rays of the band, the distance between planes of the lens map */ \
     U(list)                 /* listed pixels: start of the list in the lens map; nodes: start of their states */ \
     /* rays by place: the stage, the start of its list of places, and the ray from which places count */ \
     U(stage) U(places) U(origin_x) U(origin_y) \
@@ -134,7 +134,8 @@
 /* State of a node: its number of crossings, plus this if it is captured; negative: the ray is open. */
 #define KD_NODE_CAPTURED 16.0
 #define KD_NODE_OPEN -1.0
-#define KD_NODE_OWN 2 /* planes after those of the nodes: their states; a value that vanishes where fates change */
+/* planes after those of the nodes: the nodes' states, and a value that vanishes where fates change */
+#define KD_NODE_OWN 2
 
 #define KD_FOOTPRINT_WANTED -1.0
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than any footprint */
@@ -151,7 +152,7 @@
     U(tiles)                /* capacity for small tiles */ \
     U(stars)                /* number of stars in the list: temperatures follow directions and fluxes */ \
     U(pixels_y)             /* rows of pixels that the buffer of light holds */ \
-    /* signed integers added to rows and columns of pixels of the picture, to get those of the light */ \
+    /* signed integers: rows and columns of the picture's pixels plus these are those of the light */ \
     U(up) U(aside) \
     U(rim)                  /* rim: start of the current grid's table (render/view/rim_grid.h) */ \
     /* far, fall: distance of the grid's first row from the curve, and the decrease from row to row */ \
@@ -203,7 +204,7 @@
 /* clang-format on */
 
 #define KD_TRANSFER_ROWS \
-    8 /* adjacent rows of pixels for one invocation of transfer.comp, if pixels have a single ray each */
+    8 /* rows of adjacent pixels that one invocation of transfer.comp processes, if pixels have a single ray each */
 
 #define KD_POST_PIXELS 4 /* for one invocation of post.comp: three words, or six */
 /* clang-format off */

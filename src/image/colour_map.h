@@ -19,7 +19,7 @@ enum kd_colour_map { KD_MAP_SEQUENTIAL, KD_MAP_HEAT, KD_MAP_DIVERGING, KD_MAP_CY
 /* Encoded sRGB in [0, 1]. */
 struct kd_map_colour { double r, g, b; };
 
-/* x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
+/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
 /* The colours of kd_colour_map_at from a table, for many pixels: within 1/150 of a channel. For CATEGORICAL at[i] is

@@ -7,7 +7,7 @@
 
 enum { MOST_CHANNELS = 64 };
 
-/* Output or input of OpenEXR's core, and its last error message. */
+/* Output or input of OpenEXR's core, and the core's last error message. */
 struct file {
     struct kd_buffer *out;
     size_t from; /* size of the buffer before the file */

@@ -29,7 +29,7 @@ struct kd_fits_array {
     const float *data;                /* rows from the top, channels of a pixel adjacent; NaN: no value */
 };
 
-/* Appends an HDU: the primary one, or an IMAGE extension. Its first row is the picture's lowest one, as in
+/* Appends an HDU: the primary one, or an IMAGE extension. The first row in the file is the picture's lowest one, as in
  * astronomy. KD_ENOMEM. */
 enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array,
                              const struct kd_buffer *cards);
@@ -65,8 +65,8 @@ bool kd_fits_number(const void *head, size_t size, const char *key, long long *o
 /* Value of a numeric card of a header; NAN if there is none. */
 double kd_fits_find_real(const void *head, size_t size, const char *key);
 
-/* Appends the text of a card of the primary header to *out, with its continuations joined. KD_EINVAL if it is
- * missing, or this is not a FITS file. */
+/* Appends the text of a card of the primary header to *out, with its continuations joined. KD_EINVAL if the card is
+ * missing, or the data are not a FITS file. */
 enum kd_status kd_fits_find(const void *data, size_t size, const char *key, struct kd_buffer *out);
 
 #endif

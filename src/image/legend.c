@@ -172,7 +172,7 @@ uint32_t kd_legend_dot(const struct kd_canvas *canvas)
     return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
 }
 
-/* Width of the bar, or of a title that ends at `title_end`, limited by the picture. */
+/* Width of the panel: that of the bar, or of a title that ends at `title_end`; limited by the picture's. */
 static uint32_t panel_width(const struct kd_canvas *canvas, uint32_t dot, uint32_t title_end)
 {
     const uint32_t least = PANEL_WIDTH * dot, most = canvas->width - 2 * MARGIN * dot,

@@ -11,7 +11,7 @@
 
 #define MAX_SIDE 32768u
 #define MAX_TEXT (1u << 20)
-#define MAX_CHUNKS 100 /* text chunks: a compressed one of 1 KiB may still unpack to MAX_TEXT */
+#define MAX_CHUNKS 100 /* text chunks; a compressed chunk of 1 KiB may still unpack to MAX_TEXT */
 
 /* libpng leaves a failing call by longjmp. Everything that such a call changes is in this struct, in the frame of
  * the function that cleans up, so that a jump can neither clobber a register variable nor skip a free. */

@@ -68,7 +68,7 @@ static enum kd_status read_end(const uint8_t *data, size_t size, struct director
                                                                 : KD_OK;
 }
 
-/* Takes values that exceed 32 bits from the ZIP64 extra field, where they are in this order (APPNOTE 4.5.3). */
+/* Takes values that exceed 32 bits from the ZIP64 extra field, which has them in this order (APPNOTE 4.5.3). */
 static bool read_long(const uint8_t *extra, size_t size, struct kd_unzip_member *m)
 {
     uint64_t *const wanted[] = { &m->size, &m->packed, &m->at };

@@ -43,8 +43,9 @@ struct kd_accuracy_request {
     int profile;    /* enum kd_profile; -1: none was named */
     int engine;     /* enum kd_engine; -1: any */
     int precision;  /* enum kd_precision; -1: any */
-    uint32_t steps; /* per half period, a multiple of 4; 0: those of the profile or of the engine */
-    /* largest relative error of the crossing radii, by the table; INFINITY: none was asked for, the profile decides */
+    uint32_t steps; /* per half period, a multiple of 4; 0: as many as the profile or the engine has */
+    /* largest relative error of the crossing radii, by the table; INFINITY: no tolerance was asked for, and the profile
+     * decides */
     double tolerance;
 };
 

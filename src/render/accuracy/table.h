@@ -48,7 +48,7 @@ struct kd_accuracy_table {
     char skipped[400];              /* what this device cannot do; "" if nothing */
     uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
-    double seconds; /* device time of one speed measurement; less where a million rays take less */
+    double seconds; /* device time of one speed measurement; less where a million rays need less */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };
@@ -74,7 +74,7 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
  * errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
-/* Appends the document of GET /v1/accuracy; reads it back, with KD_EINVAL for any other text. */
+/* The first appends the document of GET /v1/accuracy. The second reads it back, with KD_EINVAL for any other text. */
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);
 enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_accuracy_table *out,
                                      struct kd_error *error);

@@ -56,7 +56,7 @@ struct kd_renderer {
     struct kd_grids grids;
     struct kd_normalised normalised;
     pthread_mutex_t lock;        /* guards capacity and memory */
-    struct kd_capacity capacity; /* without the host's limit, which kd_renderer_capacity applies */
+    struct kd_capacity capacity; /* not reduced to the host's limit, which kd_renderer_capacity applies */
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
     _Atomic uint64_t kept_bytes[KD_N_KEPT_KINDS];

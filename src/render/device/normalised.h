@@ -7,8 +7,8 @@
 
 enum { KD_NORMALISED = 16 };
 
-/* hash: of everything in the scene that the flux depends on, and of the flux. matter: the same without the camera and
- * the picture's shape. */
+/* hash: hash of everything in the scene that the flux depends on, and of the flux. matter: the same hash without the
+ * camera and the picture's shape. */
 struct kd_normal {
     char hash[65], matter[65];
     double scale;

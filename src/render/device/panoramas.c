@@ -184,7 +184,7 @@ static struct kd_panorama_key *asked(struct kd_panoramas *all, const char *of)
     return NULL;
 }
 
-/* The bytes of a hash never change, so an invalid picture stays invalid. */
+/* Whether a panorama failed because its picture is invalid. The bytes of a hash never change, so it stays invalid. */
 static bool is_broken(const struct kd_panoramas *all, const char *of)
 {
     return all->why.status == KD_EINVAL && !strcmp(all->broken, of);

@@ -174,7 +174,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer);
 }
 
-/* A new driver version counts as another device: pictures and measured values may differ. */
+/* Whether two descriptions are of the same device. A new driver version counts as another device: pictures and measured
+ * values may differ. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version &&

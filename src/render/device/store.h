@@ -20,7 +20,8 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* What the light of points depends on besides the lens map; it stays valid while only time advances. */
+/* Everything besides the lens map that the light of points depends on. The light stays valid while only time
+ * advances. */
 struct kd_star_key {
     char lens[65];
     bool visible; /* brightness weighted as by the eye */
@@ -38,8 +39,8 @@ struct kd_lens_map {
     /* for each pixel of a band KD_STAR_LIGHT words: the points of light seen through this map; none: no frame had
      * any */
     struct kd_bands star_light;
-    struct kd_rim
-        rim; /* for images of stars of high orders, for the map's camera, if it has a rim and it was requested */
+    struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
+                          requested */
     struct kd_rim_grids rim_grids;
     bool rim_known; /* whether rim and rim_grids are set */
     bool rim_traced;

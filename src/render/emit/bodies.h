@@ -13,8 +13,8 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* at most */
 
-/* How the bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to
- * brightness 1 of the disk. */
+/* How bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to the disk's
+ * brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {
     double spin, azimuth, peak_k;

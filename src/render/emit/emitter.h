@@ -35,12 +35,12 @@ struct kd_scene_part { size_t at, size; };
 struct kd_emitter {
     const char *name;
     const char *title; /* its common name without an article: "spots" */
-    /* Writes one sentence, without quotation marks, about how it appears; NULL: there is nothing to say. */
+    /* Writes one sentence, without quotation marks, about how the emitter appears; NULL: there is nothing to say. */
     void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(
-        const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that it reads; NULL: none */
+        const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies: what changes its light; NULL: nothing */
     /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
      * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
@@ -50,7 +50,7 @@ struct kd_emitter {
     uint64_t (*making_bytes)(
         const struct kd_scene *scene); /* the most host memory needed while the buffers are made; NULL: little */
     uint64_t (*invocations)(const struct kd_scene *scene);
-    /* Least and largest r at which it emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
+    /* Least and largest r at which the emitter emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
      * emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
     /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1. The march
@@ -67,8 +67,9 @@ struct kd_emitter {
     struct kd_scene_part depends[KD_EMITTER_PARTS]; /* ends at the first part of size 0 */
     const struct kd_sentence *sentences;
     size_t n_sentences;
-    const struct kd_emitter *kind; /* an emitter whose sentences apply to it as well; NULL: none */
-    /* an emitter whose numbers and tables it reads besides its own, including what that one reads; NULL: none */
+    const struct kd_emitter *kind; /* an emitter whose sentences apply to this one as well; NULL: none */
+    /* an emitter whose numbers and tables this one reads besides its own, including those which that one reads; NULL:
+     * none */
     const struct kd_emitter *reads;
     const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
 };

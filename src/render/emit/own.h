@@ -25,14 +25,15 @@ struct kd_emitter_buffers_work {
 
 struct kd_emitter_buffers {
     size_t bytes; /* size of the emitter's state: its buffers, and a record of their contents */
-    /* Records and submits the commands that bring the buffers up to date with the scene. They are timed under the
-     * emitter's name. */
+    /* Records and submits the commands that bring the buffers up to date with the scene. The commands are timed under
+     * the emitter's name. */
     enum kd_status (*prepare)(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                               struct kd_error *error);
     void (*buffers)(const void *own,
                     /* sets the emitter's own entries, by KD_OWN_... (emission.h) */
                     struct kd_vk_buffer *out[KD_OWN_COUNT]);
-    void (*forget)(void *own); /* recorded commands may not have run, because work was given up: contents are unknown */
+    void (*forget)(void *own); /* called if recorded commands may not have run, because work was given up: the contents
+                                * are then unknown */
     void (*finish)(void *own, struct kd_vk *vk);
     /* Starts slow work of the host on a thread; `tell` and `prepare` wait for it. NULL: there is none. */
     void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);

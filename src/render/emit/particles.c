@@ -125,7 +125,7 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     return g;
 }
 
-/* 2^31 radii/particles: the factor by which the kernel multiplies, with the same rounding. */
+/* 2^31 radii/particles, rounded down. The kernel multiplies by this factor as well, so that both round alike. */
 static uint32_t per_particle(const struct kd_particle_grid *grid)
 {
     return (uint32_t)(((uint64_t)grid->radii << 31) / (grid->count - grid->plunging));

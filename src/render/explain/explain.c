@@ -49,7 +49,7 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
         c->delay = kd_ray_path_delay(&x->frame, c->delay);
-        c->g /= x->label.energy; /* for light of negative energy at infinity both are negative */
+        c->g /= x->label.energy; /* for light whose energy at infinity is negative, both numbers are negative */
     }
     x->end.phi = kd_ray_path_phi(&x->frame, x->end.phi);
     return status;
@@ -66,7 +66,7 @@ static void compare(struct kd_explained *x)
     }
 }
 
-/* The opaque place of the ray; NULL if there is none or if a volume was opaque before. */
+/* The opaque place of the ray; NULL if the ray has none, or if a volume before it was opaque. */
 static const struct kd_probed_place *hiding(const struct kd_probed_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {

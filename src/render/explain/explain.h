@@ -45,7 +45,7 @@ double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
  * known: 3, without V, if only light of the plane is polarised; 0 if the scene is not polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES]);
-/* Angle of the electric field, and degree of polarisation; NAN if undefined. */
+/* kd_explained_evpa: angle of the electric field. kd_explained_polarized: degree of polarisation. NAN if undefined. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
 /* Mean delay of the light from volumes, weighted by what arrives; NAN if there is none, or if the observer is inside

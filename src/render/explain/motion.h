@@ -53,7 +53,7 @@ struct kd_ray_path {
     struct kd_ray_path_frame frame;
     double spin;
     bool ingoing; /* azimuth and delay are ingoing */
-    /* largest relative error in r of its crossings; NAN: it has none, or there is nothing to compare with */
+    /* largest relative error in r of the path's crossings; NAN: there are none, or nothing to compare with */
     double error;
 };
 

@@ -22,8 +22,8 @@ struct kd_blur {
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error);
 
-/* Parameters for kd_render or, if `aside`, kd_render_in_background. preview: previews sample 0, which is rendered last,
- * without the others. */
+/* Parameters for kd_render or, if `aside`, kd_render_in_background. preview: shows sample 0, which is rendered last,
+ * without the other samples. */
 struct kd_blurred {
     struct kd_renderer *renderer;
     const struct kd_blur *blur;

@@ -166,7 +166,8 @@ void kd_choose_largest(struct kd_choice *choice, uint64_t most)
     uint32_t bin = BINS;
     while (bin > 0 && sum + counts[bin - 1] <= most)
         sum += counts[--bin];
-    uint64_t of_next = most - sum; /* from the next lower bin, starting at the top of the picture */
+    uint64_t of_next = most - sum; /* number of pixels to take from the next lower bin, starting at the top of the
+                                    * picture */
     size_t n = 0;
     for (size_t i = 0; i < choice->list.n; i++) {
         const uint32_t b = bin_of(choice->scores[i]);

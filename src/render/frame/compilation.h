@@ -35,7 +35,7 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* Whether compiling ahead is of use with this device; if not and that can be changed, the log says why. */
+/* Whether compiling ahead is of use with this device. If it is not, and that can be changed, the log says why. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 
 #endif

@@ -27,7 +27,7 @@ struct kd_frame {
     struct kd_light_report light;
     double density_scale;         /* factor applied to the density (volume.normalise_to_jy); 1: none */
     struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/probe.h); NULL: none */
-    /* passes that ran, by the names of plan/pass.h, "upload" and "fill"; "kernels" if some had to be made; "total" */
+    /* passes that ran, by the names of plan/pass.h; "upload" and "fill"; "kernels" if some had to be made; "total" */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
 };

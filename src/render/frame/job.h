@@ -122,7 +122,7 @@ enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_foot
  * the buffer's first row. Covers rays that were traced singly, and earlier rays marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
-/* The kernel of footprints; lattice: of listed pixels, NULL: of the grid. *out is NULL if no light needs footprints. */
+/* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
 /* Spreads points of light over the pixels of a band: those seen by its rays and, if the whole map is cached, by rays
@@ -133,15 +133,16 @@ enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
 /* Determines whether the light of stars is cached; call as soon as the emitters' numbers are set. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
-/* Finds the rim of the job's lens map, if it has one (view/rim.h); traces its rays, unless that was done before. */
+/* kd_frame_find_rim finds the rim of the job's lens map, if there is one (view/rim.h). kd_frame_trace_rim traces the
+ * rim's rays, unless that was done before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
 /* Computes the layers of light that the march stored with the radiance (kd_plan_gathers), for rows whose light is
  * complete. Recorded, not submitted. */
 enum kd_status kd_frame_gather(struct kd_frame_job *job);
 
-/* Describes the light of the plan's pixel if it is in this band, whose lens map must exist; then, when all light is
- * complete, the pixel's result. */
+/* kd_frame_probe describes the light of the plan's pixel if the pixel is in this band, whose lens map must exist.
+ * kd_frame_probe_pixel describes the pixel's result; call it when all light is complete. */
 enum kd_status kd_frame_probe(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
 /* Requests the kernels that record the pixel's steps, if the plan asks for steps. */

@@ -12,14 +12,14 @@ enum { KD_MAKES_PIECES = -4, KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PI
 /* Rows of pixels in one submission, given nanoseconds a row. */
 uint32_t kd_frame_slice(double ns_per_row, uint32_t rows);
 
-/* Kernels for listed pixels by their lattice, for the grid by a lattice that is all 0. *out is NULL if no kernel
- * traces. */
+/* The kernels that trace and that light rays: on listed pixels by their lattice, on the grid if the lattice is all 0.
+ * *out is NULL if no kernel traces. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                      const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes,
                                      const struct kd_vk_pipeline **out);
-/* Number of dispatches for the light of a pixel with `rays` rays, one for each kd_slice.ray: the march follows one
- * ray at a time. */
+/* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs a
+ * dispatch for each kd_slice.ray. */
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
 /* The dispatches of both kernels, without their size: from rays of a camera (view/layout.h) to a lens map, and from
  * there to the radiance of a band. */

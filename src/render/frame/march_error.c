@@ -80,7 +80,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether light is finite and the ray was not given up, which is marked by -1. */
+/* Whether light is finite and the ray was not given up; a ray that was given up is marked by -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
 /* Relative differences of the light of n rays, sorted. Returns their number: rays that meet no volume have no

@@ -9,12 +9,12 @@
 
 enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels along a side, at first and later; largest number of pictures */
 #define NEAR 1e-3 /* relative to the flux: the fluxes of pictures of 48 and of 128 pixels differ by less than this */
-#define HELD 5e-5 /* remaining error; a flux is a sum of floats, accurate to 1e-6 */
+#define HELD 5e-5 /* remaining relative error; a flux is a sum of floats, accurate to 1e-6 */
 /* First guess of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at least as
  * the square root of the density, so that the slope is at least 1.5. */
 #define THIN 2.0
 #define LONGEST 6.9  /* largest step of ln scale: a factor of a thousand */
-#define MARGIN 0.05  /* fraction of a bracket: estimates nearer to its ends are replaced */
+#define MARGIN 0.05  /* fraction of a bracket: estimates that are nearer to its ends than this are replaced */
 #define DENSEST 1e30 /* the range of the fields */
 
 struct search {
