@@ -12,7 +12,7 @@
  * is reused, whatever its viewpoint. */
 enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, const struct kd_plan *plan,
                                   kd_progress_fn progress, void *user, double *scale, struct kd_error *error);
-/* Requests the kernels of those pictures, as far as they will be rendered, for kd_kernels_note. */
+/* Requests, for kd_kernels_note, the kernels of the pictures that kd_frame_normalise will render. */
 enum kd_status kd_frame_normalise_ask(struct kd_renderer *renderer, const struct kd_scene *scene,
                                       const struct kd_plan *plan, struct kd_error *error);
 

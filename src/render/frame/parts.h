@@ -1,5 +1,5 @@
-/* Pictures made of parts, one render after the other (render/plan/parts.c): a pair of eyes, a tile with its margin,
- * strips. Render thread only. */
+/* Pictures made of parts, which are rendered one after the other (render/plan/parts.c): a pair of eyes, a tile with its
+ * margin, strips. Render thread only. */
 #ifndef KD_RENDER_FRAME_PARTS_H
 #define KD_RENDER_FRAME_PARTS_H
 

@@ -47,7 +47,7 @@ struct kd_probed_stretch {
 };
 #define KD_PROBED_STRETCHES 256
 
-/* Contribution of one volume along the whole ray, as far as that was followed. */
+/* Contribution of one volume along the whole ray, as far as the ray was followed. */
 struct kd_probed_volume {
     uint32_t emitter;
     float light[3]; /* the volume's light as it arrives */
@@ -61,7 +61,7 @@ struct kd_probed_met {
     uint32_t order;          /* number of crossings of the plane before the surface */
     /* 1/r, cos(theta), azimuth (source minus observer), redshift factor, cosine of the emission angle */
     float w, u, phi, g, cosine;
-    float light[3], through; /* without absorption in front; transmission of everything in front */
+    float light[3], through; /* light: without absorption in front; through: transmission of everything in front */
 };
 
 struct kd_probed_ray {

@@ -85,8 +85,8 @@ static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, co
     return status;
 }
 
-/* Gives the chosen pixels their rays. *left: rays that may still be traced; if they are not enough, half are for the
- * critical curve. */
+/* Gives the chosen pixels their rays. *left: number of rays that may still be traced. Pixels at the critical curve get
+ * at most half of them; if the rays do not suffice, the pixels with the largest scores get theirs. */
 static enum kd_status one_round(struct kd_frame_job *j, const struct kd_choice *c, struct ways *by, uint64_t *left)
 {
     uint8_t *marks = malloc(c->list.n);

@@ -137,8 +137,8 @@ static enum kd_status fill(struct run *run, bool of_sky)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* Submits at once: a driver that compiles kernels at their first dispatch then has each submission's deadline for
- * one kernel. */
+/* Submits the recorded commands at once. A driver that compiles kernels at their first dispatch then has the whole
+ * deadline of a submission for one kernel. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
 /* Initialises the map: all rays cross nothing and are captured. Kernels overwrite those for which that is not so. */

@@ -13,7 +13,7 @@
 /* The same number for each core, if the device is a CPU: there a group costs 15 us even if the list is done, and a rim
  * has several grids. */
 #define LIST_GROUPS_CORE 4
-#define RIM_TILE 3 /* rays along a side of a small tile, and of tiles of the rim */
+#define RIM_TILE 3 /* rays along a side of a small tile, and of a tile of the rim */
 #define SPILL 2u   /* rows of pixels that an image may reach into the next band */
 
 /* Rays among which stars are searched: some rows of a lens map, or a grid of the rim. */

@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-/* Starts the whole frame from the first strip's report, with room for all rows and none filled. */
+/* Starts the whole frame from the first strip's report. The frame has room for all rows, none of which is filled. */
 static enum kd_status begin(const struct kd_frame *strip, uint32_t height, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_frame frame = *strip;

@@ -140,7 +140,7 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 
 /* Moves up and down the ladder */
 
-/* Remembers the rung that a pace leaves, if it leaves it because other sessions began. */
+/* Called when a pace leaves its rung. If the rung is left because other sessions began, it is remembered. */
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {

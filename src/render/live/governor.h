@@ -152,7 +152,7 @@ struct kd_governor {
     double stays, stays_of;
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
-    double shown_at;         /* when the newest frame was shown that was not a step of refinement */
+    double shown_at;         /* time at which the newest frame was shown that was not a step of refinement */
     double shown_rays;
 };
 

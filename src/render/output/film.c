@@ -27,7 +27,7 @@ struct film {
     struct kd_program program;
     int fd; /* output file; -1: not started */
     bool done;
-    struct kd_buffer picture; /* of frame `next`, to be written from `at` on; at == size: none */
+    struct kd_buffer picture; /* the file of frame `next`; ffmpeg has taken `at` bytes. at == size: no file is loaded */
     size_t at;
     unsigned next;
     uint8_t size[8]; /* of frame 0: width and height as in a PNG file */

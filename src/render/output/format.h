@@ -20,7 +20,7 @@ struct kd_picture {
 };
 
 enum kd_effort {
-    KD_EFFORT_LIVE,  /* one of many frames a second, 8 bits a channel: as fast as possible, without metadata */
+    KD_EFFORT_LIVE,  /* for one of many frames a second, with 8 bits a channel: as fast as possible, without metadata */
     KD_EFFORT_QUICK, /* a client waits for it */
     KD_EFFORT_KEEP,  /* a file that is kept: smaller */
 };

@@ -32,7 +32,8 @@ struct kd_gather_source {
 struct kd_gather_format {
     const char *name, *media_type;
     const struct kd_format *of; /* format that the frames must have; NULL: any */
-    /* bytes held while it is made, for formats that do much work before their first piece; NULL: none */
+    /* bytes of memory held while the file is made, for formats that do much work before their first piece; NULL:
+     * none */
     size_t (*holds)(const struct kd_gather_source *source);
     bool counts; /* the size of the gathered file can be computed: produced bytes plus *source->counted */
     bool waits;  /* when `next` produces nothing it waits for another program: call it again some milliseconds later */

@@ -16,7 +16,8 @@ struct kd_wcs_axis {
 
 struct kd_wcs {
     bool known; /* false: the projection has no linear axes, or the picture is a pair for two eyes */
-    /* far away: east to the left, from the hole's mass and distance; near: right of the camera's axis and above it */
+    /* observer far away: angles on the sky, east to the left, from the hole's mass and distance; otherwise: angles to
+     * the right of the camera's axis and above it */
     struct kd_wcs_axis at[2];
     bool far;                     /* the observer is distant, and `impact` is valid as well */
     struct kd_wcs_axis impact[2]; /* the same places as impact parameters alpha and beta, M */

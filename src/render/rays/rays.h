@@ -42,7 +42,7 @@ struct kd_rays_params {
 /* Rays by their labels. Rays of a request start inwards; those of a picture from a finite radius may start outwards. */
 struct kd_ray_labels {
     const double *alpha_beta; /* 2 n */
-    const bool *outward;      /* n: the traced ray starts away from the hole; NULL: no ray does */
+    const bool *outward;      /* n values: the traced ray starts away from the hole; NULL: no ray does */
     size_t n;
 };
 
@@ -61,7 +61,8 @@ struct kd_ray_end {
      * far out (Mino engines, closed form), or that the number or the fate differs from the closed form's (Kerr-Schild
      * engines). */
     double error;
-    /* at infinity, in units of the energy that the observer measures; only if the observer's motion is given */
+    /* energy at infinity, in units of the energy that the observer measures; only if the observer's motion is
+     * given */
     double energy;
     bool again; /* traced again by a finer setting, for the tolerance */
 };

@@ -118,7 +118,7 @@ enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha
 
 struct document {
     struct kd_rays_request *request;
-    unsigned seen; /* bits: one a field, then one a section, and one for the rays */
+    unsigned seen; /* what was seen so far, as bits: one a field, then one a section, and one for the rays */
     struct kd_error *error;
 };
 

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* 16 orders of `,{"order":15,"r":,"phi":,"delay":,"g":}` with four numbers, and some 150 bytes more. */
+/* A row has at most 16 orders of `,{"order":15,"r":,"phi":,"delay":,"g":}` with four numbers, and some 150 bytes
+ * more. */
 _Static_assert(KD_RAYS_ROW_MAX >= KD_RAYS_MAX_ORDERS * (40 + 4 * KD_DECIMAL_SIZE) + 300, "a row may not fit");
 
 struct row { char *at; };

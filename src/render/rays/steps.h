@@ -20,7 +20,7 @@ enum kd_rays_stage {
 struct kd_rays_step {
     enum kd_rays_stage stage;
     unsigned order, number;        /* of the next crossing; of the step */
-    double time;                   /* Mino time since the observer; the Kerr-Schild engines' s, with d(lambda) = r ds */
+    double time;                   /* Mino time since the observer; Kerr-Schild engines: their s, d(lambda) = r ds */
     double r, phi, delay;          /* delay: of a crossing only */
     double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
     double x, y, z, p_x, p_y, p_z; /* Kerr-Schild: position and momentum of the mirrored ray */

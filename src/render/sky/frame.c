@@ -87,7 +87,7 @@ struct kd_rotation kd_rotation_galactic(void)
     return kd_rotation_then(&both, &last);
 }
 
-/* From the hole's frame to the galactic one, for a camera at azimuth 0. */
+/* The rotation from the hole's frame to the galactic one, for a camera at azimuth 0. */
 static struct kd_rotation oriented(const struct kd_scene *scene)
 {
     const struct kd_vec pole = { 0, 0, 1 };

@@ -31,8 +31,8 @@ static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool bo
     return true;
 }
 
-/* A step of at most half a ray towards the star. Returns the length of the full step; not finite if there is no
- * direction. */
+/* Takes a step of at most half a ray towards the star. Returns the length of the full step, which is not finite if
+ * there is no direction. */
 static double step(const struct kd_sky_tangent *at, struct kd_vec star, double *x, double *y)
 {
     double dx, dy;

@@ -185,7 +185,8 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
     return o;
 }
 
-/* At infinity alpha, beta, 0; else along e_r, e_theta, e_phi, of any length. */
+/* What determines the ray at a place of the picture. At infinity: (alpha, beta, 0). Otherwise: its direction, along
+ * e_r, e_theta, e_phi, of any length. */
 static struct vec direction(const struct kd_camera_exact *c, double px, double py)
 {
     double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);
@@ -257,7 +258,7 @@ void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3],
                        c->dw_t - (c->dw_r * k[0] + c->dw_theta * k[1] + c->dw_phi * k[2]) * n < 0, out);
 }
 
-/* Labels cannot express E = 0; a ray with E = 1e-12 of what the observer measures differs by 1e-12. */
+/* Labels cannot express E = 0, so |E| is at least 1e-12 of what the observer measures; this changes a ray by 1e-12. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
 {
     double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;

@@ -37,7 +37,7 @@ double kd_camera_pixel(const struct kd_scene *scene);
 struct kd_camera_label {
     double alpha, beta;
     bool outward;  /* at a finite radius: whether the traced ray starts away from the hole */
-    double energy; /* at infinity, in units of the energy that the observer measures; not 0 */
+    double energy; /* energy at infinity, in units of the energy that the observer measures; not 0 */
 };
 /* Direction from which the ray at (x, y) arrives, in the observer's frame: a unit vector along e_r, e_theta, e_phi.
  * x and y count rays from the upper left one. The camera must be at a finite radius. */

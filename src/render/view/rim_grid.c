@@ -29,7 +29,7 @@ struct part { int u0, u1, l0, l1; };
 struct layout {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    double first, du, dl; /* the logarithm at which the cells begin; the size of a cell */
+    double first, du, dl; /* first: the logarithm at which the cells begin; du, dl: the size of a cell */
     double step;
     struct cell of[ROUND][ACROSS];
     struct kd_rim_grids *out;

@@ -23,7 +23,7 @@ struct angles { double of[ANGLES]; };
 struct follower {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    bool alone; /* one thread fills this grid, since others fill other grids */
+    bool alone; /* only one thread fills this grid, since others fill other grids */
 };
 
 static void run_each(const struct follower *f, size_t n, void (*each)(void *user, size_t item), void *user)
