@@ -33,7 +33,7 @@ vec3 cell(int at) { return light[at].rgb; }
 #endif
 layout(set = 0, binding = 2) writeonly buffer Fine { vec4 fine[]; };
 
-/* Two cells from four in a row: the middle ones smoothed by 1, 2, 1. */
+/* Smooths four cells in a row by the weights 1, 2, 1: the results for the two middle cells, times 4. */
 struct pair { vec3 a, b; };
 
 pair smoothed(int row, ivec4 x)

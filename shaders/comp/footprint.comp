@@ -91,7 +91,7 @@ kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint ste
     kd_spot near = spot(n, has_o ? at + o * step_ : at, has_o), other = spot(n, has_p ? at + p * step_ : at, has_p);
     vec3 d = apart(n, own, near), e = apart(n, own, other);
     float fo = float(o), fp = float(p), unit = 1.0 / (fo * fp * (fp - fo));
-    if (near.there && other.there) /* by the parabola through all three */
+    if (near.there && other.there) /* derivatives of the parabola through all three */
         return kd_change((fp * fp * d - fo * fo * e) * unit, (fo * e - fp * d) * unit, true);
     if (near.there)
         return kd_change(fo * d, vec3(0.0), true);

@@ -157,7 +157,7 @@ void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 
 kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
-    vec2 f[9]; /* of 3 x 3 rays, row by row */
+    vec2 f[9]; /* places of 3 x 3 rays, row by row */
     uint there = 0u;
     [[dont_unroll]] for (int k = 0; k < 9; k++) {
         kd_neighbour n = neighbour(c, at, x, y, k % 3 - 1, k / 3 - 1);

@@ -5,7 +5,7 @@
 #ifndef KD_BLOCK_orbit
 #define KD_BLOCK_orbit(F, U, A)
 #define KD_TRAIT_DOPPLER 2u  /* for emitters on orbits: apply the factor 1 / (E - Omega L) */
-#define KD_TRAIT_REDSHIFT 4u /* and the factor 1 / u^t */
+#define KD_TRAIT_REDSHIFT 4u /* for emitters on orbits: apply the factor 1 / u^t */
 #endif
 
 #ifdef KD_EMIT_CODE

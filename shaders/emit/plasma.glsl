@@ -368,8 +368,9 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
     return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);
 }
 
-/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary: inside the layer, from
- * its height and the place; outside, the distance to it. sharp: steep of kd_radiates. */
+/* Distance along the ray, M, over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary. Inside the
+ * layer it follows from the layer's height and the place; outside it is the distance to the layer. sharp: steep of
+ * kd_radiates. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
     float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r,

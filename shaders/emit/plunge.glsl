@@ -15,10 +15,10 @@
 /* clang-format off */
 #define KD_BLOCK_plunge(F, U, A) \
     F(first) F(last)       /* w at the start and at the end of the plunge */ \
-    F(energy) F(j)         /* of the gas: E, and L - aE */ \
+    F(energy) F(j)         /* constants of the gas: E, and L - aE */ \
     F(temperature)         /* temperature, relative to the disk's largest */ \
     F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
-    F(log_first) F(step_)  /* of the table: its first argument, and entries per unit */ \
+    F(log_first) F(step_)  /* the table's first argument, and its entries per unit */ \
     F(laps) F(turns)       /* per M: fraction of the way from start to end; turns of the orbit at the ISCO */ \
     U(at)                  /* offset of this grid, which follows that of the other particles */ \
     U(rows) U(columns) \

@@ -16,9 +16,9 @@
 /* clang-format off */
 #define KD_BLOCK_sky(F, U, A) \
     F(brightness) \
-    F(spacing)             /* of the grid, radians */ \
+    F(spacing)             /* spacing of the grid, radians */ \
     F(spread)              /* brightness of the panorama */ \
-    U(columns) U(rows)     /* of the panorama's finest level, powers of two */ \
+    U(columns) U(rows)     /* size of the panorama's finest level; powers of two */ \
     F(texel)               /* log2 of a texel's size, radians */ \
     /* rows of the rotation from directions, with azimuths minus the observer's, to galactic directions */ \
     F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)

@@ -228,7 +228,7 @@ void main()
 #endif
         value = value_of_light(sum);
     } else {
-        /* of the grid: the middle ray, or the ray before the middle */
+        /* the pixel's ray in the grid: the middle one, or the one before the middle */
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u;
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);

@@ -12,7 +12,7 @@
 #define KD_MEET_GLSL
 
 #define KD_MEET_SLACK \
-    0.02 /* of r, plus 0.1 of the ball's radius: a ray that passes the ball within this distance is tested closely */
+    0.02 /* fraction of r; to it 0.1 of the ball's radius is added. A ray this near to the ball is tested closely */
 #define KD_MEET_FAR 1e30
 
 /* An end of a step: (n, w), and the change of (n, w) over a step. */

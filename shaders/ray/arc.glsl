@@ -25,7 +25,7 @@
 
 struct kd_lattice {
     float a, d, g;                    /* coefficients of g'^2: A, e^2 D, G       */
-    float c2, c3, c4, c5, c6, c7, c8; /* of the series: z^2/g = 1 - A z^2/12 + c2 z^4 + c3 z^6 + ... */
+    float c2, c3, c4, c5, c6, c7, c8; /* coefficients of the series z^2/g = 1 - A z^2/12 + c2 z^4 + c3 z^6 + ... */
 };
 
 /* f is scaled: time z = scale tau, v = scale w. */

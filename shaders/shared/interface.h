@@ -66,7 +66,7 @@
     /* number of the ray in its pixel; the march adds its light to that of earlier rays */ \
     U(ray) \
     U(lost_most)            /* capacity of the list of stopped rays */ \
-    U(lost_first) U(lost_n) /* to continue some of these: the first one, and their number */ \
+    U(lost_first) U(lost_n) /* some of these rays are continued: the first one, and their number */ \
     U(lost_goes)            /* 0: it is their first piece */
 /* clang-format on */
 
@@ -211,7 +211,7 @@
 #define KD_POST_FIELDS_(F, U) \
     F(gain)                  /* 2^exposure */ \
     F(dither)                /* 0 or 1 */ \
-    U(pixels)                /* of the band */ \
+    U(pixels)                /* number of pixels of the band */ \
     U(first)                 /* index of the band's first pixel in the picture */ \
     U(pixels_x) \
     F(left) F(top)           /* tile: its first pixel in the picture */ \
@@ -230,15 +230,15 @@
     F(gain)                  /* 2^exposure */ \
     F(strength)              /* fraction of the light above white that is spread */ \
     U(pixels_x) \
-    U(row0) U(rows)          /* of the band */ \
-    U(blocks_x)              /* of the picture */ \
+    U(row0) U(rows)          /* rows of the band */ \
+    U(blocks_x)              /* blocks in a row of the picture */ \
     U(block_row0) U(block_rows) /* blocks with pixels of the band */ \
     U(across)                /* invocations for a row of blocks */
 /* clang-format on */
 #define KD_BLOOM_TAPS 16 /* blocks along an axis that two cells may read, at most */
 /* clang-format off */
 #define KD_BLOOM_GATHER_FIELDS_(F, U) \
-    U(pixels_x) U(pixels_y)  /* of the picture */ \
+    U(pixels_x) U(pixels_y)  /* size of the picture */ \
     U(blocks_x) U(blocks_y) U(cells_x) U(cells_y) \
     U(block_x) U(block_y)    /* sides of a block in pixels */
 /* clang-format on */
@@ -258,7 +258,7 @@
 /* clang-format off */
 #define KD_BEAM_SPLINE_FIELDS_(F, U) \
     U(columns) \
-    U(row0) U(rows)          /* of the slice of the result */ \
+    U(row0) U(rows)          /* rows of the slice of the result */ \
     U(length_)               /* rows of the source */ \
     U(first_times) U(first_over) U(before) U(count) \
     F(from_scale)            /* units of the weights' argument per row of the source */ \
@@ -268,8 +268,8 @@
 /* Push constants of beam_blur.comp. */
 #define KD_BEAM_BLUR_FIELDS_(F, U) \
     U(columns) \
-    U(row0)    /* of the slice, a multiple of four */ \
-    U(lines)   /* of the slice: rows, or along columns groups of four rows */ \
+    U(row0)    /* first row of the slice, a multiple of four */ \
+    U(lines)   /* lines of the slice: rows, or along columns groups of four rows */ \
     U(length_) /* cells along the axis */ \
     U(reach)   /* cells on either side that have weight */ \
     F(narrow)  /* 1/(2 sigma^2) */ \
@@ -284,7 +284,7 @@
 /* clang-format off */
 #define KD_LIGHT_FIELDS_(F, U) \
     U(pixels_x) U(pixels)     /* pixels a row; pixels of the band */ \
-    U(row0)                   /* of the band in the picture */ \
+    U(row0)                   /* first row of the band in the picture */ \
     U(spots)                  /* start of the spots' separate luminance */ \
     U(stokes)                 /* start of Stokes Q, U and V, and of the spots' Q and U */ \
     U(plane)                  /* length of each of these planes, in pixels */ \

@@ -15,7 +15,7 @@
 enum { KD_UNZIP_MEMBERS = 1024 };
 
 struct kd_unzip_member {
-    const char *name; /* within the file; not terminated */
+    const char *name; /* points into the file; not terminated */
     size_t name_size;
     uint64_t size, packed, at; /* at: offset of the member's own header */
     uint32_t crc;

@@ -42,7 +42,7 @@ struct kd_accuracy_row {
 };
 
 struct kd_accuracy_table {
-    char version[32], date[32]; /* of kerrd; UTC, ISO 8601 */
+    char version[32], date[32]; /* version of kerrd; date in UTC, ISO 8601 */
     char command[256];
     char machine[256], device[800]; /* the processor and system; the Vulkan device with its driver */
     char skipped[400];              /* what this device cannot do; "" if nothing */

@@ -132,7 +132,7 @@ static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
 }
 /* Keeps the n most recently used kernels. */
 void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n);
-uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* of the cached kernels */
+uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* size of the cached kernels' SPIR-V */
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 
 #endif

@@ -14,7 +14,7 @@
 struct kd_panorama {
     char of[KD_ASSET_NAME];     /* the asset's hash, or "seed N"; "": the slot is free */
     uint32_t *words;            /* all levels: render/sky/panorama.h */
-    uint32_t columns, rows;     /* of the finest level */
+    uint32_t columns, rows;     /* size of the finest level */
     char credit[KD_SKY_CREDIT]; /* author of the picture; "": unknown */
     uint64_t used;              /* time of the last use, counted */
     bool shown;                 /* the panorama was delivered to a request */

@@ -60,7 +60,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 
 struct own {
     struct kd_vk_buffer *device, *staging;
-    uint64_t generation; /* of the uploaded debris; 0: none */
+    uint64_t generation; /* generation of the uploaded debris; 0: none was uploaded */
 };
 
 static void forget(void *own) { ((struct own *)own)->generation = 0; }

@@ -11,7 +11,7 @@
 /* All zero: no array. */
 struct kd_matter_array {
     struct kd_buffer file;
-    const uint8_t *numbers; /* within the file, not aligned */
+    const uint8_t *numbers; /* points into the file, not aligned */
     bool single;            /* <f4 instead of <f8 */
     size_t n, dimensions;
     uint64_t shape[4];

@@ -18,7 +18,7 @@
 #define EMPTY \
     40.0 /* An empty node is set this many octaves below the densest one, so that the light falls to nothing within a \
             cell. */
-#define EVEN 1e-3   /* of a step: tolerance for the even spacing of rows */
+#define EVEN 1e-3   /* fraction of a step: tolerance for the even spacing of rows */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
 #define FINEST 1024 /* rows per factor of e in r: a stretch of the march is two cells */

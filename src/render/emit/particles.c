@@ -207,7 +207,7 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
  * node count, weighted by distance. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
-    enum { PARTS = 8 }; /* of the triangular weight on each side */
+    enum { PARTS = 8 }; /* parts into which the triangular weight is divided on each side */
     double rows = rows_of(scene, grid), weight = (double)(grid->count - grid->plunging) * grid->unit / grid->columns;
     for (uint32_t i = 0; i <= grid->rows; i++) {
         double sum = 0;

@@ -26,7 +26,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct kd_particles_push; /* of particles.comp: render/view/layout.h */
+struct kd_particles_push; /* push constants of particles.comp: render/view/layout.h */
 
 /* number of guiding orbits, if there are as many particles; 35 orbits to a row of the default grid */
 #define KD_PARTICLE_RADII 4096u

@@ -284,7 +284,7 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
         return status;
     *scene = kd_tile_with_margin(&tile, &cut);
     narrow.cut = (struct kd_window) { 0 }; /* the tile with its margin is rendered as a picture of its own */
-    /* those of the picture, not of the tile */
+    /* the approximations of the picture, not those of the tile */
     memcpy(narrow.approximations, plan->approximations, sizeof narrow.approximations);
     narrow.n_approximations = plan->n_approximations;
     narrow.told = plan->told;

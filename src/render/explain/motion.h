@@ -22,7 +22,7 @@ struct kd_ray_motion {
     double horizon, turning_r; /* turning_r: turning point of this ray outside the horizon, NAN if it has none */
     /* "ordinary": oscillates across the plane; "vortical": stays on one side of it; "fixed": theta is constant */
     const char *polar_case;
-    double polar_root[2]; /* of the polar potential, as cos^2(theta); the second is NAN without spin */
+    double polar_root[2]; /* roots of the polar potential, as cos^2(theta); the second is NAN without spin */
     double theta[2];      /* range of theta */
 };
 

@@ -153,7 +153,7 @@ struct source {
     struct kd_vk_buffer *lens, *records;
     uint32_t band;
     int camera;
-    struct kd_slice push; /* without the ray's number */
+    struct kd_slice push; /* push constants without the ray's number */
 };
 
 static enum kd_status follow(struct kd_frame_job *j, const struct source *s, struct kd_probed_ray *out)

@@ -38,7 +38,7 @@ struct kd_probed_place {
 /* A stretch of the ray through volumes, for all volumes together: a part of a step of the march, or several adjacent
  * parts if there are many. */
 struct kd_probed_stretch {
-    uint32_t order;   /* of the next crossing, if there is one */
+    uint32_t order;   /* order of the next crossing, if there is one */
     float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */
     float delay[2];   /* delays of the light from both ends, as for a crossing; meaningless for an observer inside the
                        * horizon */
@@ -70,7 +70,7 @@ struct kd_probed_ray {
     struct kd_probed_place places[KD_PROBED_PLACES];
     struct kd_probed_stretch stretches[KD_PROBED_STRETCHES];
     struct kd_probed_volume volumes[KD_PLAN_EMITTERS];
-    uint32_t steps, samples; /* of the march: number of integration steps, and of samples */
+    uint32_t steps, samples; /* number of integration steps of the march, and of its samples */
     struct kd_probed_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: records that did not fit */
     bool transfers; /* volumes transfer polarised light; then `stokes` is Stokes Q, U and V as they arrive */
@@ -95,7 +95,7 @@ struct kd_probed_pixel {
     struct kd_rays_steps *steps; /* malloc'd: engine steps of the middle ray; NULL: not requested, or not available */
     char no_steps[200];          /* the reason why `steps` is NULL, a sentence */
     bool whole;                  /* complete: renders of this job that follow are not part of this picture */
-    float radiance[3];           /* of the pixel, before bloom, beam and tone curve */
+    float radiance[3];           /* light of the pixel, before bloom, beam and tone curve */
 };
 void kd_probed_destroy(struct kd_probed_pixel *told);
 

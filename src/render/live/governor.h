@@ -124,7 +124,7 @@ struct kd_pace {
     struct kd_rung other;         /* the rung before; no rays: unknown, or already used */
     double other_ms;              /* time of the rays of frames on that rung */
     double stays;                 /* estimated fraction of the rays' time that does not depend on size */
-    bool tried;                   /* that fraction is measured; no trial of another rung is needed */
+    bool tried;                   /* the fraction `stays` is measured; no trial of another rung is needed */
 };
 
 /* All members are private. */
@@ -146,7 +146,7 @@ struct kd_governor {
     bool gave_way, slow;          /* frames may be narrower than `least`; index of the pace that was too slow and caused
                                    * this */
     double wide_ms;               /* varying time of frames on that pace's rung; 0: unknown */
-    struct kd_rung wide;          /* that rung */
+    struct kd_rung wide;          /* the rung of that pace */
     /* fraction of the time of narrow frames that does not depend on size, measured on a rung with this many rays; 0:
      * unknown */
     double stays, stays_of;

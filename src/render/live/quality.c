@@ -79,7 +79,7 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
     int32_t samples = asked->image.samples, orders = asked->accuracy.orders;
     out->rungs[0] = make_rung(asked, scale, samples, orders, -1);
     out->n_rungs = 1;
-    if (!samples) /* then there is one */
+    if (!samples) /* 0 is "auto"; the next rung has one ray a pixel */
         add_rung(out, make_rung(asked, scale, samples = 1, orders, -1));
     while (samples > bounds->samples) {
         samples = samples / 2 > bounds->samples ? samples / 2 : bounds->samples;

@@ -9,7 +9,7 @@
 struct kd_cost {
     unsigned frames;   /* number of frames added so far */
     double ms;         /* time of all frames if each makes a lens map of its own */
-    double trace_ms;   /* of that, the time of lens maps that a sweep may share */
+    double trace_ms;   /* part of `ms`: time of lens maps that a sweep may share */
     double shared_ms;  /* time saved by sharing lens maps; set by kd_cost_end */
     double file_bytes; /* for formats whose file size depends only on the picture's size */
     uint64_t rays;

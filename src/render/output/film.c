@@ -30,7 +30,7 @@ struct film {
     struct kd_buffer picture; /* the file of frame `next`; ffmpeg has taken `at` bytes. at == size: no file is loaded */
     size_t at;
     unsigned next;
-    uint8_t size[8]; /* of frame 0: width and height as in a PNG file */
+    uint8_t size[8]; /* width and height of frame 0, as in a PNG file */
     uint64_t given;  /* bytes of the film's file produced so far */
     off_t written;   /* size of the film's file when last checked */
 };

@@ -68,7 +68,7 @@ extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats;
 
 const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
-const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by its first bytes; NULL: none */
+const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by a file's first bytes; NULL: none */
 const struct kd_format *kd_format_live(void);                              /* the format of live views */
 
 /* Plans a frame that carries what the format needs. Settings that neither show in the file nor are recorded in it

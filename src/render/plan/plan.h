@@ -47,7 +47,7 @@ struct kd_capacity {
     bool measured;                            /* false: the figures are defaults for this type of device */
     bool float64;                             /* whether the device has double precision */
     unsigned cores;                           /* cores of the host, on which the closed form in double runs */
-    const struct kd_accuracy_table *accuracy; /* of the device or built in; valid as long as the renderer */
+    const struct kd_accuracy_table *accuracy; /* the device's or a built-in one; valid as long as the renderer */
     bool accuracy_measured;                   /* false: built in */
 };
 

@@ -25,7 +25,7 @@
 
 struct kd_rays_params {
     double spin;            /* |a| < 1 */
-    double r;               /* of the observer: INFINITY, or outside the horizon */
+    double r;               /* the observer's radius: INFINITY, or outside the horizon */
     double inclination_deg; /* 0 to 180 */
     uint32_t orders;        /* number of requested crossings, 1 to KD_RAYS_MAX_ORDERS */
     enum kd_engine engine;

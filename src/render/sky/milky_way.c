@@ -191,7 +191,7 @@ static void paint_row(const struct clouds *c, const struct along *columns, uint3
 struct painter {
     struct clouds clouds;
     struct along *columns;
-    float (*nodes)[SMOOTH]; /* of two rows */
+    float (*nodes)[SMOOTH]; /* nodes of two rows */
 };
 
 static void finish(struct painter *p)

@@ -104,7 +104,7 @@ struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* of a cell that folds: the largest area, and places on both sides of the fold */
+    double area, beside[2][2]; /* if the cell folds: its largest area, and places on both sides of the fold */
 };
 
 /* Whether a star may be bright enough where the map takes a cell to a solid angle `area`. */

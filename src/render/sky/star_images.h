@@ -50,7 +50,7 @@ struct kd_star_stencil { double x, y, across, down; };
 
 struct kd_star_image {
     size_t star;               /* index in the list */
-    double x, y;               /* its place among the rays */
+    double x, y;               /* the image's place among the rays */
     double solid_angle;        /* sr: solid angle of the part of the sky to which the map takes the square of four rays
                                 * about the place */
     struct kd_star_stencil by; /* how solid_angle was measured */

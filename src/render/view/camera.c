@@ -124,7 +124,7 @@ static void bound_rounding(struct kd_camera_exact *o, double width, double heigh
         d_p = more_than_sum(o->c0y, x * o->cxy, y * o->cyy);
         most_l = fabs(o->c0x) + x * fabs(o->cxx) + y * fabs(o->cyx);
     } else {
-        const bool flat = o->sight == KD_SIGHT_PINHOLE; /* its unnormalised directions are no shorter than 1 */
+        const bool flat = o->sight == KD_SIGHT_PINHOLE; /* a pinhole's unnormalised directions are no shorter than 1 */
         const double d_theta = flat ? fmin(all, more_than_sum(o->c0y, x * o->cxy, y * o->cyy)) : all,
                      d_phi = flat ? fmin(all, more_than_sum(o->c0z, x * o->cxz, y * o->cyz)) : all;
         o->size_e = fabs(o->e_t) + all * (fabs(o->e_r) + fabs(o->e_theta) + fabs(o->e_phi));

@@ -164,7 +164,7 @@ struct sheet {
     const struct kd_rim_grid *grid;
     struct side u, l;
     struct angles at[MOST + 1][MOST + 1]; /* rows of l */
-    double *columns;                      /* by row and angle, for all columns */
+    double *columns;                      /* values by row and angle, for all columns */
     float *out;
     _Atomic bool escapes; /* whether every ray of the sheet escapes */
 };
@@ -301,7 +301,7 @@ struct fill {
     struct follower f;
     const struct kd_rim_grids *grids;
     float *out;
-    _Atomic int status; /* of the first grid that failed: KD_ENOMEM or KD_EINVAL */
+    _Atomic int status; /* error of the first grid that failed: KD_ENOMEM or KD_EINVAL */
 };
 
 static void fill_grid(void *user, size_t i)
