@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Rays per second against the median error of the crossing radius, from the table of `kerrd bench accuracy`.
+"""Plot rays per second against the median error of the crossing radius, from the table of `kerrd bench accuracy`.
 
     bench/accuracy_plot.py TABLE.json [-o docs/accuracy.svg] [--set bulk]
 
-Needs matplotlib (pip install matplotlib). The line joins what is worth choosing: nothing else is both faster and more
-exact.
+Needs matplotlib (pip install matplotlib). The line joins the settings worth choosing: no other one is both faster and
+more accurate.
 """
 
 import argparse
@@ -23,12 +23,12 @@ COLOURS = {
     "ks-rk4": "#d55e00",
     "ks-euler": "#009e73",
     "ks-tao6": "#cc79a7",
-}  # Okabe and Ito
-FLOOR = 1e-16  # an error of nothing has to be drawn somewhere
+}  # colours of Okabe and Ito
+FLOOR = 1e-16  # where an error of 0 is drawn
 
 
 def points(table, name):
-    """(engine, precision, steps, error, speed) of every row that has an error there."""
+    """(engine, precision, steps, error, speed) of each row with such an error."""
     for row in table["rows"]:
         entry = row["sets"][name]
         if "r" in entry:
@@ -37,7 +37,7 @@ def points(table, name):
 
 
 def front(found):
-    """Those that no other one beats in both, from the fastest on."""
+    """The points that no other point exceeds in both speed and accuracy, the fastest first."""
     best, kept = float("inf"), []
     for point in sorted(found, key=lambda p: -p[4]):
         if point[3] < best:
@@ -94,7 +94,7 @@ def main():
     arguments = parser.parse_args()
     with open(arguments.table, encoding="utf-8") as file:
         table = json.load(file)
-    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture from the same table
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture each time
     figure, axes = plt.subplots(figsize=(8, 5.5))
     draw(table, arguments.set, axes)
     head = f"{arguments.set}: {table['sets'][arguments.set]}. kerrd {table['kerrd']}, {table['date'][:10]}, {table['device']}"

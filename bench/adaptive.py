@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Adaptive sampling against as many rays in every pixel: how far off, for how many rays, in what time; and the photon
-ring's noise.
+"""Compare adaptive sampling with as many rays in every pixel: error, rays and time; and the photon ring's noise.
 
-    bench/adaptive.py            about six minutes, on a machine that does nothing else
+    bench/adaptive.py            about six minutes, on an idle machine
     bench/adaptive.py --no-times --only gas
 
-Pictures of 640 x 360 at 16 bits, judged by those of 64 rays a pixel: PSNR as shown. Times are those of a server with
-one thread pinned to a core, 1280 x 720, lens map and all, in turn; the least of the rounds. The ring: the pixels that
-more rays at the critical curve change, by root mean square against 64 rays elsewhere and 256 there. Needs numpy (pip
-install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
+Pictures of 640 x 360 at 16 bits are compared with pictures of 64 rays a pixel: PSNR as shown. Times are those of a
+server with one thread pinned to a core, at 1280 x 720 with the lens map, in alternation; the least of the rounds. The
+ring: the pixels that more rays at the critical curve change, by root mean square against 64 rays elsewhere and 256
+there. Needs numpy (pip install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
 """
 
 import http.client
@@ -29,7 +28,7 @@ try:
 except ImportError:
     measure.skip("numpy is missing: pip install numpy")
 
-SCENES = {  # over the preset "smooth", but for the default
+SCENES = {  # changes of the preset "smooth", except for the default scene
     "the default": None,
     "smooth disk": {},
     "sharp rim, 60°": {"disk": {"taper": 0}, "camera": {"inclination_deg": 60}},
@@ -76,7 +75,7 @@ def merged(scene, **more):
 
 
 def whole(kerrd, scene):
-    """All of a scene, over its preset."""
+    """The whole scene, from its preset."""
     preset = subprocess.run(
         [kerrd, "scene", *(["-p", "smooth"] if scene is not None else [])], capture_output=True, text=True, check=True
     )
@@ -109,7 +108,7 @@ def average(row, above, step):
 
 
 def pixels(png):
-    """The picture of a 16-bit PNG, 0 to 1."""
+    """The pixels of a 16-bit PNG, 0 to 1."""
     at, data = 8, b""
     while at < len(png):
         n, kind = struct.unpack(">I4s", png[at : at + 8])
@@ -138,7 +137,7 @@ def psnr(a, b):
 
 
 class Pictures:
-    """By the command line."""
+    """Pictures rendered by the command line."""
 
     def __init__(self, kerrd, folder):
         self.kerrd, self.file = kerrd, pathlib.Path(folder) / "a.png"
@@ -175,7 +174,7 @@ def quality(pictures, scene):
 
 
 def ring(pictures, scene):
-    """Noise at the critical curve of a scene, by factor, and of 3 x 3 rays everywhere."""
+    """Noise at the critical curve of a scene, by factor, and that of 3 x 3 rays everywhere."""
     shown = lambda samples, factor: pictures.render(of_size(scene, SIZE, samples, critical_factor=factor))[0]
     truth, bare = shown(8, 2), shown(1, 1)
     at = (bare != shown(1, 16)).any(axis=2)
@@ -211,13 +210,13 @@ class Server:
 
 
 def least(server, scenes, rounds):
-    """The least time of each, in turn; each round with lens maps of its own."""
+    """The least time of each, in alternation. Each round has its own lens maps."""
     found = {name: [] for name in scenes}
     for n in range(rounds + 1):
         for name, scene in scenes.items():
             tilt = scene.get("camera", {}).get("inclination_deg", 80) + 1e-3 * n
             ms = server.ms(merged(scene, camera={"inclination_deg": tilt}))
-            if n:  # the first one compiles
+            if n:  # the first one compiles kernels
                 found[name].append(ms)
     return {name: min(ms) for name, ms in found.items()}
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Drift of the first integrals over ten thousand loops: kd_bench_drift once, a table, and with --plot a picture of it.
+"""Drift of the first integrals over ten thousand loops: kd_bench_drift once, a table, and with --plot its plot.
 
-The picture needs matplotlib (pip install matplotlib)."""
+The plot needs matplotlib (pip install matplotlib).
+"""
 
 import json
 import math
@@ -13,7 +14,7 @@ ORBITS = {
     "matter": "Matter: a = 0.9, p = 8, e = 0.5, inclined by 60°",
     "light": "Light: a = 0.9, bound about r = 0.3 M, below the inner horizon",
 }
-COLOURS = {"Yoshida 6": "#0072b2", "RK4": "#d55e00", "RKN6": "#009e73", "Tao, Yoshida 6": "#cc79a7"}  # Okabe and Ito
+COLOURS = {"Yoshida 6": "#0072b2", "RK4": "#d55e00", "RKN6": "#009e73", "Tao, Yoshida 6": "#cc79a7"}  # by Okabe and Ito
 
 
 def at(figures, row, what, loops):
@@ -22,7 +23,7 @@ def at(figures, row, what, loops):
 
 
 def growth(figures, row):
-    """Power of the number of loops that the invariant's error grows by in the last decade."""
+    """The power of the number of loops by which the invariant's error grows in the last decade."""
     last, before = (at(figures, row, "invariant", n) for n in (10000, 1000))
     return "lost in loop %d" % row["lost"] if last is None else f"{math.log10(last / before):.2f}"
 
@@ -49,7 +50,7 @@ def plot(figures, path):
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
 
-    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture from the same figures
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture each time
     figure, all_axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True)
     most = max(r["evaluations"] for r in figures["rows"])
     for axes, (orbit, title) in zip(all_axes, ORBITS.items()):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What encoding a frame costs, in ms and bytes: kd_bench_encode on one core, and files on several, as tables."""
+"""Cost of encoding a frame, in ms and bytes: kd_bench_encode on one core, and files on several, as tables."""
 
 import json
 import os

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""What one client may make another one wait: pictures, frames and /healthz beside each load that an address can put on
-a server.
+"""How long one client can make another wait: pictures, frames and /healthz beside each load of one address.
 
-    bench/fairness.py            about four minutes, on a machine that does nothing else
+    bench/fairness.py            about four minutes, on an idle machine
     bench/fairness.py --only "a job of 1000 frames" --seconds 5
     bench/fairness.py --size 640 360 --no-session --only nothing --only "all that one may queue" --save fairness-queued
 
-A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one
-picture (of 320 x 180) after the other, each with a lens map of its own, watches a session of his own, and asks for
-/healthz. Writes bench/results/DATE-DEVICE-fairness.{json,md}.
+The script starts its own server. The loads come from 127.0.0.1. The measured client is 127.0.0.2: it requests pictures
+of 320 x 180, one after the other, each with its own lens map, watches a session, and requests /healthz. Writes
+bench/results/DATE-DEVICE-fairness.{json,md}.
 """
 
 import concurrent.futures
@@ -27,7 +26,7 @@ import time
 
 import measure
 
-SIZE = (320, 180)  # of the picture that is measured
+SIZE = (320, 180)  # of the measured picture
 LIVING = {"image": {"width": 640, "height": 360}, "disk": {"model": "particles"}, "motion": {"time_rate": 10}}
 FRAME = {"image": {"width": 640, "height": 360}}
 
@@ -68,7 +67,7 @@ class Server:
 
 
 class Load:
-    """Threads that go on until it is over; what they meet in the end is nobody's business."""
+    """Threads that run until the load is over. Errors at their end are ignored."""
 
     def __init__(self, server, source="127.0.0.1"):
         self.server, self.source, self.over, self.threads, self.counts = server, source, threading.Event(), [], {}
@@ -105,7 +104,7 @@ class Load:
 
         def pull(connection):
             answer, _ = self.server.ask(self.source, "GET", f"{at}/frame.png?after={frame[0]}", connection=connection)
-            frame[0] = int(answer.headers["Kerrd-Frame"] or frame[0])  # 204 has none
+            frame[0] = int(answer.headers["Kerrd-Frame"] or frame[0])  # a 204 has no body
             return answer
 
         def patch(connection):
@@ -126,7 +125,7 @@ class Load:
 
 
 def picture_of(size):
-    """The default scene, with a lens map of its own."""
+    """The default scene, with its own lens map."""
     return (
         f"/v1/render?image.width={size[0]}&image.height={size[1]}&camera.inclination_deg={random.uniform(40, 80):.6f}"
     )
@@ -178,7 +177,7 @@ def plans(load):
 
 
 def jobs(load):
-    """As many jobs as one may have: every other one the frames of a film, along keyframes and with motion blur."""
+    """As many jobs as one client may have; every second one is a film along keyframes with motion blur."""
     scene = {"image": {"width": 1280, "height": 720}}
     for k in range(12):
         frames = [{**scene, "camera": {"inclination_deg": 40 + 0.02 * i + k}} for i in range(50)]
@@ -200,8 +199,8 @@ def playgrounds(load):
 
 
 def queue(load):
-    """Twenty ask for long pictures, each of its own, where twelve may wait; eight for lists of rays; twelve sessions
-    are dragged."""
+    """All that one client may queue: 20 requests for long pictures, of which 12 may wait, each with its own lens map; 8
+    for lists of rays; 12 dragged sessions."""
 
     def long(connection):
         return load.server.ask(
@@ -226,7 +225,7 @@ def queue(load):
 
 
 def new_kernels(load):
-    """One preset after the other, each of which needs kernels that no one before did."""
+    """Preset after preset, each of which needs kernels that were not compiled before."""
     presets = [p["name"] for p in json.loads(load.server.ask(load.source, "GET", "/v1/presets")[1])["presets"]]
     left = iter(presets * 100)
     load.loop(
@@ -262,9 +261,8 @@ def repeat_for(seconds, at_least, step, is_enough=lambda: True):
 
 
 def look_at_health(port, source, seconds, at_least):
-    """Milliseconds that /healthz takes, and that a sleep before it is late: the latter is how long this machine lets
-    anybody wait, and no server's doing. In a process of its own: beside the threads of the loads it would measure how
-    they share Python's lock."""
+    """Milliseconds that /healthz takes, and the delay of a sleep before it: this is how long the machine delays any
+    process. Runs in a process of its own, since beside the threads of the loads it would measure Python's lock."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 
@@ -280,7 +278,7 @@ def look_at_health(port, source, seconds, at_least):
 
 
 def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=True):
-    """What a client meets who does nothing else: pictures, the frames of a session of his own, /healthz."""
+    """The measured client: pictures, the frames of its session, /healthz."""
     out, viewer = {}, Load(server, source)
     if session:
         viewer.session("own", LIVING)
@@ -290,10 +288,10 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
         assert answer.status == 200, answer.status
 
     with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        pool.submit(os.getpid).result()  # it is there
+        pool.submit(os.getpid).result()  # the frame exists already
         begun, frames = time.monotonic(), viewer.counts.get("own: 200", 0)
         health = pool.submit(look_at_health, server.port, source, seconds, at_least)
-        # a busy machine may show no frame of the session within so few seconds
+        # on a busy machine a session may show no frame within so few seconds
         out["picture_ms"] = repeat_for(
             seconds, at_least, picture, lambda: not session or viewer.counts.get("own: 200", 0) > frames
         )
@@ -304,13 +302,13 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
 
 
 def warm(server, size=SIZE):
-    """Kernels are made, and the device is measured."""
+    """Has the server compile kernels and measure its device."""
     for _ in range(3):
         server.ask("127.0.0.2", "GET", picture_of(size))
 
 
 def empty_cache(folder):
-    """An environment in which neither the driver nor kerrd finds a kernel that was compiled before."""
+    """An environment in which neither the driver nor kerrd finds compiled kernels."""
     return {**os.environ, "MESA_SHADER_CACHE_DIR": folder, "XDG_CACHE_HOME": folder}
 
 

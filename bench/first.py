@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
-"""The first picture of a process and the second, by preset: what kernels that have to be made, and a sky that has to be
-read, cost whoever asks first.
+"""Time of a process's first picture and its second, by preset: the cost of making kernels and reading a sky.
 
     bench/first.py                                     about four minutes
-    bench/first.py --before OTHER/build/src/kerrd      the same of both programs, in turn
+    bench/first.py --before OTHER/build/src/kerrd      the same of both programs, in alternation
 
-Each round starts a server, asks POST /v1/render for a picture of 1280 x 720 as soon as it listens, and then for one
-half a degree further round the hole; and runs `kerrd render`. The driver's own cache of kernels is warm, for a round of
-each comes first that does not count, unless --no-driver-cache tells Mesa to keep none. Writes
-bench/results/DATE-DEVICE-first.{json,md}.
+Each round starts a server, requests POST /v1/render of 1280 x 720 as soon as it listens, then a picture half a degree
+further round the hole; and runs `kerrd render`. The driver's cache of kernels is warm, since an uncounted round of each
+comes first, unless --no-driver-cache tells Mesa to keep none. Writes bench/results/DATE-DEVICE-first.{json,md}.
 """
 
 import http.client
@@ -68,7 +66,7 @@ def served(program, preset):
 
 
 def rendered(program, preset):
-    """Seconds on the clock, and of the processor, of `kerrd render`."""
+    """Wall and processor seconds of `kerrd render`."""
     with tempfile.TemporaryDirectory() as folder:
         before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
         measure.run(

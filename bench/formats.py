@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Formats of live frames: what encoding one takes, how many bytes it has, what a browser takes to decode it, and what
-it leaves of the picture.
+"""Formats of live frames: time to encode one, its bytes, time to decode it in a browser, and its loss.
 
     bench/formats.py         about a minute; needs Chromium, and Playwright and Pillow in venv/ (scripts/setup
                              --browser)
 
-Pictures are live frames of a server: half of a window of 1440 x 900, as they come while something moves, of the default
-scene, the page's first view and one with stars. PNG is as the server writes it; JPEG and WebP by libjpeg-turbo and
-libwebp through Pillow, on one core. Writes bench/results/DATE-DEVICE-formats.{json,md}.
+Pictures are live frames of a server: half of a window of 1440 x 900, as shown in motion, of the default scene, the
+page's first view and a scene with stars. PNG is the server's; JPEG and WebP are made by libjpeg-turbo and libwebp
+through Pillow, on one core. Writes bench/results/DATE-DEVICE-formats.{json,md}.
 """
 
 import base64
@@ -45,7 +44,7 @@ DECODE = """async ([text, type]) => {
 
 
 def frame(server, preset):
-    """A frame of a session, and what encoding it took the server."""
+    """A frame of a session, and the server's time to encode it."""
     connection = http.client.HTTPConnection("127.0.0.1", server, timeout=600)
 
     def ask(method, target, body=None):

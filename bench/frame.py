@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a frame costs from the scene to the PNG, with one lavapipe thread and with two: medians of kd_bench_frame."""
+"""Cost of a frame from the scene to the PNG, with one lavapipe thread and with two: medians of kd_bench_frame."""
 
 import json
 import os
@@ -13,7 +13,7 @@ PASSES = ["trace", "transfer", "expose", "post", "readback", "total", "encode_1"
 
 
 def command_line(kerrd, cores, threads, repeat):
-    """Wall time of `kerrd render` from start to exit, kernels already in the driver's cache."""
+    """Wall time of `kerrd render` from start to exit, with kernels in the driver's cache."""
     times = []
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(repeat + 1):
@@ -24,7 +24,7 @@ def command_line(kerrd, cores, threads, repeat):
 
 
 def frames(bench, flags, cores, threads, repeat):
-    """One run of a build's bench; builds from before the scene had a file of its own have it as their default."""
+    """One run of a build's benchmark. Older builds do not know --scene, and have this scene as their default."""
     known = "--scene" in measure.run([bench, "--help"])
     scene = ["--scene", str(measure.ROOT / "bench/scenes/frame.json")] if known else []
     return json.loads(

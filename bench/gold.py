@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Fluxes at radio frequencies beside the published ones: Gold et al. 2020's five tests, and ipole's hot flow.
+"""Compare fluxes at radio frequencies with published ones: Gold et al. 2020's five tests, and ipole's hot flow.
 
     bench/gold.py [--kerrd build/src/kerrd] [--size 256] [--json]      some ten seconds
 
-Each is one picture of a preset, whose flux `kerrd render --stats` tells. Ends with 1 if one is further off than it may
-be.
+Each flux is that of one picture of a preset, from `kerrd render --stats`. Exit code 1 if one differs by more than it
+may.
 """
 
 import argparse
@@ -16,8 +16,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# R. Gold et al. 2020 (ApJ 897, 148), table 1, Jy; and the program Blacklight (C. J. White 2022, ApJS 262, 28), as it
-# was run for this comparison
+# R. Gold et al. 2020 (ApJ 897, 148), table 1, Jy; and the program Blacklight (C. J. White 2022, ApJS 262, 28), run for
+# this comparison
 GOLD = {
     "gold-1": (1.6465, 1.65940),
     "gold-2": (1.4360, 1.44882),
@@ -26,8 +26,8 @@ GOLD = {
     "gold-5": (0.0255, 0.0257013),
 }
 OF_GOLD, OF_BLACKLIGHT, OF_IPOLE, OF_IPOLE_POLARISED, OF_IPOLE_EDGE_ON = 0.02, 0.003, 0.01, 0.02, 0.025
-# Blacklight's rays are parallel, but its observer is at rest at 1000 M: 230 GHz there are less at infinity, and I/nu^3
-# is invariant
+# Blacklight's rays are parallel, but its observer is at rest at 1000 M: its 230 GHz are a lower frequency at infinity,
+# and I/nu^3 is invariant
 LAPSE = math.sqrt(1 - 2 / 1000)
 # ipole's model/riaf/riaf.txt (M. Moscibrodzka & C. F. Gammie 2018, MNRAS 475, 43), unpolarised, at 223.005 GHz by
 # degrees, and at 90 degrees by GHz
@@ -38,7 +38,7 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
-# and with polarised transfer, which has less of I
+# and with polarised transfer, which lowers I
 IPOLE_POLARISED_DEG = {5: 1.864400335340764, 30: 2.1902815688664155, 60: 2.6534246703175217, 75: 2.6304077917851245}
 IPOLE_GHZ = {
     26.1016: 0.21402505951085055,
@@ -51,7 +51,7 @@ IPOLE_GHZ = {
 
 
 def flux(kerrd, preset, size, **changes):
-    """Jy, and the error that nine of ten rays are within."""
+    """The flux in Jy, and the error that nine of ten rays are within."""
     settings = [word for name, value in changes.items() for word in ("--set", f"{name.replace('__', '.')}={value}")]
     with tempfile.TemporaryDirectory() as folder:
         command = [
@@ -74,7 +74,7 @@ def flux(kerrd, preset, size, **changes):
 
 
 def rows(kerrd, size):
-    """(what, Jy, {of what: (its Jy, relative difference, allowed or None)})"""
+    """(what, Jy, {source: (its Jy, relative difference, allowed difference or None)})"""
     for preset, (published, blacklight) in GOLD.items():
         jy, _ = flux(kerrd, preset, size)
         there = flux(kerrd, preset, size, volume__frequency_ghz=230 * LAPSE)[0] / LAPSE**3

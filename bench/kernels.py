@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What each kernel of sixteen scenes takes: registers on a GPU, and the time that lavapipe needs to compile it.
+"""Cost of each kernel of sixteen scenes: registers on a GPU, and the time that lavapipe needs to compile it.
 
     bench/kernels.py                     about four minutes
-    bench/kernels.py --family GFX1100    as another GPU
+    bench/kernels.py --family GFX1100    for another GPU
 
-A GPU need not be there: Mesa's RADV makes pipelines for the family that RADV_FORCE_FAMILY names, and tells what they
-use (RADV_DEBUG=shaderstats). Compile times are those of the processor, of one process whose driver keeps no kernels.
-Writes bench/results/DATE-{radv-FAMILY,llvmpipe}-kernels.{json,md}. Exits 77 where there is no RADV.
+No GPU is needed: Mesa's RADV makes pipelines for the family in RADV_FORCE_FAMILY, and reports what they use
+(RADV_DEBUG=shaderstats). Compile times are processor times of one process, whose driver caches no kernels. Writes
+bench/results/DATE-{radv-FAMILY,llvmpipe}-kernels.{json,md}. Exits 77 without RADV.
 """
 
 import json
@@ -46,7 +46,7 @@ def run(program, options, environment):
 
 
 def statistics_of(text):
-    """What RADV wrote of each kernel, by its number."""
+    """RADV's statistics of each kernel, by its number."""
     parts = re.split(r"^kernel (\d+)$", text, flags=re.M)
     return {
         int(parts[i]): {name: int(n) for name, n in re.findall(r"^([A-Za-z][\w -]*): (\d+)$", parts[i + 1], re.M)}

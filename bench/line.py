@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Line profiles a second and core: cold and warm, by spin and inclination, and as a fit asks a server for them.
+"""Line profiles a second and core: cold and warm, by spin and inclination, and as requested from a server by a fit.
 
     bench/line.py             two minutes; 500 bins, r^-3 from the ISCO to 400 M, tolerance 0.003
     bench/line.py --directions 1024      the true error of each profile too, beside triangles between rays: five
                                          minutes more
-    bench/line.py --before OTHER/build   another build directory's bench/kd_bench_line too, in turn
+    bench/line.py --before OTHER/build   another build directory's bench/kd_bench_line too, in alternation
 
-Cold: the spin and the inclination are new, and their table is made. Warm: it is kept. The time is the processor's own,
-of the thread that computes (bench/kd_bench_line) or of the whole server, so that it hardly depends on what else runs;
-what others do to the caches it still has in it. Writes bench/results/DATE-cpu-line.{json,md}.
+Cold: spin and inclination are new, and their table is computed. Warm: the table is cached. Times are processor times of
+the computing thread (bench/kd_bench_line) or of the whole server; so other processes matter only by their effect on the
+caches. Writes bench/results/DATE-cpu-line.{json,md}.
 """
 
 import http.client
@@ -33,7 +33,7 @@ def grid(program, core, tolerance, repeat, directions):
 
 
 def best(rows, others):
-    """Of each pair the least times of both."""
+    """The least times of both builds, for each pair."""
     return (
         {k: {**r, **{name: min(r[name], others[k][name]) for name in ("table_ms", "sum_ms")}} for k, r in rows.items()}
         if rows
@@ -42,14 +42,14 @@ def best(rows, others):
 
 
 def used(pid):
-    """Seconds of processor time of a process, its own and the kernel's for it."""
+    """Processor seconds of a process, user and kernel."""
     fields = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / TICK
 
 
 def asked(server, count, tolerance, accept, cold):
-    """Processor and wall seconds a profile, all on one connection; spins and inclinations of a fit that walks, or one
-    pair whose emissivity changes."""
+    """Processor and wall seconds of a profile, all on one connection; for the changing spins and inclinations of a fit,
+    or for one pair with a changing emissivity."""
     connection, draw = http.client.HTTPConnection("127.0.0.1", server["port"], timeout=60), random.Random(4711)
     before, begun = used(server["pid"]), time.monotonic()
     for n in range(count):
@@ -93,7 +93,7 @@ def serving(kerrd, count, tolerance):
 
 
 def alone(kerrd, count, tolerance):
-    """Milliseconds of processor time of a process that makes one profile."""
+    """Processor milliseconds of a process that computes one profile."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     for n in range(count):
         subprocess.run(

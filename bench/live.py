@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Live sessions as a viewer has them: frames a second, from input to picture, what limits it, what watching costs.
+"""Live sessions as a viewer sees them: frames a second, latency from input to picture, its parts, cost of watching.
 
-    bench/live.py            about two minutes, on a machine that does nothing else
-    bench/live.py --before OTHER/build/src/kerrd      one session dragged, and eight, on both programs in turn; about
-                                                      three minutes
-    bench/live.py --presets gas-stars milky-way       those alone, while time runs and dragged; half a minute
+    bench/live.py            about two minutes, on an idle machine
+    bench/live.py --before OTHER/build/src/kerrd      one session dragged, and eight, on both programs in alternation;
+                                                      about three minutes
+    bench/live.py --presets gas-stars milky-way       these alone, while time runs and dragged; half a minute
     bench/live.py --sized 536x400 268x200 --presets gas gas-stars --before OTHER/build/src/kerrd   frames of these
       sizes, however long they take, on both
 
-A server of its own, on all cores; this script is its client and takes some of the machine too. Writes
+The script starts a server on all cores; as its client it takes some of the machine too. Writes
 bench/results/DATE-DEVICE-{live,presets,sharing,sized}.{json,md}.
 """
 
@@ -89,8 +89,8 @@ def timings(answer):
 
 
 def summary(answers, seconds, waits):
-    """Passes of the frames that trace, if they are more than a few: beside them, in a scene that goes on by itself,
-    others reuse."""
+    """Passes of the frames that trace, if there are enough of these: in a scene that moves by itself other frames reuse
+    the lens map."""
     passes, traced = {}, [a for a in answers if timings(a).get("trace")]
     for answer in traced if 4 * len(traced) > len(answers) else answers:
         for name, ms in timings(answer).items():
@@ -110,7 +110,7 @@ def summary(answers, seconds, waits):
 
 
 def steer(session, patches):
-    """A patch, then pull until the picture shows it."""
+    """Sends a patch, then requests frames until one shows it."""
     answers, waits, begun = [], [], time.monotonic()
     for patch in patches:
         sent = time.monotonic()
@@ -125,11 +125,11 @@ def steer(session, patches):
 
 
 def drag(port, k, begin, seconds, settle, scene=None):
-    """One of several that are dragged at once, from `begin` on: what it had after the first `settle` seconds."""
+    """One of several sessions dragged at once, from `begin` on: its frames after the first `settle` seconds."""
     scene = scene or {"image": SIZE, "sky": {"model": "grid"}}
     session = Session(
         port, {**scene, "camera": {**scene.get("camera", {}), "azimuth_deg": 40 * k % 360}}
-    )  # and inclinations of its own, that nobody finds another's lens map
+    )  # and its own inclinations, so that no lens map is shared
     time.sleep(max(0, begin - time.monotonic()))
     answers, waits, n = [], [], 0
     while time.monotonic() < begin + seconds:
@@ -150,7 +150,7 @@ def drag(port, k, begin, seconds, settle, scene=None):
 
 
 def dragged_together(server, n, seconds=9, settle=3, scene=None):
-    """A process each, so that they wait for the server and not for one another."""
+    """One process for each, so that they wait for the server and not for one another."""
     begin = time.monotonic() + 1 + n / 4
     with concurrent.futures.ProcessPoolExecutor(n, mp_context=multiprocessing.get_context("fork")) as pool:
         running = [pool.submit(drag, server.port, k, begin, seconds, settle, scene) for k in range(n)]
@@ -266,7 +266,7 @@ def make_kernels(server):
 
 
 def compare(programs, rounds=3):
-    """One session and eight on each program, in turn. By program and number: the rounds."""
+    """One session and eight on each program, in alternation. Returns the rounds by program and number."""
     out, device = {name: {"1": [], "8": []} for name in programs}, None
     for _ in range(rounds):
         for n in (1, 8):
@@ -303,7 +303,7 @@ def together_row(row):
 
 
 def preset_rows(server, names):
-    """Each while its time runs, as the page's first view does, and dragged."""
+    """Each preset while its time runs, as in the page's first view, and dragged."""
     rows = {}
     for name in names:
         scene = preset(server.port, name)
@@ -329,7 +329,7 @@ def preset(port, name):
 
 
 def sized_rows(server, names, sizes):
-    """Frames of these sizes and no others, of a picture of one ray a pixel: dragged either way, and while time runs."""
+    """Frames of fixed sizes, with one ray a pixel: dragged in both directions, and while time runs."""
     rows = {}
     for name in names:
         for size in sizes:
@@ -339,7 +339,7 @@ def sized_rows(server, names, sizes):
             at, round_it = scene["camera"]["inclination_deg"], scene["camera"]["azimuth_deg"]
             scene["motion"].update(time_rate=0, azimuth_rate_deg=0)
             session = Session(server.port, scene, "?least=1")
-            for again in (10, 40):  # the first ones make the kernels, and let it find its pace
+            for again in (10, 40):  # the first ones make the kernels, and the governor adapts
                 rows[f"{name}, {size}: inclination"] = steer(
                     session, [{"camera": {"inclination_deg": at - 0.1 * (again + k)}} for k in range(again)]
                 )
@@ -353,7 +353,7 @@ def sized_rows(server, names, sizes):
 
 
 def write_sized(arguments, programs, device, load, rounds=3):
-    """In turn; of each row the round with the median total."""
+    """Both programs in alternation; for each row the round with the median total."""
     seen = {}
     for _ in range(rounds):
         for title, path in programs.items():

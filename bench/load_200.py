@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """Two hundred connections beside a session that is dragged: does anything fail, and how many frames does it cost?
 
-    bench/load_200.py                        about five minutes, on a machine that does nothing else
-    bench/load_200.py --seconds 10 --rounds 12   where others work on the machine: what they do falls on both
-    bench/load_200.py --wrk-nice 0           the load at the priority of everybody else: how processors are shared, and
-                                             not how this server is
+    bench/load_200.py                        about five minutes, on an idle machine
+    bench/load_200.py --seconds 10 --rounds 12   on a machine with other work, which then affects both equally
+    bench/load_200.py --wrk-nice 0           the load at normal priority, which measures how processors are shared
+                                             rather than this server
 
-A server of its own. `wrk` (the Debian package) keeps 200 connections busy from 127.0.0.1 with answers that are cheap,
-one after the other: /healthz, /readyz, /v1/schema, /v1/presets, /v1/presets/NAME, /v1/device, /v1/physics/kerr. From
-127.0.0.2 a session of 640 x 360 is dragged, 30 changes a second. Seconds with the load and without it alternate, so
-that what others do on the machine falls on both. wrk and server have the same processors, which is what a test on one
-machine measures; wrk runs at nice 19, as a load from elsewhere would take no processor here at all. Writes
+The script starts its own server. `wrk` (the Debian package) keeps 200 connections from 127.0.0.1 busy with cheap
+answers, one after the other: /healthz, /readyz, /v1/schema, /v1/presets, /v1/presets/NAME, /v1/device,
+/v1/physics/kerr. From 127.0.0.2 a session of 640 x 360 is dragged, 30 changes a second. Intervals with and without the
+load alternate, so that other work on the machine affects both. wrk shares the server's processors, as any test on one
+machine must; it runs at nice 19, since a load from elsewhere would take no processor here. Writes
 bench/results/DATE-DEVICE-load-200.{json,md}.
 """
 
@@ -52,8 +52,7 @@ ERRORS = ("connect", "read", "write", "timeout", "status")
 
 
 class Dragged:
-    """A session that is dragged for as long as this lives; frames by the time at which they came, and how long each
-    took from the change to the picture of it."""
+    """A dragged session: the times at which its frames came, and the latency of each from its change."""
 
     def __init__(self, server):
         self.load, self.frames = fairness.Load(server, "127.0.0.2"), []
@@ -106,14 +105,14 @@ def wrk(server, connections, nice, script):
 
 
 def run(path, seconds, rounds, connections, nice):
-    """Per round what the session had alone and beside the load, and what the load had."""
+    """The session's figures for each round, alone and beside the load, and the load's."""
     with tempfile.TemporaryDirectory() as folder:
         script = pathlib.Path(folder) / "paths.lua"
         script.write_text(LUA)
         server = fairness.Server(path)
         try:
             dragged = Dragged(server)
-            time.sleep(5)  # kernels are made, and its governor knows the device
+            time.sleep(5)  # kernels are made, and the governor has measured the device
             out = []
             for _ in range(rounds):
                 _, alone, gap = dragged.during(seconds, time.sleep)

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""What each feature of the look costs: the smooth disk, and with one thing more at a time; the default scene with all
-that it has.
+"""Cost of each feature of the look: the smooth disk, with one feature more at a time, and the default scene.
 
-    bench/look.py            about two minutes, on a machine that does nothing else
-    bench/look.py --before OTHER/build      the smooth disk by a build without the features too, in turn
+    bench/look.py            about two minutes, on an idle machine
+    bench/look.py --before OTHER/build      also the smooth disk by a build without the features, in alternation
 
-640 x 360, two threads; least of the frames of all rounds, whose lens map is traced anew (cold) or reused. Writes
-bench/results/DATE-DEVICE-look.{json,md}.
+640 x 360, two threads; the least time of the frames of all rounds, whose lens map is traced anew (cold) or reused.
+Writes bench/results/DATE-DEVICE-look.{json,md}.
 """
 
 import json
@@ -44,7 +43,7 @@ def frames(bench, scene, repeat):
 
 
 def least(runs, kind):
-    """The least time of each pass, and of the whole frame, by itself."""
+    """The least time of each pass, and separately of the whole frame."""
     names = {
         name: None
         for r in runs

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What volumes cost: the light of rays followed through them, and whole frames, beside the same scene without any.
+"""Cost of volumes: the light of rays through them, and whole frames, beside the same scene without any.
 
-    bench/march.py            about two minutes, on a machine that does nothing else
-    bench/march.py --before OTHER/build      the smooth disk, which has no volume, by a build from before there were
-                                             volumes too, in turn
+    bench/march.py            about two minutes, on an idle machine
+    bench/march.py --before OTHER/build      also the smooth disk, without a volume, by a build from before volumes, in
+                                             alternation
 
-Rays by one thread pinned to one core: a picture's rays, one a pixel, over the time of the pass that follows them.
-Frames by two threads. Least of all rounds. The error is what the frame says of itself (docs/accuracy.md). Writes
+Rays by one thread pinned to one core: the rays of a picture, one a pixel, over the time of the pass that follows them.
+Frames by two threads. The least of all rounds. The error is the frame's own estimate (docs/accuracy.md). Writes
 bench/results/DATE-DEVICE-march.{json,md}.
 """
 
@@ -70,7 +70,7 @@ def least(runs, kind, name):
 
 
 def told(kerrd, scene):
-    """What a frame says of its volumes' error: of nine rays in ten, and the worst."""
+    """The frame's estimate of its volumes' error: of nine rays in ten, and the worst."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             kerrd,

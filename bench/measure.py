@@ -1,4 +1,4 @@
-"""What the benchmark scripts share: the machine, the pinned run, medians, the files under bench/results."""
+"""Shared code of the benchmark scripts: the machine, pinned runs, medians, the files under bench/results."""
 
 import argparse
 import datetime
@@ -38,7 +38,7 @@ def binary(build, name):
 
 
 def run(command, cores=None, threads=None):
-    """Standard output and error of a command, pinned to cores, with so many lavapipe threads."""
+    """Standard output and error of a command, pinned to cores, with this number of lavapipe threads."""
     environment = dict(os.environ, LC_ALL="C")
     if threads is not None:
         environment["LP_NUM_THREADS"] = str(threads)
@@ -57,8 +57,7 @@ def one_core(command, core):
 
 
 def processor(pid):
-    """Seconds of all cores that another process has had, by a clock of its own: not in steps of 10 ms, as /proc has
-    them."""
+    """Processor seconds of another process, by its own clock: it is finer than the steps of 10 ms in /proc."""
     return time.clock_gettime((~pid << 3) | 2)  # clock_getcpuclockid(3)
 
 

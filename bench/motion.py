@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane: does it shimmer? One ray a pixel
+"""Does gas shimmer that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane? One ray a pixel
 against 64.
 
-    bench/motion.py            about five minutes, on a machine that does nothing else
+    bench/motion.py            about five minutes, on an idle machine
 
-A hundred frames of 320 x 180, linear light, by a server of its own. Of each pixel the variance in time, and the mean
-square of the step from frame to frame; both over those of the pictures of 64 rays a pixel, of the whole picture and of
-the pixels that few rays show well, those whose gas is finest. Needs numpy. Writes
+The script starts its own server and renders a hundred frames of 320 x 180, in linear light. It computes each pixel's
+variance in time, and the mean square of the step from frame to frame, both relative to pictures of 64 rays a pixel: of
+the whole picture, and of the pixels with the finest gas, where one ray is worst. Needs numpy. Writes
 bench/results/DATE-DEVICE-motion.{json,md}.
 """
 
@@ -67,7 +67,7 @@ def film(port, samples, inclination):
 
 
 def figures(light, truth):
-    """This is of what an eye sees, so that bright gas does not outweigh all else: the square root of light."""
+    """Computed from the square root of light, as an eye perceives it, so that bright gas does not dominate."""
     light, truth = numpy.sqrt(light), numpy.sqrt(truth)
     lit = truth.mean(0) > 0.02
     step = lambda x: numpy.square(numpy.diff(x, axis=0)).mean(0)

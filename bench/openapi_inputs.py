@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""What openapi.json says yes to and the server says no: inputs made from the schemas, refusals counted by kind.
+"""What openapi.json allows and the server refuses: inputs made from the schemas, refusals counted by kind.
 
-Random documents and queries (of hypothesis-jsonschema, PyPI, and always the same ones for one document) go to a server
-in front of a renderer without a device. A kind is an operation, a problem type and its sentence without numbers and
-quoted words. Not every kind is a fault of the schema: no schema can name a radius inside the horizon of this spin, or a
-picture beyond this server's limit."""
+Random documents and queries (by hypothesis-jsonschema, PyPI; the same ones each time for one document) go to a server
+whose renderer has no device. A kind is an operation, a problem type, and its sentence without numbers and quoted words.
+Not every kind is a fault of the schema: a schema cannot express a radius inside the horizon of this spin, or a picture
+beyond this server's limit.
+"""
 
 import argparse
 import collections
@@ -26,7 +27,7 @@ class Over(Exception):
 
 
 def inputs(document):
-    """(name, method, path, where, schema) of what takes a JSON body, or a query and no path parameter."""
+    """(name, method, path, where, schema) of operations with a JSON body, or with a query and no path parameter."""
     for path, operations in document["paths"].items():
         for method, operation in operations.items():
             if (

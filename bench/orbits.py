@@ -3,7 +3,7 @@
 
     orbits.py KERRD [N]     N: default 10000
 
-Prints a line a way to follow them: seconds, processor seconds, orbits per second, and the worst drift of the energy.
+Prints a line for each method: seconds, processor seconds, orbits per second, and the worst drift of the energy.
 Recorded with machine and date in bench/results, never gated.
 """
 

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The page in Chromium as somebody has it: time to the first picture, frames a second, milliseconds a frame of the
-server and of the browser.
+"""The page in Chromium: time to the first picture, frames a second, milliseconds a frame of server and browser.
 
-    bench/page.py            about two minutes, on a machine that does nothing else; needs Chromium, and Playwright in
-                             venv/ (scripts/setup --browser)
+    bench/page.py            about two minutes, on an idle machine; needs Chromium, and Playwright in venv/
+                             (scripts/setup --browser)
 
-A window of 1440 x 900 on the machine of the server. Rows: time running, the camera dragged round the hole, both again
-on a line of 300 ms and 1 Mbit/s (Chromium's own). Each row has what was asked for beside it. Writes
+A window of 1440 x 900 on the server's machine. Rows: time running, the camera dragged round the hole, and both again on
+a line of 300 ms and 1 Mbit/s (simulated by Chromium). Each row has its target beside it. Writes
 bench/results/DATE-DEVICE-page.{json,md}.
 """
 
@@ -23,8 +22,7 @@ WINDOW = {"width": 1440, "height": 900}
 PATIENCE_MS = 120_000
 SCENES = {"default": "preset=default", "first view": "preset=gas-stars"}
 FAR = {"offline": False, "latency": 300, "downloadThroughput": 1e6 / 8, "uploadThroughput": 1e6 / 8}
-# Every answer with a frame that the page reads, with the width, what the server took for it, and the time from answer
-# to picture.
+# Records each frame that the page reads: its width, the server's time for it, and the time from answer to picture.
 WATCH = """() => {
     window.seen = [];
     const real = window.fetch;
@@ -45,7 +43,7 @@ WATCH = """() => {
 
 
 def drag(page, seconds):
-    """As a hand does: some sixty places a second, there and back, round the hole."""
+    """Drags back and forth round the hole, at some sixty positions a second, as a hand does."""
     page.mouse.move(700, 400)
     page.mouse.down()
     page.evaluate(
@@ -84,7 +82,7 @@ def row(page, act, seconds):
 
 
 def first_picture(browser, base):
-    """From the start of the page to its first picture, in a context that keeps nothing: the median of five."""
+    """Time from the start of the page to its first picture, in a context without a cache: the median of five."""
     times = []
     for _ in range(5):
         page = browser.new_page(viewport=WINDOW)
@@ -109,7 +107,7 @@ def rows_of(browser, base, seconds):
             if far:
                 line.send("Network.enable")
                 line.send("Network.emulateNetworkConditions", FAR)
-            page.wait_for_timeout(4000)  # it finds its size
+            page.wait_for_timeout(4000)  # the page finds its size
             where = ", 300 ms and 1 Mbit/s" if far else ""
             rows[f"{name}: time runs{where}"] = row(page, lambda s: page.wait_for_timeout(1e3 * s), seconds)
             drag(page, 3)
@@ -140,7 +138,7 @@ def main():
             browser = playwright.chromium.launch(
                 executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
             )
-            first_picture(browser, base)  # which makes the kernels
+            first_picture(browser, base)  # it makes the kernels
             first, rows = first_picture(browser, base), rows_of(browser, base, arguments.seconds)
             browser.close()
     finally:

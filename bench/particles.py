@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Particles of a disk: from their numbers to the density on the grid, on one lavapipe thread: kd_bench_particles."""
+"""Particles of a disk, from their numbers to the density on the grid, on one lavapipe thread: kd_bench_particles."""
 
 import json
 import os

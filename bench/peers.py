@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""kerrd's rays beside those of other codes: what it does in a picture, on one core.
+"""Compare kerrd's rays with those of other codes: the work of a picture, on one core.
 
-The lens map stands beside kerrz, a closed-form code in double precision: the same image, the same core, in turn. kerrz
-is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 numpy. Rays through volumes stand
-beside Blacklight and ipole, whose figures bench/radio.py has."""
+The lens map is compared with kerrz, a closed-form code in double precision: the same image, the same core, in
+alternation. kerrz is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 numpy. Rays
+through volumes are compared with Blacklight and ipole; bench/radio.py has their figures.
+"""
 
 import argparse
 import json
@@ -24,8 +25,8 @@ PAIRS = [
     ("r, later crossings too", ("closed form", "r of 3 crossings"), "radius", []),
     ("r and φ, later crossings too", ("closed form", "r, phi of 3 crossings"), "azimuth", []),
 ]
-# What kerrz has no picture of: kd_bench_trace's `computes`. AART 2.1.10 and geokerr have r, t and φ of a crossing; their
-# figures were measured before, on a core of such a machine.
+# kd_bench_trace's `computes` without a picture of kerrz. AART 2.1.10 and geokerr compute r, t and φ of a crossing;
+# their figures were measured earlier, on a core of such a machine.
 ALONE = ["r, phi, sky, fate", "r, phi, sky, fate, delay"]
 AART, GEOKERR = 136_000, 300_000
 
@@ -137,7 +138,7 @@ def first_crossing(np, lam, eta, up, w0):
 
 
 def judge_kerrz(np, library, n):
-    """Errors of r, against the reference with kerrz's own constants and start, and against an observer at infinity."""
+    """Errors of r: against the reference with kerrz's own constants and start, and for an observer at infinity."""
     metric = library.krz_KerrMetric_init(1.0, SPIN)
     eye = library.krz_FourVector(t=0, r=OBSERVER, th=math.radians(INCLINATION), ph=0)
     at = (np.arange(n) + 0.5) / n * 2 * HALF_WIDTH - HALF_WIDTH
@@ -160,7 +161,7 @@ def judge_kerrz(np, library, n):
 
 
 def through_volumes(kerrd, o):
-    """Rays/s and core of the scenes of radio.py, as that measures them."""
+    """Rays/s and core of the scenes of radio.py, measured as it does."""
     figures = radio.figures_of(*radio.measured(kerrd, o.sizes, o.volume_rounds, o.core), o.sizes)
     return [
         {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of docs/physics, one a chapter, from what kerrd answers: curves by its numbers, pictures by its renders.
+"""The figures of docs/physics, one for each chapter: curves from kerrd's values, pictures by its renders.
 
     bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs/physics] [CHAPTER ...]
 
@@ -24,14 +24,14 @@ HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5  # of a = 0.9 in the plane, where x^2 + y
 
 
 def run(*words, text=None):
-    """What a command of kerrd prints."""
+    """The output of a command of kerrd."""
     return subprocess.run(
         [KERRD, *map(str, words)], check=True, stdout=subprocess.PIPE, input=text, encoding="utf-8"
     ).stdout
 
 
 def save(figure, path):
-    """Write an SVG, the same each time, with paths to a tenth of a point: half the bytes."""
+    """Writes an SVG, the same each time, with paths rounded to a tenth of a point, which halves its bytes."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     tenth = lambda found: f"{float(found[0]):.1f}".removesuffix(".0")
@@ -40,7 +40,7 @@ def save(figure, path):
 
 
 def ask(name, **parameters):
-    """(parameters, values) of an answer; a missing number is None, which leaves a gap in a line."""
+    """(parameters, values) of an answer. A missing value is None, which leaves a gap in a line."""
     options = [f"--{key.replace('_', '-')}={value}" for key, value in parameters.items()]
     answer = json.loads(run("physics", name, *options))
     return answer["parameters"], {
@@ -249,7 +249,7 @@ def light(axes):
 
 
 def crossings(axis, value):
-    """Crossings of the equatorial plane along the middle of the picture, upwards: radius or azimuth by image order."""
+    """Crossings of the equatorial plane along the picture's central column: radius or azimuth by image order."""
     beta = [-12 + 24 * k / 1200 + 1e-4 for k in range(1201)]
     scene = {"spin": 0.9, "observer": {"inclination_deg": 60}, "orders": 3, "rays": [[0, y] for y in beta]}
     rays = json.loads(run("rays", "-", text=json.dumps(scene)))["rays"]
@@ -270,7 +270,7 @@ def azimuths_seen(axes):
 
 
 def distances(axes):
-    """How large the shadow is from near by, against the straight lines of a distant observer's."""
+    """Size of the shadow from near the hole, against the straight lines for a distant observer."""
     for name, colour in (("static", BLUE), ("zamo", RED)):
         radius, angle = [], []
         for k in range(41):

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How fast the playground moves bodies and debris: milliseconds of a sub-step that moves all of both.
+"""Speed of the playground's bodies and debris: milliseconds of a sub-step that moves all of both.
 
     bench/playground.py [KERRD]      a table in Markdown on standard output
 
-A star is torn into as many pieces as there are to be, among bodies of no radius that pull one another; then the same
-snapshot goes on for few sub-steps and for many, each a hundredth of what debris could take at once, and the difference
-of the two times is divided by that of their numbers: the least of three.
+A star is torn into the given number of pieces, among bodies of no radius that attract one another. The same snapshot
+then runs for few sub-steps and for many, each a hundredth of the longest that debris allows. The difference of the two
+times is divided by that of their numbers; the least of three is taken.
 """
 
 import json
@@ -29,7 +29,7 @@ def run(*args, code=0):
 
 
 def bodies(n):
-    """On circles from 100 to 300 M in all directions, a ten-billionth of the hole's mass each."""
+    """Bodies on circles from 100 to 300 M in all directions, of a ten-billionth of the hole's mass each."""
     rng = random.Random(n)
     for _ in range(n):
         r, phi = rng.uniform(100, 300), rng.uniform(0, 2 * math.pi)

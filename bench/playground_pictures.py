@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
-"""How fast a playground is shown live: frames a second of a star that is torn apart, by its pieces of debris, and of
-many bodies.
+"""Speed of a playground's live view: frames a second of a torn star, by its pieces of debris, and of many bodies.
 
-    bench/playground_pictures.py [KERRD]     about two minutes, on a machine that does nothing else: a table in
-                                             Markdown on standard output
+    bench/playground_pictures.py [KERRD]     about two minutes, on an idle machine: a table in Markdown on standard
+                                             output
 
-A server of its own, on all cores; this script is its client. Each playground goes on at 100 M a second and is watched
-for six seconds, after two: rays of a pixel are what the session has found for the pace of the device, states those of
-the playground that its frames have shown, ms what the device spends on a frame, and M/s what the motion has got beside
-the pictures.
+The script starts a server on all cores, and is its client. Each playground runs at 100 M a second and is watched for
+six seconds, after two. Columns: rays a pixel that the session has chosen for the speed of the device; states of the
+playground shown by its frames; ms of the device for a frame; M/s that the motion reached beside the pictures.
 """
 
 import http.client
@@ -59,7 +57,7 @@ class Server:
 
 
 def torn(pieces, folder):
-    """The preset's star after its passage, in so many pieces."""
+    """The preset's star after its passage, torn into this number of pieces."""
     begun, ended = (os.path.join(folder, name) for name in ("begun.json", "ended.json"))
     with open(begun, "w") as file:
         json.dump(
@@ -73,7 +71,7 @@ def torn(pieces, folder):
 
 
 def crowd(n):
-    """On circles from 15 to 60 M round the hole."""
+    """Bodies on circles from 15 to 60 M round the hole."""
     rng = random.Random(n)
     bodies = []
     for _ in range(n):

@@ -1,17 +1,16 @@
-"""A model of servers of kerrd behind HAProxy, by discrete events. It knows no pictures: what a work takes is what
-somebody has measured.
+"""A model of servers of kerrd behind HAProxy, by discrete events. It does not render: service times are measured ones.
 
-Seconds throughout. The parts, each after what it stands for:
+Times are in seconds. Each part models:
 
-    Shares     src/server/http/shares.c: whose turn it is, by client, by class, and among the works of a class
+    Shares     src/server/http/shares.c: which work is next, by client, by class, and within a class
     Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
     Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that die, HAProxy's own time
     visitor    a session: dragged, whose frames are as fine as the governor lets them be (src/render/live/governor.h),
                and resting
 
-Left out: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy (pip
-install simpy). bench/queueing_check.py holds it against two real servers, tests/unit/queueing.py against closed forms;
-bench/queueing_scale.py asks it about a thousand.
+Not modelled: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy
+(pip install simpy). bench/queueing_check.py compares it with two real servers, tests/unit/queueing.py with closed
+forms; bench/queueing_scale.py extrapolates to a thousand.
 """
 
 import collections
@@ -33,12 +32,12 @@ class Refused(Exception):
 
 @dataclasses.dataclass(eq=False)
 class Work:
-    seconds: float  # that it has the device
-    estimate: float  # what its plan says of that
+    seconds: float  # of the device
+    estimate: float  # of the device, as its plan estimates them
     encode: float = 0.0  # of an encoder, afterwards
     kind: str = "picture"
     client: str = "proxy"
-    paid: float = 0.0  # the scheduler's own
+    paid: float = 0.0  # state of the scheduler, from here on
     left: float = 0.0
     expected: float = 0.0
     stage: str = "waits"
@@ -117,8 +116,8 @@ class Shares:
 
 
 class Server:
-    """One device and its encoders. `limit`: --queue. `aside`: seconds a request takes here beside its device and
-    encoder, in which others have these."""
+    """One device and its encoders. `limit`: --queue. `aside`: seconds of a request that need neither device nor
+    encoder, which serve others meanwhile."""
 
     def __init__(self, env, limit=16, aside=0.0):
         self.env, self.limit, self.aside = env, limit, aside
@@ -128,7 +127,7 @@ class Server:
         env.process(self._run())
 
     def submit(self, work):
-        """An event that comes when the work is done, or fails with Refused."""
+        """An event that succeeds when the work is done, or fails with Refused."""
         work.done, work.left, work.expected = self.env.event(), work.seconds, work.estimate
         waiting = sum(w.stage != "works" and w.kind in ("picture", "rays") for w in self.works)
         if not self.alive or (work.kind in ("picture", "rays") and waiting >= self.limit + (self.holder is None)):
@@ -204,9 +203,9 @@ class Server:
 
 
 class Balancer:
-    """HAProxy: requests go to the server with fewest connections, among these to the one whose turn is longest ago;
-    while each has `maxconn` they wait in one queue, `patience` at most. A refused one goes to another server, `retries`
-    times. `own`: seconds of one of its `cores` that a request takes."""
+    """HAProxy. A request goes to the server with the fewest connections, among these to the one that was used longest
+    ago. If each has `maxconn`, it waits in one queue for at most `patience`. A refused one goes to another server,
+    `retries` times. `own`: seconds of one of HAProxy's `cores` that a request takes."""
 
     def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
         self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = (
@@ -221,7 +220,7 @@ class Balancer:
         self.waiting = collections.deque()
         self.by_count = collections.defaultdict(
             dict
-        )  # connections -> servers, in the order in which they came to have so many
+        )  # connections -> servers, in the order in which they reached this number
         self.count = {server: 0 for server in servers}
         for server in servers:
             self.by_count[0][server] = None
@@ -240,8 +239,8 @@ class Balancer:
         return None
 
     def take(self):
-        """The server for a request, whose connection is counted from now on; an event whose value it is, None where
-        patience ended."""
+        """An event with the server for a request, whose connection is counted from then on; None if the patience has
+        ended."""
         turn = self.env.event()
         server = None if self.waiting else self._least()
         if server:
@@ -299,23 +298,23 @@ class Balancer:
 
 @dataclasses.dataclass
 class Habits:
-    """A visitor's, and what his frames take. Times to the next stroke and of a stroke are exponential."""
+    """Habits of a visitor, and the cost of the frames. Durations of strokes and of rests are exponential."""
 
     drag: float = 3.0  # mean seconds of a stroke
     rest: float = 12.0  # mean seconds between two
     pause: float = 0.001  # from a picture to the next request
     frames: int = (
-        2  # of an input: the one that is under way when it comes, as time goes on by itself, and the one that shows it
+        2  # for an input: the frame under way when it comes, as time goes on by itself, and the one that shows it
     )
     encode: float = 0.001
-    floor: float = 0.010  # device seconds of a frame as small as it may be
-    full: float = 0.100  # of one as large as it may be
-    fill: float = 0.85  # of what the governor aims at: what its frames take
+    floor: float = 0.010  # device seconds of the smallest frame
+    full: float = 0.100  # device seconds of the largest frame
+    fill: float = 0.85  # share of the governor's target that its frames take
     settle: float = 0.3  # device seconds in which a picture at rest becomes as fine as asked
 
 
 def frame_seconds(habits, dragged):
-    """What a frame of one of so many takes: governor.h, target_ms 33 and sparse_ms 60."""
+    """Device seconds of a frame of one of several dragged sessions: governor.h, target_ms 33 and sparse_ms 60."""
     share = 1 / dragged
     return min(max(habits.fill * share * min(0.033 / math.sqrt(share), 0.060), habits.floor), habits.full)
 
@@ -362,7 +361,7 @@ def open_renders(env, balancer, arrivals, make, log):
 
 
 def closed_renders(env, balancer, make, until, log):
-    """A client that asks for one picture after the other."""
+    """A client that requests pictures one after the other."""
     k = 0
     while env.now < until:
         at, k = env.now, k + 1

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""The model of bench/queueing.py against two real servers behind a real HAProxy: the same arrivals for both.
+"""Compare the model of bench/queueing.py with two real servers behind a real HAProxy: the same arrivals for both.
 
-    bench/queueing_check.py            nine minutes, on a machine of two cores that does nothing else; needs haproxy
-                                       (scripts/setup --proxy) and simpy (pip install simpy)
+    bench/queueing_check.py            nine minutes, on an idle machine of two cores; needs haproxy (scripts/setup
+                                       --proxy) and simpy (pip install simpy)
 
-Two servers by docs/examples/haproxy.cfg, pinned to a core each. Their capacity is measured by four who ask for one
-picture after the other; then pictures are asked for at random times, at 0.3, 0.6, 0.9 and 1.2 of it, and with queues
-that refuse. The model has the same arrivals, twice: with what each picture of that run took by its Server-Timing
-("replayed": is the queueing right?), and with what pictures of its size took while the capacity was measured
-("foretold": is what one would plan with right?). Then two and ten servers of tests, of which the device sleeps instead
-of computing: that takes no processor, so that ten fit here. Writes bench/results/DATE-DEVICE-queueing.{json,md}.
+Two servers by docs/examples/haproxy.cfg, pinned to a core each. Their capacity is measured by four clients that request
+pictures one after the other. Then pictures are requested at random times, at 0.3, 0.6, 0.9 and 1.2 of the capacity, and
+with queues that refuse. The model gets the same arrivals twice: with the service times of that run, by Server-Timing
+("replayed": is the queueing right?), and with those of the measurement of capacity, by size ("foretold": is the plan
+right?). Then two and ten servers for tests whose device sleeps instead of computing, which takes no processor, so that
+ten fit on the machine. Writes bench/results/DATE-DEVICE-queueing.{json,md}.
 """
 
 import asyncio
@@ -35,10 +35,10 @@ except ImportError:
 
 PRIORITY = os.getpriority(os.PRIO_PROCESS, 0)
 CONFIGURATION = measure.ROOT / "docs/examples/haproxy.cfg"
-# width, height, and how many of a hundred
+# width, height, percentage of the pictures
 MIX = ((64, 48, 25), (160, 90, 35), (320, 180, 35), (640, 360, 5))
-# What HAProxy and servers are told: --queue, changes of the configuration; what the model is: patience, maxconn,
-# retries
+# Settings of HAProxy and the servers: --queue, changes of the configuration; settings of the model: patience, maxconn,
+# retries.
 SETTINGS = {
     "as in docs/examples": {"queue": 16, "changes": {}, "model": {}},
     "timeout queue 500ms": {
@@ -62,8 +62,8 @@ ASLEEP = [(n, load) for n in (2, 10) for load in (0.6, 0.9, 1.2)]
 
 
 def go_first():
-    """Lets this process go before the servers, where that is allowed: those who ask, and HAProxy, have machines of
-    their own in earnest, and take little here."""
+    """Raises this process's priority above the servers', if it may: in practice clients and HAProxy run on other
+    machines, and they take little here."""
     try:
         os.setpriority(os.PRIO_PROCESS, 0, PRIORITY - 10)
     except PermissionError:
@@ -77,7 +77,7 @@ def free_port():
 
 
 class Server(live.Server):
-    """A server of this command line, which is told its --queue."""
+    """A server with this command line and --queue."""
 
     def __init__(self, command, queue, priority=PRIORITY):
         self.process = subprocess.Popen(
@@ -91,12 +91,12 @@ class Server(live.Server):
 
 
 def two_servers(path, queue):
-    """Pinned to a core each, with one thread of the device's."""
+    """Two servers, each pinned to a core, with one thread for the device."""
     return [Server(["taskset", "-c", str(core % os.cpu_count()), path, "serve"], queue) for core in range(2)]
 
 
 class Proxied:
-    """Servers and HAProxy before them."""
+    """Servers behind HAProxy."""
 
     def __init__(self, servers, setting):
         self.servers, self.port = servers, free_port()
@@ -134,7 +134,7 @@ def haproxy():
 
 
 def targets(rng, n):
-    """Pictures of several sizes, none of which finds another's lens map: (size, address)."""
+    """Pictures of several sizes, each with its own lens map: (size, address)."""
     sizes = rng.choices(range(len(MIX)), [weight for *_, weight in MIX], k=n)
     return [
         (
@@ -159,8 +159,8 @@ async def ask(port, target):
 
 
 async def closed(port, asked, at_once):
-    """All of these, so many at once: what ask() said of each, and how many were answered a second as long as there were
-    so many. `at_once` is two a server: of these half wait, and the others are half done."""
+    """Requests all of these, `at_once` at a time: the results of ask(), and the answers a second while so many were
+    under way. With two for each server, one waits while the other is rendered."""
     rest, answers, last = list(enumerate(asked)), [None] * len(asked), 0.0
     begun = time.perf_counter()
 
@@ -176,7 +176,7 @@ async def closed(port, asked, at_once):
 
 
 async def opened(port, asked, arrivals):
-    """Each at its time."""
+    """Sends each request at its time."""
     begun = time.perf_counter()
 
     async def one(at, target):
@@ -189,7 +189,7 @@ async def opened(port, asked, arrivals):
 
 
 def estimates(port):
-    """What the server's plan says of a picture of each size, in seconds."""
+    """The server's estimate of a picture of each size, in seconds."""
     connection = live.http.client.HTTPConnection("127.0.0.1", port, timeout=60)
     out = []
     for width, height, _ in MIX:
@@ -204,7 +204,7 @@ def estimates(port):
 
 
 def calibrate(proxied, rng, n):
-    """What pictures take by size with both servers full, and how many a second come."""
+    """Service times by size with both servers busy, and the pictures a second."""
     asked = targets(rng, n)
     cpu = [server.cpu() for server in proxied.servers]
     answers, rate = asyncio.run(closed(proxied.port, asked, 4))
@@ -227,8 +227,8 @@ def calibrate(proxied, rng, n):
 
 
 def simulate(n, setting, arrivals, takes, estimated, aside):
-    """n servers. takes[k], estimated[k]: seconds of picture k; aside: beyond its service. By number (seconds to the
-    answer, status), and the seconds of all."""
+    """Models n servers. takes[k], estimated[k]: seconds of picture k; aside: seconds beyond its service. Returns
+    (seconds to the answer, status) by number, and the seconds of the whole run."""
     env = simpy.Environment()
     servers = [queueing.Server(env, setting["queue"], aside) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, **setting["model"]), []
@@ -255,14 +255,14 @@ def run(proxied, setting, load, rng, n):
     asked, arrivals = targets(rng, n), queueing.poisson(rng, load * c["rate"], n)
     answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     lone = list(alone(arrivals, answers))
-    if len(lone) > 20:  # what a picture that meets none of ours takes beyond Server-Timing, at the time of the run
+    if len(lone) > 20:  # overhead beyond Server-Timing of a picture that met no other, during this run
         c["aside_s"] = statistics.mean(lone)
     foretold = [rng.choice(c["took"][size]) + c["beyond_s"] for size, _ in asked]
     served = [timing["total"] + timing["encode"] if "total" in timing else None for _, _, timing, _ in answers]
     like = [
         [took for took, (at, _) in zip(served, asked) if took and at == size] or c["took"][size]
         for size in range(len(MIX))
-    ]  # for those that were refused
+    ]  # of the size, for those that were refused
     replayed = [(took or rng.choice(like[size])) + c["beyond_s"] for took, (size, _) in zip(served, asked)]
     out = {"real": told([(took, status) for status, took, *_ in answers], seconds)}
     estimated = [c["estimates"][size] for size, _ in asked]
@@ -279,12 +279,12 @@ def run(proxied, setting, load, rng, n):
 
 
 def sent(arrivals, answers):
-    """When they were asked for in fact: a busy machine wakes this script late."""
+    """When the requests were really sent: a busy machine wakes this script late."""
     return [at + late for at, (*_, late) in zip(arrivals, answers)]
 
 
 def alone(arrivals, answers):
-    """Seconds beyond Server-Timing of the answers during which none of ours was under way but at the end."""
+    """Seconds beyond Server-Timing of the answers whose requests met no other one."""
     free = 0.0
     for at, (status, took, timing, late) in zip(arrivals, answers):
         if at > free and status == 200:
@@ -293,8 +293,8 @@ def alone(arrivals, answers):
 
 
 def sleeping(path, n, load, rng, count):
-    """n servers of which the device sleeps for as long as the picture says: real queues and a real HAProxy, for next to
-    no processor time. One run, and the model of it with what each picture took."""
+    """n servers whose devices sleep for the given time: real queues and a real HAProxy, with hardly any processor time.
+    One run, and the model of it with the measured service times."""
     proxied = Proxied(
         [Server([path], 16, os.getpriority(os.PRIO_PROCESS, 0)) for _ in range(n)], SETTINGS["as in docs/examples"]
     )
@@ -314,8 +314,8 @@ def sleeping(path, n, load, rng, count):
         answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     finally:
         proxied.stop()
-    beyond = max(0.0, n / rate - mean)  # from the end of one to the begin of the next
-    estimate = 64 * 36 * 1e-6  # of that renderer, a microsecond a ray
+    beyond = max(0.0, n / rate - mean)  # from the end of one to the start of the next
+    estimate = 64 * 36 * 1e-6  # of that renderer: a microsecond a ray
     model = simulate(
         n,
         SETTINGS["as in docs/examples"],
@@ -336,12 +336,12 @@ def sleeping(path, n, load, rng, count):
 
 
 def calmest(rounds):
-    """Of the rounds that one in which the asking script was woken least late: the machine was least disturbed then."""
+    """The round in which this script was woken least late, and so the machine least disturbed."""
     return min(rounds, key=lambda one: one["late_ms"])
 
 
 def cells(row, way):
-    """Figures of the model beside what they are of the real ones."""
+    """Figures of the model beside the real ones."""
     of, real = row[way], row["real"]
     return (
         [f"{of['rate']:.1f} ({100 * (of['rate'] / real['rate'] - 1):+.0f} %)"]
@@ -398,7 +398,7 @@ def main():
             proxied = Proxied(two_servers(path, setting["queue"]), setting)
             try:
                 device = live.device_of(proxied.servers[0])
-                asyncio.run(closed(proxied.port, targets(rng, 100), 4))  # kernels, and what plans know
+                asyncio.run(closed(proxied.port, targets(rng, 100), 4))  # kernels, and the plans' estimates
                 for at in (at for at in RUNS if at[0] == name):
                     rounds[at].append(run(proxied, setting, at[1], rng, arguments.pictures))
                     print(*at, rounds[at][-1]["real"], rounds[at][-1]["replayed"], file=sys.stderr)

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The model of bench/queueing.py from one server to a thousand: pictures, sessions, a server that is lost, and what
-HAProxy's own processor time does.
+"""The model of bench/queueing.py for one to a thousand servers: pictures, sessions, a lost server, HAProxy's own time.
 
     bench/queueing_scale.py PLAN.json QUEUEING.json            five minutes; needs haproxy and simpy
     bench/queueing_scale.py PLAN.json QUEUEING.json --plot docs/scale.svg     draws the figure, too; needs matplotlib
 
-What a picture takes is read from what bench/queueing_check.py wrote, what a frame of a session takes from what
-bench/scale_plan.py wrote, and HAProxy's time for a request is measured here. Writes
+Service times of pictures are read from the results of bench/queueing_check.py, those of a session's frames from the
+results of bench/scale_plan.py. HAProxy's time for a request is measured here. Writes
 bench/results/DATE-DEVICE-servers.{json,md}.
 """
 
@@ -26,14 +25,14 @@ from queueing_check import queueing, simpy
 
 NUMBERS = (1, 2, 10, 100, 1000)
 LOADS = (0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2)
-EACH = 300  # pictures a server, from when nothing is under way: as bench/queueing_check.py asks its two
-FAST = 0.2  # seconds from input to picture that a hand still takes for its own
+EACH = 300  # pictures for each server, beginning with an idle one, as in bench/queueing_check.py
+FAST = 0.2  # seconds from input to picture that still feel immediate
 STROKES = {"drag": 3.0, "rest": 12.0}  # seconds: a fifth of the time
 
 
 def haproxy_cost(path, n=4000, rounds=5):
-    """Seconds of HAProxy's processor a request, of answers that are small and large, and requests a second that it
-    passed: of several rounds the best, since its threads burn time where others have the cores."""
+    """HAProxy's processor seconds a request, for small and large answers, and the requests a second that it passed: the
+    best of several rounds, since its threads spin when other processes have the cores."""
     proxied, out = (
         queueing_check.Proxied(queueing_check.two_servers(path, 16), queueing_check.SETTINGS["as in docs/examples"]),
         {},
@@ -78,7 +77,7 @@ def haproxy_cost(path, n=4000, rounds=5):
 
 
 def pictures(rng, measured):
-    """A function that makes a picture's work, as often as measured; and the mean seconds of one."""
+    """A function that draws a picture's work from the measured ones; and the mean seconds of one."""
     samples, beyond, estimated = measured["samples_s"], measured["beyond_s"], measured["estimates"]
     weights = [weight for *_, weight in queueing_check.MIX]
     mean = sum(w * statistics.mean(took) for w, took in zip(weights, samples)) / sum(weights) + beyond
@@ -91,8 +90,8 @@ def pictures(rng, measured):
 
 
 def renders(n, load, measured, each, own=0.0, cores=1, lost_at=None, seed=7):
-    """Answers of n servers at a load, `each` pictures a server: (arrival, seconds, status). lost_at: part of the
-    arrivals after which a server dies."""
+    """Answers of n servers at a load, `each` pictures for each server: (arrival, seconds, status). lost_at: share of
+    the arrivals after which a server dies."""
     rng = random.Random(seed)
     make, mean = pictures(rng, measured)
     env = simpy.Environment()
@@ -120,7 +119,7 @@ def curve(n, measured):
     out = {}
     for load in (
         LOADS if n < 1000 else (load for load in LOADS if load < 1)
-    ):  # of a thousand it takes minutes, and from 1 on they are as a hundred
+    ):  # a thousand take minutes, and from load 1 on they behave as a hundred do
         each = EACH if n < 1000 else EACH // 5
         logs = [renders(n, load, measured, each, seed=seed)[0] for seed in range(max(1, 20 // n))]
         out[load] = round(p95([row for log in logs for row in log]), 4)
@@ -129,7 +128,7 @@ def curve(n, measured):
 
 
 def lost(n, load, measured, each=EACH):
-    """p95 before a server is lost and after it, and the requests that failed."""
+    """p95 before and after a server is lost, and the requests that failed."""
     before, after, failed = [], [], 0
     for seed in range(max(2, 20 // n)):
         log, arrivals, _ = renders(n, load, measured, each, lost_at=0.5, seed=seed)
@@ -146,8 +145,9 @@ def lost(n, load, measured, each=EACH):
 
 
 def visitors(n, each, habits, seconds, stay=120.0, seed=7):
-    """n servers and so many visitors a server in the mean, who come at random times, get a session where fewest are,
-    and stay for `stay` in the mean: seconds from input to picture, the busy part of the devices."""
+    """n servers with a mean number of visitors each. Visitors come at random times, get a session on the server with
+    the fewest, and stay for `stay` on average. Returns seconds from input to picture, and the busy share of the
+    devices."""
     rng, log, env = random.Random(seed), [], simpy.Environment()
     servers = [queueing.Server(env) for _ in range(n)]
     held = dict.fromkeys(servers, 0)
@@ -159,7 +159,7 @@ def visitors(n, each, habits, seconds, stay=120.0, seed=7):
         held[server] -= 1
 
     def come():
-        for k in range(n * each):  # who is there already
+        for k in range(n * each):  # those present at the start
             env.process(visit(servers[k % n]))
         while True:
             yield env.timeout(rng.expovariate(n * each / stay))
@@ -176,7 +176,7 @@ def visitors(n, each, habits, seconds, stay=120.0, seed=7):
 
 
 def dragging(count, habits, seconds=20):
-    """One server and so many who drag without a rest."""
+    """One server and a number of visitors who drag without a rest."""
     env, log = simpy.Environment(), []
     server = queueing.Server(env)
     for _ in range(count):
@@ -190,8 +190,8 @@ def dragging(count, habits, seconds=20):
 
 
 def habits_of(plan):
-    """What bench/scale_plan.py measured of the first view: the device seconds of a frame, of one who drags alone and of
-    the least ones, and what is between frames; and the rows by number."""
+    """From the results of bench/scale_plan.py for the first view: device seconds of a frame, of a single dragging
+    visitor and of the smallest frames, and the time between frames; and the rows by number."""
     rows = {int(live.re.match(r"\d+", name)[0]): row for name, row in plan["dragged"].items() if "3840" not in name}
     frame = {n: row["device_each"] / row["fps"] for n, row in rows.items()}
     return queueing.Habits(
@@ -206,7 +206,7 @@ def habits_of(plan):
 
 
 def plot(result, checked, path):
-    """The measured points over the curves, and what the model said of these very pictures."""
+    """The measured points over the curves, with the model's values for these pictures."""
     import matplotlib
 
     matplotlib.use("svg")

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Rays a second and core through volumes at a radio frequency, without and with the transfer of polarised light, beside
-Blacklight and ipole.
+"""Rays a second and core through volumes at a radio frequency, unpolarised and polarised, beside Blacklight and ipole.
 
     bench/radio.py            two or three minutes
     bench/radio.py --sizes 48 96 --rounds 1      half a minute
 
-One picture of each scene at two sizes, by one thread: rays are the pixels by which the sizes differ, and their time is
-the processor time by which the two processes differ, so that start, kernels and the rays that measure the error cancel,
-and what else runs hardly matters. Least of all rounds. Writes bench/results/DATE-DEVICE-radio.{json,md}.
+One picture of each scene at two sizes, by one thread. Rays are the pixels by which the sizes differ; their time is the
+processor time by which the two processes differ, so that startup, kernels and the rays that measure the error cancel,
+and other processes hardly matter. The least of all rounds. Writes bench/results/DATE-DEVICE-radio.{json,md}.
 """
 
 import json
@@ -39,7 +38,7 @@ BLACKLIGHT, IPOLE = 3000, 89
 
 
 def render(kerrd, arguments, size, core):
-    """Seconds of processor time of one picture, and what it says of itself."""
+    """Processor seconds of one picture, and its statistics."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             "taskset",
@@ -67,9 +66,9 @@ def render(kerrd, arguments, size, core):
 
 
 def measured(kerrd, sizes, rounds, core):
-    """Of each scene at each size the least seconds of processor time; and what its last picture says of itself."""
+    """The least processor seconds of each scene at each size, and the statistics of its last picture."""
     least, told = {}, {}
-    for n in range(rounds + 1):  # the first fills the driver's cache of kernels
+    for n in range(rounds + 1):  # the first one fills the driver's cache of kernels
         for name, (arguments, _) in SCENES.items():
             for size in sizes:
                 seconds, told[name] = render(kerrd, arguments, size, core)
@@ -79,12 +78,12 @@ def measured(kerrd, sizes, rounds, core):
 
 
 def beside(rate, polarised):
-    """A rate as a multiple of the peer's."""
+    """A rate as a multiple of the other code's."""
     return f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight"
 
 
 def figures_of(least, told, sizes):
-    """Of each scene: rays/s and core, the seconds of both pictures, the error and the flux that the larger one tells."""
+    """For each scene: rays/s and core, the seconds of both pictures, and error and flux of the larger one."""
     small, large = sizes
     return {
         name: {

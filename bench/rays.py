@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Listed rays from end to end: kerrd serve on a free port, N rays in, their ends out, in every form and by several
-engines.
+"""Listed rays from end to end: kerrd serve on a free port, N rays sent, their ends received, in every form and by
+several engines.
 
     rays.py KERRD [N]     N: default 1000000
 
-Prints a line a combination: rays per second over the whole exchange as a client sees it (the body is made beforehand
-and the answer is not parsed), what the server says of reading and tracing, and the bytes of both bodies. Recorded with
+Prints a line for each combination: rays per second over the whole exchange as a client sees it (the body is prepared
+and the answer not parsed), the server's times of reading and tracing, and the bytes of both bodies. Recorded with
 machine and date in bench/results, never gated.
 """
 

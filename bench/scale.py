@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Sweeps on a Dask cluster of two workers: what a scene costs beyond its rendering, how much faster two are, and that
-nothing is lost when one is killed.
+"""Sweeps on a Dask cluster of two workers: overhead of a scene, gain of the second worker, and a worker that is killed.
 
-    bench/scale.py            some minutes, on a machine of two cores that does nothing else; needs the packages of
+    bench/scale.py            some minutes, on an idle machine of two cores; needs the packages of
                               tests/python/requirements.txt in venv/
 
 A thousand scenes, spin by inclination, of 64 x 48 pixels: by one server pinned to a core, by two workers pinned to a
-core each, and by two of which one is killed half-way. Every picture is compared with the first ones to the byte. Writes
-bench/results/DATE-DEVICE-scale.{json,md}.
+core each, and by two of which one is killed half-way. Every picture must equal that of the first run to the byte.
+Writes bench/results/DATE-DEVICE-scale.{json,md}.
 """
 
 import os
@@ -60,7 +59,7 @@ def together(kerrd, distributed, binary, scenes, killed=False):
     ):
         for core, worker in enumerate(dask.run(os.getpid)):
             dask.run(pin, core % os.cpu_count(), workers=[worker])
-        kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)  # servers start, kernels are made
+        kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)  # servers start, and make kernels
 
         def kill():
             while len(list(pathlib.Path(folder).glob("*.png"))) < len(scenes) // 2:

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""What a machine can carry: device seconds of a frame, of a viewer who drags or rests, and of a minute of film.
-docs/scale.md computes with them how many machines are needed.
+"""Capacity of a machine: device seconds of a frame, of a viewer who drags or rests, and of a minute of film.
+docs/scale.md computes from them how many machines are needed.
 
-    bench/scale_plan.py            three minutes, on a machine that does nothing else
-    bench/scale_plan.py --quick    one minute: a look, by fewer frames and sessions
+    bench/scale_plan.py            three minutes, on an idle machine
+    bench/scale_plan.py --quick    one minute: a rough result, from fewer frames and sessions
 
-A server of its own, on all cores; this script is its client and takes some of the machine too. Device seconds are those
-of Server-Timing; where others are at work on the machine too, processor seconds are less disturbed. Writes
-bench/results/DATE-DEVICE-plan.{json,md}.
+The script starts a server on all cores; as its client it takes some of the machine too. Device seconds are those of
+Server-Timing; on a busy machine processor seconds are less disturbed. Writes bench/results/DATE-DEVICE-plan.{json,md}.
 """
 
 import os
@@ -21,7 +20,7 @@ import measure
 SIZE = {"width": 1280, "height": 720}
 SCREEN_4K = {"width": 3840, "height": 2160}
 PRESETS = {"default": None, "first view": "gas-stars", "M87*": "m87", "volume": "torus"}
-FILM_FRAMES = 1440  # a minute of 24 a second
+FILM_FRAMES = 1440  # a minute at 24 a second
 
 
 def scene_of(server, name, size=SIZE):
@@ -32,7 +31,7 @@ def scene_of(server, name, size=SIZE):
 
 
 def picture(server, session, scene):
-    """Server-Timing of a render, milliseconds by pass, and the seconds of all cores that it took."""
+    """Server-Timing of a render, milliseconds by pass, and its processor seconds on all cores."""
     before = measure.processor(server.process.pid)
     answer, data = session.ask("POST", "/v1/render", scene)
     assert answer.status == 200, data[:300]
@@ -49,15 +48,14 @@ def spread(values):
 
 
 class Asker(live.Session):
-    """A connection alone."""
+    """A connection of its own."""
 
     def __init__(self, port):
         self.connection = live.http.client.HTTPConnection("127.0.0.1", port, timeout=600)
 
 
 def frames(server, rounds):
-    """Device seconds of a picture by scene, subjects in turn: with rays of its own, and where only the time is another
-    one."""
+    """Device seconds of a picture by scene, in alternation: with rays of its own, and with only the time changed."""
     asker, rows = (
         Asker(server.port),
         {name: {"traced": [], "kept": [], "encode": [], "processor": []} for name in PRESETS},
@@ -65,7 +63,7 @@ def frames(server, rounds):
     for k in range(rounds + 1):
         for name in PRESETS:
             if name == "volume" and k > 2:
-                continue  # it takes longer than all others, and as long each time
+                continue  # it takes longest, and equally long each time
             scene = scene_of(server, name)
             scene["camera"] = {
                 **scene.get("camera", {}),
@@ -81,14 +79,14 @@ def frames(server, rounds):
 
 
 def film(server, sample):
-    """Device and encoder seconds of a minute's film: the camera once round the default scene, of which every so many
-    frames are rendered."""
+    """Device and encoder seconds of a minute's film, the camera once round the default scene, from a sample of its
+    frames."""
     asker, device, encode, cores = Asker(server.port), [], [], []
     for k in range(sample + 1):
         scene = scene_of(server, "default")
         scene["camera"] = {"azimuth_deg": 360.0 * k / sample}
         took = picture(server, asker, scene)
-        if k:  # the first one traces the rays, which all have
+        if k:  # the first one traces the rays, which all share
             device.append(took["total"] / 1e3)
             encode.append(took["encode"] / 1e3)
             cores.append(took["processor"])
@@ -106,7 +104,8 @@ def used(answers, seconds):
 
 
 def watched(server, name, size, seconds):
-    """A session whose time runs, looked at as fast as frames come: frames a second, width, device seconds a second."""
+    """A session whose time runs, with frames requested as fast as they come: frames a second, width, device seconds a
+    second."""
     session = live.Session(server.port, scene_of(server, name, size))
     first = session.first_ms
     end = time.monotonic() + 2
@@ -130,10 +129,10 @@ def width(answer):
 
 
 def resting(server, name, size, seconds):
-    """A session in which nothing moves: what it takes until it is as fine as asked, and a second after that."""
+    """A session in which nothing moves: its cost until it is as fine as requested, and for each second after that."""
     scene = scene_of(server, name, size)
     scene["motion"] = {"time_rate": 0}
-    live.Session(server.port, scene).end()  # its kernels are made
+    live.Session(server.port, scene).end()  # makes its kernels
     scene["camera"] = {**scene.get("camera", {}), "inclination_deg": 66.6}
     begun = time.monotonic()
     session = live.Session(server.port, scene)

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Where known places are in a panorama that scripts/sky made, and in what kerrd shows of it, over the stars of the
-catalogue.
+"""Measure where known places are in a panorama of scripts/sky, in kerrd's picture of it, and relative to the
+catalogue's stars.
 
     bench/sky_places.py KERRD PANORAMA.png      needs numpy and Pillow; a minute
 
-Each place is looked for where SIMBAD has it (J2000): the centre of the light over its surroundings, in the panorama,
-and in a picture that kerrd makes of it from so far that the hole bends no light. A pixel is 0.176 degrees, that of A.
-Mellinger's panorama. Then the panorama and the catalogue: what is about the places of thousands of stars, by
-data/hipparcos.stars, added up in the picture of the panorama, and in one of kerrd's stars. Where a panorama shows
-stars, or what is left of them, the sum has a peak, which is to be in its middle."""
+Each place is searched at its SIMBAD position (J2000): the centre of the light over its surroundings, in the panorama,
+and in a picture by kerrd from so far away that the hole bends no light. A pixel is 0.176 degrees, that of A.
+Mellinger's panorama. Then the panorama is compared with the catalogue: the surroundings of thousands of stars of
+data/hipparcos.stars are added up in the picture of the panorama, and in one of kerrd's stars. Where a panorama shows
+stars, or remains of them, the sum has a peak, which must be in its middle.
+"""
 
 import collections
 import os
@@ -21,8 +22,7 @@ from PIL import Image
 
 PIXEL = 360 / 2048
 STARS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "hipparcos.stars")
-# Right ascension, declination; radius in degrees in which the light is looked at. The last two are no part of what is
-# judged.
+# Right ascension, declination; radius in degrees within which the light is examined. The last two are not judged.
 PLACES = {
     "M42": (83.82208, -5.39111, 0.45),
     "omega Cen": (201.69683, -47.47958, 0.6),
@@ -44,8 +44,8 @@ def galactic(ra, dec):
 
 
 def centre(light, left, b, radius):
-    """Where the upper part of the light in a circle has its centre, as an offset in degrees; left: degrees from the
-    middle column to the left."""
+    """Centre of the brighter part of the light within a circle, as an offset in degrees. left: degrees to the left of
+    the middle column."""
     height, width = light.shape
     scale = width / 360
     x, y, c = (180 - left) % 360 * scale, (90 - b) * scale, np.cos(np.radians(b))
@@ -61,15 +61,15 @@ def centre(light, left, b, radius):
 
 
 def stacked(light, faintest, brightest):
-    """The centre of what is about the catalogue's stars of these magnitudes, in pixels, and how high it is over the
-    noise."""
+    """The centre of the summed surroundings of the catalogue's stars of these magnitudes, in pixels, and the peak's
+    height over the noise."""
     reach, (height, width) = 12, light.shape
     rows = np.fromfile(STARS, [("ra", "<u4"), ("dec", "<i4"), ("v", "<i2"), ("colour", "<i2")])
     l, b = galactic(rows["ra"] * 360.0 / 2**32, rows["dec"] * 360.0 / 2**32)
     chosen = (rows["v"] < 1000 * faintest) & (rows["v"] >= 1000 * brightest) & (abs(b) > 8) & (abs(b) < 50)
     x, y = (180 - (l[chosen] - 180)) % 360 / 360 * width, (90 - b[chosen]) / 180 * height
     column, row, steps = np.floor(x).astype(int), np.floor(y).astype(int), np.arange(-reach, reach + 1)
-    # The mean of the logarithm: no single star weighs.
+    # The mean of the logarithm, so that no single star dominates.
     sky = np.log(light + 1e-3)
     total = np.array([[sky[row + j, (column + i) % width].mean() for i in steps] for j in steps])
     total -= np.median(total)
@@ -85,7 +85,7 @@ def stacked(light, faintest, brightest):
 
 
 def shown(kerrd, panorama, *fields):
-    """Luminance from 1e5 M of a hole at longitude 180, which is where an observer at azimuth 0 looks."""
+    """Luminance seen from 1e5 M of a hole at longitude 180, where an observer at azimuth 0 looks."""
     sets = [
         "camera.r=1e5",
         "camera.inclination_deg=90",
@@ -129,7 +129,7 @@ def photographed(panorama):
 
 
 def known(light, seen, names=JUDGED):
-    """Of each place, how far off it is in the file and in what kerrd shows."""
+    """The offset of each place in the file and in kerrd's picture."""
     found = {}
     for name in names:
         ra, dec, radius = PLACES[name]

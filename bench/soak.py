@@ -1,27 +1,30 @@
 #!/usr/bin/env python3
-"""What a server looks like after a long time with many who do all sorts of things at random: memory, descriptors,
-threads and errors over time. It fails on a slope.
+"""Soak test of a server under random requests of many clients: memory, descriptors, threads and errors over time.
 
-    bench/soak.py                     half an hour, six at once
+    bench/soak.py                     half an hour, six clients
     bench/soak.py --minutes 3 --clients 4 --seed 7
     bench/soak.py --minutes 30 --kills 100      and the server is killed a hundred times meanwhile, and started again
                                                 on the same folder
     bench/soak.py --minutes 30 --faults 300     and so many faults of memory, disks, descriptors, clocks and of Vulkan
-                                                happen beneath it (soak_faults.py), none in the last minute
+                                                are injected (soak_faults.py), none in the last minute
     bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and
                                                        whose memory may grow
 
-Pictures, some of them left before they come; sessions that are dragged, left, or ended; streams that are cut; jobs that
-are waited for or stopped; rays, orbits, numbers; questions that are refused. Whoever asks knows what answers there may
-be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed.
+Requests: pictures, some abandoned before they come; sessions that are dragged, left, or ended; streams that are cut;
+jobs that are awaited or stopped; rays, orbits, numbers; requests that are refused. Each client knows the allowed
+statuses: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a closed connection.
 
-Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory grows by more than a tenth (and
-24 MiB), descriptors by more than 4 or threads by more than 2, each by the straight line through what was measured;
-where the device's memory is by more than a block of 64 MiB more in the last third than in the first; where an answer
-was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to
-the last checksum; where anything half is left in the folder of what is kept; where, without kills and faults, more than
-a minute after the last client more memory is resident than at the start and what /metrics names as kept
-(kerrd_kept_bytes), which may be 256 MiB, or the first picture then takes more of the processors than the first of all.
+Exit code 1 in any of these cases:
+- After a warm-up of a quarter of the time, by a straight line through the samples, resident memory grows by more than a
+  tenth (and 24 MiB), descriptors by more than 4, or threads by more than 2.
+- The device's memory is by more than a block of 64 MiB larger in the last third than in the first.
+- A status was not allowed.
+- An accepted job did not end as it should, or ended twice, or a checksum of its result is wrong.
+- A half file is left in the state folder.
+- Without kills and faults, more than a minute after the last client: more memory is resident than at the start and what
+  /metrics names as kept (kerrd_kept_bytes), which may be 256 MiB; or the next picture then takes more processor time
+  than the first of all.
+
 Writes bench/results/DATE-DEVICE-soak.{json,md}.
 """
 
@@ -50,7 +53,7 @@ GONE = (OSError, http.client.HTTPException)
 
 
 class Server:
-    """On a folder of its own; it may be killed and comes back on the same port."""
+    """A server on its own folder. It may be killed, and comes back on the same port."""
 
     def __init__(self, path, state, log, *options, env=None):
         self.path, self.state, self.log, self.options, self.env = path, state, log, options, env
@@ -110,10 +113,10 @@ class Server:
 
     def processor_s(self):
         fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # in user mode and in the kernel
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # user and kernel time
 
     def metrics(self):
-        """None where it does not answer."""
+        """The metrics, or None if it does not answer."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         try:
             connection.request("GET", "/metrics")
@@ -124,7 +127,7 @@ class Server:
             connection.close()
 
     def held(self):
-        """What the server says that it holds: of the device's memory, and the ledger, kind -> MiB."""
+        """Memory by the server's metrics: the device's, and the kept memory by kind, in MiB."""
         told = self.metrics() or ""
         device = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", told, re.M)
         return {
@@ -137,7 +140,7 @@ class Server:
 
 
 def is_png(data):
-    """Whether each chunk of it is whole and the last one is there."""
+    """Whether each chunk of it is complete, and the last one is there."""
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
@@ -150,7 +153,7 @@ def is_png(data):
 
 
 def is_whole(file, frames):
-    """Whether the result of a job has each of its pictures once, and whole."""
+    """Whether the result of a job has each of its pictures once, and complete."""
     try:
         with zipfile.ZipFile(io.BytesIO(file)) as z:
             pictures = [name for name in z.namelist() if name.endswith(".png")]
@@ -382,13 +385,13 @@ class World:
 
 
 def risen(samples, name):
-    """By how much it is more in the last third of the samples than in the first, each by its mean."""
+    """The difference of the means of the last and of the first third of the samples."""
     n = max(len(samples) // 3, 1)
     return (sum(s[name] for s in samples[-n:]) - sum(s[name] for s in samples[:n])) / n
 
 
 def slope(samples, name):
-    """By how much it grows over the samples, by the line of least squares through them."""
+    """The growth over the samples, by a least-squares line."""
     xs, ys = [s["s"] for s in samples], [s[name] for s in samples]
     middle, mean = sum(xs) / len(xs), sum(ys) / len(ys)
     spread = sum((x - middle) ** 2 for x in xs)
@@ -396,7 +399,7 @@ def slope(samples, name):
 
 
 def finish(world):
-    """Jobs whose clients were sent away when the time was over."""
+    """Waits for jobs whose clients ended when the time was over."""
     client = Client(world, 10**6)
     for job, frames, token in world.unfinished:
         until = time.monotonic() + 600
@@ -413,20 +416,20 @@ def finish(world):
 
 
 FIRST_VIEW = {"image": {"width": 640, "height": 360}}
-KEPT_MIB = 256  # that may be kept when nobody asks for anything
-RESTS_S = 75  # by when memory that is not kept has been given back
+KEPT_MIB = 256  # that may be kept while nothing is requested
+RESTS_S = 75  # until memory that is not kept has been freed
 
 
 def first_view_s(world):
-    """Seconds of the server's processors, which do not depend on what else the machine does."""
+    """Processor seconds of the server, which do not depend on other load of the machine."""
     begun = world.server.processor_s()
     Client(world, 0).ask("POST", "/v1/render", FIRST_VIEW)
     return round(world.server.processor_s() - begun, 2)
 
 
 def rest(world, start):
-    """What a server holds that has had nothing to do for more than a minute, what it names of that, and how long the
-    next picture takes."""
+    """After more than a minute without requests: the server's memory, what it names as kept, and the time of the next
+    picture."""
     time.sleep(RESTS_S)
     now = world.server.sample()
     return {
@@ -462,8 +465,8 @@ def is_file_whole(path):
 
 
 def left_over(state, known):
-    """What is left of jobs that ended and were deleted, and what is half of those whose clients were never told that
-    they were taken: these are kept."""
+    """Files of jobs that ended and were deleted, and half files. Whole files of jobs whose clients never learned that
+    they were accepted may stay."""
     for path in sorted(pathlib.Path(state).rglob("*")):
         job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
         if job:
@@ -473,7 +476,7 @@ def left_over(state, known):
 
 
 def live(world, a, harm):
-    """All of the time; what was measured each second, and how often the server was killed."""
+    """The whole run: the samples of each second, and how often the server was killed."""
     server, samples, killed, next_fault, mend_at = world.server, [], 0, 0.0, None
     began, times = time.monotonic(), random.Random(a.seed)
     while (now := time.monotonic() - began) < 60 * a.minutes:
@@ -490,13 +493,13 @@ def live(world, a, harm):
             next_fault = now + times.expovariate(a.faults / (60 * a.minutes - 60))
         elif (not samples or now >= samples[-1]["s"] + 1) and (got := server.sample()):
             samples.append({"s": round(now, 1), **got, **world.answers})
-        if harm and now >= 60 * a.minutes - 30:  # what was under way has ended
+        if harm and now >= 60 * a.minutes - 30:  # all requests have ended
             world.failing.clear()
     return samples, killed
 
 
 def over_time(samples):
-    """Ten rows: what was measured, and the answers since the row before."""
+    """Ten rows: the samples, and the answers since the row before."""
     rows, before = [], {}
     for s in samples[:: max(len(samples) // 10, 1)]:
         device = f"{s['device_mib']:.0f}" if s["device_mib"] is not None else ""
@@ -517,8 +520,8 @@ def over_time(samples):
     )
 
 
-# the device's memory is taken in blocks of so much (KD_VK_BLOCK_BYTES), and one of them may be taken late: which
-# buffers lie in one is a matter of chance
+# the device's memory is allocated in blocks of this size (KD_VK_BLOCK_BYTES); when the last one is needed depends on
+# how buffers happen to fit
 BLOCK_MIB = 64
 GROWTH = {
     "rss_mib": "resident memory, MiB",
@@ -554,7 +557,7 @@ def main():
             harm = soak_faults.Faults(a.build, random.Random(a.seed))
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())
         else:
-            # What the driver and the libraries do among themselves is not ours.
+            # ignores races within the driver and the libraries
             server = Server(
                 measure.binary(a.build, "src/kerrd"),
                 state,
@@ -596,7 +599,7 @@ def main():
     if growth:
         mean = sum(s["rss_mib"] for s in late) / len(late)
         allowed = {"rss_mib": max(24, 0.1 * mean), "device_mib": BLOCK_MIB, "descriptors": 4, "threads": 2}
-        if tsan:  # it remembers who touched what, and what is slow comes to rest late
+        if tsan:  # it keeps records of accesses, and a slow server frees its memory late
             del allowed["rss_mib"], allowed["device_mib"]
         faults += [f"{name} grows by {growth[name]:.1f}" for name, most in allowed.items() if growth[name] > most]
     if code:

@@ -1,6 +1,6 @@
-"""Faults at random beneath a server, for bench/soak.py: memory, files and descriptors by the library that is preloaded
-(tests/faults/control.h), Vulkan's calls by a kerrd whose table of them fails when it is told to
-(tests/faults/vulkan_table.c), and the clock on the wall."""
+"""Random faults injected below a server, for bench/soak.py: memory, files and descriptors by a preloaded library
+(tests/faults/control.h), Vulkan's calls by a kerrd with a table of them that fails on command
+(tests/faults/vulkan_table.c), and the wall clock."""
 
 import collections
 import errno
@@ -22,7 +22,7 @@ FILES = [
     (errno.EIO, CHANGES | faults.OPEN | faults.READ),
     (errno.EMFILE, faults.OPEN | faults.CREATE),
 ]
-# What is called all the time; the rest is of a start.
+# calls made all the time; the other ones are made at startup only
 CALLS = [
     "AllocateMemory",
     "MapMemory",
@@ -45,7 +45,7 @@ CALLS = [
 
 
 class Faults:
-    """Those of one server. `happen` lets one be; `mend` ends those that last."""
+    """The faults of one server. `happen` injects one; `mend` ends those that last."""
 
     def __init__(self, build, random):
         self.build, self.random = build, random
@@ -64,8 +64,8 @@ class Faults:
         }
 
     def happen(self):
-        """A fault of any kind; how many seconds it lasts. What is armed and not reached meanwhile does not happen, and
-        is not counted."""
+        """Injects a fault of a random kind; returns for how many seconds it lasts. A fault that is armed but not
+        reached in this time does not happen, and is not counted."""
         r = self.random
         self.before = self.memory.failed + self.memory.files_failed
         kind = r.choice(["memory", "files", "vulkan", "clock"])

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""What scripts/test asks about a build's tests; it speaks of nothing else.
+"""Helpers of scripts/test on a build's tests.
 
     suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would
                                           not find
-    suite.py again BUILD SUITE[,SUITE...] [ARGUMENT...]  run each failed test of these suites once more, by itself,
-                                                         where no other has failed: exit 0 if all
-                                          of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
-    suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was
-                                          skipped and why; with --no-skip a skip is exit 1. BUILD/meson-logs/counts.txt
-                                          has how many ended how, failed.txt which of them failed and their last lines
+    suite.py again BUILD SUITE[,SUITE...] [ARGUMENT...]
+                                          if only tests of these suites have failed, run each of them once more by
+                                          itself: exit 0 if all pass now. They are printed, and listed in
+                                          BUILD/meson-logs/flaky.txt
+    suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and the skipped
+                                          ones with the reason; with --no-skip a skip is exit 1. The numbers of results
+                                          go to BUILD/meson-logs/counts.txt, the failed tests with their last lines to
+                                          failed.txt
 
-Meson itself runs no test at all for a name that it does not know, and calls that a success.
+For an unknown name Meson itself runs no test, and reports success.
 """
 
 import collections
@@ -76,8 +78,8 @@ def check(build, arguments):
 
 
 def by_suite(tests):
-    """How many tests each suite has and the sum of their seconds, most first; a test of several suites counts in each.
-    Tests run beside one another: the sum is more than what the run took."""
+    """Number of tests of each suite and the sum of their seconds, most first. A test of several suites counts in each.
+    Tests run in parallel, so the sum exceeds the time of the run."""
     sums = {}
     for test in tests:
         for suite in test["name"].partition(" / ")[0].split(":")[-1].split("+"):
@@ -90,7 +92,7 @@ LAST = 20  # lines of a failed test's output
 
 
 def failure(test, flaky):
-    """How a test ended, and the last lines of its output; of one that passed once repeated, the output alone."""
+    """The result of a test and the last lines of its output; for one that passed when repeated, the output alone."""
     name = test["name"].split(" / ")[-1]
     lines = (test.get("stdout", "") + "\n" + test.get("stderr", "")).strip().splitlines()[-LAST:]
     head = f"FAILED: {name} ({test['result']}, {test['returncode']}, after {test['duration']:.0f} s)"
@@ -134,7 +136,7 @@ def report(build, *options):
     return 0
 
 
-MOST_AGAIN = 3  # more failures at once are no race
+MOST_AGAIN = 3  # if more tests have failed, it is no race
 
 
 def read(log):

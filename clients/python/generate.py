@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes what is made of something else: src/kerrd/scene.py, the scene as dataclasses, of the schema that kerrd serves,
-and src/kerrd/client.py of src/kerrd/aio.py, by unasync; src/kerrd/answers.py, what methods answer, of its
-/openapi.json.
+"""Writes the generated files of the client: src/kerrd/scene.py, the scene as dataclasses, from the schema that kerrd
+serves; src/kerrd/answers.py, the types of answers, from its /openapi.json; and src/kerrd/client.py from
+src/kerrd/aio.py, by unasync.
 
     generate.py KERRD            KERRD: the program
-    generate.py --check KERRD    exit 1 naming what is not what would be written
+    generate.py --check KERRD    exit 1 naming the files that would change
 """
 
 import json
@@ -37,7 +37,7 @@ def annotation(field):
 
 
 def described(name, field):
-    """A line of the docstring: what it is, its unit, default and range."""
+    """A line of the docstring: description, unit, range and default of a field."""
     ranges = [part for part in (field, *field.get("anyOf", ())) if "minimum" in part]
     facts = [field["description"]]
     if field.get("x-unit") not in (None, "", "1"):
@@ -55,7 +55,7 @@ def class_of(name):
 
 
 def write(name, node, out):
-    """The class of an object, after those that it is made of."""
+    """The class of an object, after the classes of its members."""
     rows = []
     for key, field in node["properties"].items():
         if field.get("deprecated") or "const" in field:
@@ -94,7 +94,7 @@ def write(name, node, out):
 
 
 def served(kerrd):
-    """The schema of scenes, and the document of the API: they are served, not printed, by a server for a moment."""
+    """The schema of scenes and the document of the API, from a server started for this."""
     server = subprocess.Popen([kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
     try:
         address = server.stdout.readline().split()[-1]
@@ -136,17 +136,17 @@ TOLD = (
     "Job",
     "Asset",
 )
-COLUMNS = {"OrbitSeries": "Columns"}  # what the client makes something else of
+COLUMNS = {"OrbitSeries": "Columns"}  # what the client converts
 
 
 class Answers:
-    """TypedDicts of answers, of the schemas in /openapi.json: each after those that it is made of."""
+    """TypedDicts of answers, from the schemas in /openapi.json: each after those of its members."""
 
     def __init__(self, schemas):
         self.schemas, self.out, self.done = schemas, [], set()
 
     def type_of(self, node, name):
-        """What stands for a schema; name: of the class that an object in place becomes."""
+        """The type of a schema; name: of the class that an inline object becomes."""
         if "$ref" in node:
             known = node["$ref"].rsplit("/", 1)[-1]
             if known == "Scene":

@@ -1,8 +1,8 @@
-// This tells how wrong the picture is, where its time went, and what of it is modelled.
+// The panel of errors, timings and approximations of the picture that is shown.
 import { byId, el } from './dom.js';
 import { number, readable, said, t, tell, word } from './i18n.js';
 
-// A pass of an emitter's own has the emitter's name, and its title.
+// A pass that belongs to one emitter is called by the emitter's title.
 const pass_names = {
   queue: ['waiting', 'attesa'],
   trace: ['rays', 'raggi'],
@@ -90,7 +90,7 @@ export function showAccuracy(frame, scene) {
   );
 }
 
-// What is said of an observer that falls by itself.
+// One sentence on a freely falling observer: the time left to the horizon, and to the end.
 function fallen({ r, proper_time_to_horizon: left }) {
   const horizon =
     left == null
@@ -99,7 +99,7 @@ function fallen({ r, proper_time_to_horizon: left }) {
   return `r = ${number(r, 3)} M, ${horizon}; `;
 }
 
-// Why a picture has fewer pixels than the window asks for.
+// Why a picture has fewer pixels than the window.
 function lessened({ narrow, part }) {
   if (narrow) return t(' (a wider one would take over 0.1 s)', ' (una più larga richiederebbe oltre 0,1 s)');
   if (part < 1)
@@ -110,7 +110,8 @@ function lessened({ narrow, part }) {
   return '';
 }
 
-// One word of a picture's state, what it shows in numbers, and why it is small; goes_on: by itself.
+// The line below the picture: its state, its size in numbers, and why it is small. goes_on: time or camera moves by
+// itself.
 export function brief(frame, goes_on) {
   const state =
     goes_on || frame.lossy
@@ -123,7 +124,6 @@ export function brief(frame, goes_on) {
   return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${state}${lessened(frame)}${flux}`;
 }
 
-// How a picture was computed.
 export function caption(frame) {
   const worst =
     frame.accuracy.sampled > 0

@@ -1,13 +1,14 @@
-// What needs the server and fails is said where it would stand. Where that is nobody's fault it is tried again: by
-// itself as soon as somebody looks, or at once by hand.
+// Tasks that need the server and are tried again. When one fails, its error is shown in place of its result. When the
+// error may be temporary (passes of server.js), the task runs again after again_ms as soon as its view is visible, or
+// at once by a button.
 import { el, latest, seen } from './dom.js';
 import { t, tell } from './i18n.js';
 import { passes } from './server.js';
 
 export const again_ms = 3000;
 
-// fault: an element for the sentence; view: whose it is; refused(error) is told of what will not pass. Returns the task
-// to be called.
+// fault: the element that shows the error; view: the name of the task's view; refused(error) is called after each
+// failure. Returns a function that runs the task.
 export function persistent(fault, view, task, refused = () => {}) {
   let timer = 0,
     tries = 0,

@@ -1,40 +1,40 @@
-// Who comes by the plain address sees the first view: its session is opened, and its first picture shown, before the
-// rest of the page is read. source.js then goes on with the session, and has the same answer.
+// The first view of a visitor whose link names no scene: its session is opened and its first picture shown before the
+// other modules of the page are loaded. source.js then takes over the session and its requests.
 import { byId } from './dom.js';
 import { fits } from './fit.js';
 import * as link from './link.js';
 import { kept, windowSize } from './sizes.js';
 
-// The preset that is shown where a link says nothing of the scene; '' is the default scene.
+// The preset that is shown when the link names no scene; '' is the default scene.
 export const first_view = 'gas-stars';
 
-const patience_ms = 250; // with the first picture, which has the machine to itself: over a long line both come at once
+const patience_ms = 250; // longest wait for the first picture before the rest of the page is loaded
 
 const stage = byId('stage');
 const plain =
   first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
-if (plain) stage.dataset.still = true; // until its first picture
-let left = null, // the session, until somebody takes it
-  shown = null; // its first picture
+if (plain) stage.dataset.still = true; // until its first picture comes
+let left = null, // the session, until take() returns it
+  shown = null; // a promise of the end of showing its first picture
 
 async function show(answer) {
   const seen = URL.createObjectURL(await answer.blob()),
     picture = byId('picture');
-  if (picture.getAttribute('src') !== null) return URL.revokeObjectURL(seen); // there is one already
+  if (picture.getAttribute('src') !== null) return URL.revokeObjectURL(seen); // another picture is shown already
   picture.src = seen;
   await picture.decode();
   await new Promise(requestAnimationFrame);
   performance.mark('first-picture');
 }
 
-// The first request for a picture, as flight.js has them.
+// The first request for a picture, in the form that flight.js uses.
 function poll(url) {
   const one = { after: 0, carries: null, begun: performance.now() };
   one.answer = fetch(`${url}/frame?after=0&lossy=90`).then(
     answer => {
       if (answer.status !== 200 && answer.status !== 204)
         return { one, error: Object.assign(new Error(), { status: answer.status }) };
-      if (answer.status === 200) shown = show(answer.clone()); // who goes on with the session shows it as well
+      if (answer.status === 200) shown = show(answer.clone()); // source.js, which takes over the session, shows it too
       return { one, answer, took: performance.now() - one.begun };
     },
     error => ({ one, error }),
@@ -42,8 +42,8 @@ function poll(url) {
   return one;
 }
 
-// { id, token, revision, … as the server tells it, with the size, what is kept of it, and requests that are under way
-// }; null: somebody has to try himself, and hears what is wrong.
+// Returns the session: { id, token, revision, … } as the server describes it, the window's size, how much of it is kept
+// in motion, and the requests under way. Null if it failed; the caller then opens one itself and shows the error.
 async function open() {
   const size = windowSize(stage),
     keeps = kept(),
@@ -73,10 +73,10 @@ const read = plain
     )
   : null;
 
-// The first view as a document; null: it has to be asked for.
+// The document of the first view, or null if the caller has to request it.
 export const firstDocument = async () => read;
 
-// The session, once.
+// The session; null from the second call on.
 export async function take() {
   await opened;
   const session = left;

@@ -1,5 +1,5 @@
-// The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes
-// no physics.
+// The page: the picture of the scene, and the views of orbits, curves, scale and the playground. It draws what the
+// server computes; it computes no physics itself.
 import { byId, el } from './dom.js';
 import { brief, caption, showAccuracy } from './accuracy.js';
 import { persistent } from './again.js';
@@ -26,8 +26,8 @@ import { openSource } from './source.js';
 import { buildStruck } from './struck.js';
 import { handle } from './view.js';
 
-// What a view needs is loaded when it is opened. Some browsers remember for good that a module did not come: by hand
-// there is another way.
+// The module of a view is loaded when the view is opened. Some browsers cache a failed import for good; the button "Try
+// again" therefore reloads the page.
 const load = module =>
   module.catch(() => {
     throw Object.assign(new Error(t('The server does not answer', 'Il server non risponde')), {
@@ -44,7 +44,7 @@ const views = {
 const opened = new Set();
 const status = byId('status');
 
-// Where pictures follow each other nobody wants each of them read aloud.
+// While pictures follow each other quickly, screen readers do not announce the text.
 function say(text, aloud) {
   status.setAttribute('aria-live', aloud ? 'polite' : 'off');
   status.textContent = text;
@@ -58,7 +58,7 @@ function sayWrong(text) {
   status.dataset.wrong = true;
 }
 
-// A view's own section tells what is missing of it at its first opening.
+// An error of a view's first opening is shown in that view.
 function opener(view) {
   const fault = el('p', { class: 'fault', role: 'status' });
   if (views[view]) byId(view).prepend(fault);
@@ -88,20 +88,20 @@ function goTo(view) {
 }
 
 const patience_ms = 1000;
-// words and numbers beside the picture follow no faster while it moves; at rest they are those of the picture
+// least time between two updates of the words and numbers beside a moving picture
 const telling_ms = 250;
 
-// The picture first: what else there is takes a tenth of a second to build, and would keep it from being shown.
+// The picture comes first: building the rest of the page takes 0.1 s, during which no picture could be shown.
 async function watch(scene) {
   const stage = byId('stage'),
     size = () => {
       const { width, height } = windowSize(stage);
-      // of a pair each eye has half of the window
+      // in a stereo pair each eye gets half of the window
       return { width: scene.get('camera.stereo') === 'pair' ? width / 2 : width, height };
     };
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
-    any = false, // picture has been shown
+    any = false, // a picture has been shown
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -109,7 +109,7 @@ async function watch(scene) {
 
   async function show(frame) {
     const now = performance.now(),
-      tells = frame.final || now - told_ms > telling_ms; // what stands beside pictures that follow each other
+      tells = frame.final || now - told_ms > telling_ms; // whether the words beside the picture are updated
     if (tells) told_ms = now;
     await carry(frame.picture, frame, tells ? describe(scene) : null);
     if (!any)
@@ -137,12 +137,12 @@ async function watch(scene) {
   async function rests(whether) {
     resting = whether;
     if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
-    stage.dataset.final = resting; // the scene may have changed meanwhile
+    stage.dataset.final = resting; // the scene may have changed since
     if (resting) followFiner(false), followMeasured();
     else if (!scene.goesOn()) followFiner(true);
   }
 
-  // The light that the server tells flux and centroid of, once there is any.
+  // The panel of flux and centroid is loaded when an emitter is first photometred separately.
   let light = null;
   function followLight() {
     const wanted = Boolean(apart(scene));
@@ -151,21 +151,21 @@ async function watch(scene) {
     light?.then(follow => follow(source.address(), wanted));
   }
 
-  // The fall, once somebody wants to.
+  // The module is loaded at the first fall.
   let fall = null;
   byId('fall-in').addEventListener('click', () => {
     fall ??= load(import('./fall.js')).then(({ buildFall }) => buildFall(scene));
     fall.then(({ begin }) => begin()).catch(error => ((fall = null), sayWrong(error.message)));
   });
 
-  // What there is to see, once somebody wants to know.
+  // The module is loaded when the tour is first started.
   let tour = null;
   byId('tour-begin').addEventListener('click', () => {
     tour ??= load(import('./tour.js')).then(({ buildTour }) => buildTour(stage, scene));
     tour.then(begin => begin()).catch(error => ((tour = null), sayWrong(error.message)));
   });
 
-  // A search through all settings, once somebody looks for one.
+  // The module is loaded when somebody first uses the search.
   let finder = null;
   for (const event of ['focus', 'input'])
     byId('find').addEventListener(event, () => {
@@ -173,14 +173,14 @@ async function watch(scene) {
       finder.catch(error => ((finder = null), sayWrong(error.message)));
     });
 
-  // Names of stars, once there are any that have one.
+  // The module is loaded with the first sky that has named stars.
   let stars = null;
   function nameStars() {
     if (scene.get('sky.model') === 'catalogue')
       stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
   }
 
-  // A slider to the measured ring, once there is a telescope's beam.
+  // The slider to the measured ring is loaded when the scene first has a telescope's beam.
   let measured = null;
   async function followMeasured() {
     const { drawOverlays } = await parts;
@@ -191,7 +191,7 @@ async function watch(scene) {
     (await measured)?.();
   }
 
-  // What the scene adds up to, once somebody chooses.
+  // The plots of integrals are loaded when one is first chosen.
   let integrals = null;
   byId('integral').addEventListener('change', ({ target }) => {
     integrals ??= load(import('./integrals.js')).then(({ buildIntegrals }) =>
@@ -200,7 +200,7 @@ async function watch(scene) {
     integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
   });
 
-  // What a pixel shows, once somebody asks.
+  // The card of a pixel is loaded when it is first opened.
   let pixel = null;
   function askPixel(what) {
     pixel ??= load(import('./pixel.js')).then(({ buildPixel }) => buildPixel(stage, scene, size));
@@ -225,7 +225,7 @@ async function watch(scene) {
 
   const source = openSource(scene, size, show, refuse, rests);
   const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
-  followFiner(true); // as soon as that view is seen
+  followFiner(true); // once the view is visible
   if (!byId('lensing').hidden) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);

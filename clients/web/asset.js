@@ -1,5 +1,5 @@
-// A picture, or a grid of matter, that a field names: taken from a file, put to the server, and named by the hash of
-// its bytes.
+// The control of a field that names an asset, a picture or a grid of matter: a file is uploaded to the server, and the
+// field is set to the hash of its bytes.
 import { el } from './dom.js';
 import { t, tell } from './i18n.js';
 import { ask } from './server.js';
@@ -33,7 +33,7 @@ export function assetRow(field, scene, id, hint) {
       tell(fault, error.message);
       fault.hidden = false;
     }
-    file.value = ''; // the same file may be chosen once more
+    file.value = ''; // so that choosing the same file again is an event
   }
 
   return {

@@ -1,4 +1,4 @@
-// What curves have in common: axes, a parameter, a range.
+// Axes, parameters and ranges that several curves share.
 import { t } from './i18n.js';
 import { physics } from './server.js';
 

@@ -1,10 +1,10 @@
-// What kind of a field something is, in a word: physics, model or look. What the words mean is the server's, and stands
-// in the legend and under a pointer that rests on one.
+// The badge of a field: physics, model or look. Its tooltip has the server's sentence on what that means, as the legend
+// does.
 import { el } from './dom.js';
 import { nature } from './i18n.js';
 
 let means = {};
-let waiting = []; // [node, name]
+let waiting = []; // [node, name] of badges that were made before the server's sentences came
 
 function explain(node, name) {
   const { text, lang } = nature(name, means[name]);
@@ -18,7 +18,7 @@ export function badge(name, id) {
   return node;
 }
 
-// natures: what each means, once the server has said so.
+// natures: the server's sentence for each nature, by its name.
 export function know(natures) {
   means = natures;
   for (const [node, name] of waiting) explain(node, name);

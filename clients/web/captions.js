@@ -1,5 +1,5 @@
-// What a preset is, in three short lines of its card: English and Italian. What the server's title says beyond is for
-// who writes scenes.
+// The caption of each preset in English and Italian, three short lines on its card. The server's titles have more
+// detail, for authors of scenes.
 const captions = {
   smooth: [
     'No turbulence: the light of theory alone, as Page and Thorne have it',

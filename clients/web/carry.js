@@ -1,10 +1,10 @@
-// Until the next picture comes the one that is shown goes along with the camera: it is moved and scaled as what is far
-// away would be. That is exact where the field of view changes, nearly right where the camera is turned, and a guess
-// where it comes nearer. What comes next is computed. The picture at rest is faded in over the coarse one before it.
+// Until the next picture comes, the one that is shown is moved and scaled with the camera, as if everything in it were
+// far away. This is exact for a change of the field of view, nearly right for a turn of the camera, and a rough guess
+// for a change of distance. A picture at rest is faded in over the coarse one before it.
 import { el, still } from './dom.js';
 import { sizeOf } from './sizes.js';
 
-// by how much two pictures may differ that are shown one round the other
+// degrees by which the cameras of two pictures that are shown at once may differ
 const sides = { inclination_deg: 3, azimuth_deg: 10 };
 const names = [
   'r',
@@ -19,11 +19,11 @@ const names = [
   ...Object.keys(sides),
 ];
 const radians = Math.PI / 180;
-const most = 4; // times larger or smaller: beyond that too little of it would be seen, or too much is missing
+const most = 4; // largest scaling up or down: beyond, too little of the picture is seen, or too much is missing
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
 
-// What has become of a picture that one camera saw, where another is now: { scale, right, down } in widths of the
-// picture; null: nothing that can be said.
+// How a picture seen by the camera `then` lies in the view of the camera `now`: { scale, right, down }, the shifts in
+// widths of the picture. Null if the cameras are too different.
 export function carried(then, now, height) {
   const same = name => then[name] === now[name];
   if (
@@ -36,7 +36,7 @@ export function carried(then, now, height) {
   if (far !== (now.r === 'infinity')) return null;
   const scale = far ? then.field_m / now.field_m : (half(then.fov_deg) * then.r) / (half(now.fov_deg) * now.r);
   if (!(scale < most && scale > 1 / most)) return null;
-  const widths = (1 / (2 * half(now.fov_deg))) * radians, // of a degree
+  const widths = (1 / (2 * half(now.fov_deg))) * radians, // widths of the picture per degree
     side = far ? 0 : (then.yaw_deg - now.yaw_deg) * Math.cos(now.pitch_deg * radians) * widths,
     up = far ? 0 : (then.pitch_deg - now.pitch_deg) * widths,
     roll = now.roll_deg * radians;
@@ -45,16 +45,15 @@ export function carried(then, now, height) {
   return Math.hypot(right, down / height) < 1 ? { scale, right, down } : null;
 }
 
-// Shows pictures in the stage, each of which says what camera saw it. The last one of a scene is an <img>, exact, and
-// may be saved as any other. Those that others follow are drawn on a canvas over it, which takes half of what a new
-// <img> takes each time; below it the last full one goes along by itself. One with all pixels that it will have is
-// faded in over one with fewer.
+// Shows pictures in the stage, each with the camera that saw it. The last picture of a scene is an <img>, exact, which
+// can be saved like any other. Pictures in motion are drawn on a canvas over it, which takes half the time of a new
+// <img>; the last full picture below it moves along. A picture with all its pixels is faded in over one with fewer.
 export function buildCarry(stage, scene) {
   const camera = document =>
       Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default])),
     canvas = el('canvas', { id: 'moving', 'aria-hidden': 'true', hidden: true }),
     context = canvas.getContext('bitmaprenderer', { alpha: false }),
-    seen = new Map(); // by what each was seen
+    seen = new Map(); // the camera of each picture
   let picture = stage.querySelector('#picture'),
     begun = 0;
   picture.after(canvas);
@@ -69,7 +68,8 @@ export function buildCarry(stage, scene) {
     if (node.style.transform !== transform) node.style.transform = transform;
   }
 
-  // Where the coarse picture shrinks, what was at rest comes out round it: not where that was seen from another side.
+  // Where the coarse picture shrinks, the picture at rest below it appears round it; it is hidden when it was seen from
+  // another direction.
   function cover() {
     const [below, over] = [picture, canvas].map(node => seen.get(node)),
       other =
@@ -110,8 +110,8 @@ export function buildCarry(stage, scene) {
   async function rest(blob, { camera: by, width, all }, alt) {
     const mine = ++begun,
       old = picture,
-      before = picture.getAttribute('src'), // ahead.js may have been there
-      next = old.cloneNode(); // the old one stays until the new one can be shown whole
+      before = picture.getAttribute('src'), // ahead.js may have set one
+      next = old.cloneNode(); // the old picture stays until the new one is decoded
     next.src = URL.createObjectURL(blob);
     if (alt != null) next.alt = alt;
     await next.decode();
@@ -136,7 +136,7 @@ export function buildCarry(stage, scene) {
     if (before) URL.revokeObjectURL(before);
   }
 
-  // alt: what is said of it, null: what was said of the one before.
+  // alt: alternative text of the picture; null leaves the one before.
   return async function show(blob, frame, alt) {
     if (frame.final || !picture.getAttribute('src') || !context || !globalThis.createImageBitmap)
       return rest(blob, frame, alt);

@@ -1,5 +1,6 @@
-// The waves of the closest pair, for ears. Their frequency is in units of 1/M: heard with a hole of so few suns that it
-// begins at a pitch of its own, which is said. The course of the tone is that of the screen, not of such a hole.
+// The gravitational waves of the closest pair, as sound. Their frequency is in units of 1/M. It is scaled to a hole of
+// so few solar masses that the sound begins at begins_hz; the page gives that mass. The tone changes at the pace of the
+// screen, not at that of such a hole.
 import { number, t } from './i18n.js';
 
 const key = 'kerrd.playground.sound';
@@ -9,14 +10,14 @@ const sun_s = 4.925490947e-6; // G M / c^3 of the Sun
 const loudest = 0.5;
 const glide_s = 0.04;
 
-// button: switches it; words: are told what is heard. Returns { follow(tick), begin() }.
+// button: switches the sound; words: the element that says what is heard. Returns { follow(tick), begin() }.
 export function chirp(button, words) {
   let on = localStorage.getItem(key) === 'on',
     gesture = false,
     context = null,
     tone = null,
     gain = null,
-    first = null; // { frequency, strain, hertz: of a frequency of 1/M }
+    first = null; // { frequency, strain, hertz: the pitch of a frequency of 1/M }
 
   function open() {
     if (context) return context.resume();
@@ -53,7 +54,8 @@ export function chirp(button, words) {
     else hush();
     say();
   });
-  // What was switched on last time is heard from the first gesture on.
+  // Browsers allow sound only after a gesture: a sound that is still switched on from last time begins with the first
+  // one.
   for (const event of ['pointerdown', 'keydown']) addEventListener(event, () => (gesture = true), { once: true });
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, hush);
   say();

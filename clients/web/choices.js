@@ -1,4 +1,4 @@
-// What each choice of a field is, in a sentence, where the server's sentence would have to say it of all of them.
+// A sentence on each choice of a field, for fields whose help from the server would have to describe all choices.
 import { t } from './i18n.js';
 
 const observers = {
@@ -83,5 +83,5 @@ const hints = {
   'camera.projection': projections,
 };
 
-// Undefined where there is none.
+// The sentence, or undefined if the choice has none.
 export const hint = (path, value) => hints[path]?.[value] && t(...hints[path][value]);

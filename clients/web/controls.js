@@ -1,4 +1,4 @@
-// The controls of a scene are made from the schema: a row a field, in the groups of the page.
+// The controls of a scene, generated from the schema: one row for each field, in the groups of the page.
 import { badge, know } from './badge.js';
 import { assetRow } from './asset.js';
 import { hint } from './choices.js';
@@ -79,7 +79,7 @@ function choiceRow(field, scene, id, hint) {
     show: () => {
       const value = scene.get(field.path);
       select.value = value;
-      // several words, or one with a number
+      // a list of several words, or a word with a number
       if (select.value !== value) select.add(new Option(word(value, field.path), value, false, true));
     },
   };
@@ -117,8 +117,8 @@ function row(field, scene) {
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true }),
     about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
-  // The help of a choice tells what is chosen. What shows its value already stays as it is, but for what somebody has
-  // typed into.
+  // Shows the help of the chosen value. A control that shows the value already is left alone, unless somebody has typed
+  // into it.
   let shown;
   function show() {
     const value = scene.get(field.path);
@@ -159,14 +159,14 @@ function row(field, scene) {
   };
 }
 
-// Which details are open outlives a reload, but goes with the tab: a link says what is seen, not how its sender worked.
+// Which details are open is kept in sessionStorage: it survives a reload but is not part of a link.
 function remember(details, usual) {
   const key = 'open ' + details.id;
   try {
     details.open = (sessionStorage.getItem(key) ?? String(usual)) === 'true';
     details.addEventListener('toggle', () => sessionStorage.setItem(key, details.open));
   } catch {
-    details.open = usual; // a browser that keeps nothing
+    details.open = usual; // storage is blocked
   }
 }
 
@@ -179,7 +179,7 @@ export function buildControls(scene, living_root) {
   for (const details of document.querySelectorAll('#panel > details, #fields > details'))
     remember(details, details.id === 'group-' + in_front);
 
-  // home: 'camera', 'spots.0', or '' for the document itself.
+  // home: 'camera', 'spots.0', or '' for the top level of the document.
   function add(home) {
     const own = [...scene.fields.values()].filter(
       ({ path }) => path.slice(0, Math.max(0, path.lastIndexOf('.'))) === home && !left_out.includes(path),
@@ -187,7 +187,7 @@ export function buildControls(scene, living_root) {
     return own.map(field => rows[rows.push(row(field, scene)) - 1]);
   }
 
-  // The fields that stand in front, and the others behind a summary.
+  // Fields marked as `front` stand first; the others are folded under a summary.
   function parts(home, title) {
     const own = add(home).filter(r => !beside_time.includes(r.path)),
       [front, rest] = [true, false].map(yes => own.filter(r => Boolean(r.front) === yes).map(r => r.node));
@@ -214,7 +214,7 @@ export function buildControls(scene, living_root) {
   living_root.append(...beside_time.map(path => rows.find(r => r.path === path).node));
   byId('natures').append(...legend(scene.natures));
 
-  // A list shows the elements that there are and the next one.
+  // A list shows its elements and one more, which is new.
   function grow({ name, most, groups, node }) {
     const wanted = Math.min(most, scene.count(name) + 1),
       grew = groups.length < wanted;
@@ -236,7 +236,7 @@ export function buildControls(scene, living_root) {
     return grew || before !== wanted;
   }
 
-  // What has no field that means anything here is not there either.
+  // Hides a part of which no field has an effect.
   function showParts() {
     for (const rest of document.querySelectorAll('.parts .rest, .part'))
       rest.hidden = !rest.querySelector('.field:not([hidden])');
@@ -244,7 +244,7 @@ export function buildControls(scene, living_root) {
 
   function show() {
     const grown = lists.map(grow).some(yes => yes);
-    let others = false; // fields than those that stood here
+    let others = false; // whether other fields are visible than before
     for (const r of rows) {
       const hidden = !meansSomething(scene, r.path);
       if (r.node.hidden !== hidden) (r.node.hidden = hidden), (others = true);
@@ -257,7 +257,7 @@ export function buildControls(scene, living_root) {
   scene.addEventListener('tick', () => moved.forEach(r => r.node.contains(document.activeElement) || r.show()));
   show();
 
-  // A refusal of the server stands beside the field that it points at; whether there is such a field.
+  // Shows a refusal of the server beside the field that its pointer names. Returns whether there is such a field.
   return function complain(pointer, text) {
     const path = (pointer ?? '').slice(1).replaceAll('/', '.');
     for (const r of rows) r.complain(r.path === path ? text : '');

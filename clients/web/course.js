@@ -1,16 +1,16 @@
-// A playground's numbers over its time, as charts: from what it tells as it goes, and of the fallback from
+// Charts of a playground's quantities over time, from its ticks, and of the fallback rate from
 // /v1/playground/ID/fallback.
 import { t } from './i18n.js';
 import { plot } from './plot.js';
 import { ask } from './server.js';
 
-const most = 1200; // rows; then every second one is left out
+const most = 1200; // rows; when there are more, every second one is dropped
 const draw_ms = 500;
 const fallback_ms = 2000;
 const columns = ['t', 'energy', 'energy_balance', 'angular_momentum', 'separation', 'wave_frequency'];
 const time = { label: t('time t / M', 'tempo t / M') };
 
-// Rows of text/csv under their names.
+// Rows of text/csv as objects by the names of the columns.
 function table(text) {
   const [names, ...lines] = text
     .trim()
@@ -23,7 +23,7 @@ export function course(root) {
   const charts = { balance: plot(), momentum: plot(), fallback: plot(), separation: plot(), chirp: plot() };
   root.append(...Object.values(charts));
   let rows = [],
-    every = 0, // M between two rows
+    every = 0, // time between two rows, M
     most_kinetic = 0,
     drawn = 0,
     asked = 0;
@@ -90,7 +90,7 @@ export function course(root) {
   }
 
   async function fallback(address) {
-    // a bin that is cut counts too little
+    // a bin that is cut off counts too little
     const list = table(await (await ask(address)).text()).filter(row => row.rate > 0 && row.whole),
       newest = Math.max(...list.map(row => row.source)),
       shown = list.filter(row => row.source === newest);
@@ -127,7 +127,7 @@ export function course(root) {
       }
       if ((tick.debris > 0 || tick.debris_back > 0) && now - asked > fallback_ms) {
         asked = now;
-        fallback(address).catch(() => {}); // the next one comes
+        fallback(address).catch(() => {}); // the next request may succeed
       }
     },
   };

@@ -1,5 +1,5 @@
-// The curves of light, space and the disk: each a few parameters, an equation, and what of the numbers of /v1/physics
-// is drawn.
+// The curves of light, space and the disk. Each has parameters, an equation, and a function that picks what to draw
+// from the values of /v1/physics.
 import { axis, degrees, outside, radius, spin } from './axes.js';
 import { number, t } from './i18n.js';
 import { drawn, physics, physicsUrl } from './server.js';
@@ -17,7 +17,7 @@ export const light = [
         hill = l => ({ spin: p.spin, l, r }),
         [along, against] = await Promise.all(
           (Number(p.spin) === 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...drawn })),
-        ); // without spin both are one
+        ); // without spin the two are the same
       return {
         r: along.parameters.r,
         along: along.values,

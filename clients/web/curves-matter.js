@@ -1,10 +1,11 @@
-// The curves of matter and waves: each a few parameters, an equation, and what of the numbers of /v1/physics is drawn.
+// The curves of matter and waves. Each has parameters, an equation, and a function that picks what to draw from the
+// values of /v1/physics.
 import { axis, outside, radius, spin } from './axes.js';
 import { number, t } from './i18n.js';
 import { drawn, physics } from './server.js';
 import { ringing, soundRow } from './sound.js';
 
-// Buttons to hear it; the field of octaves shows those in force.
+// Buttons to play the ringdown; the field of octaves shows the shift that is used.
 function listen(v, { t: _, ...asked }, octaves, form) {
   const ring = ringing(v, asked, octaves === undefined ? undefined : Number(octaves));
   form.suggest('octaves', ring.octaves);

@@ -1,4 +1,4 @@
-// This tells what is seen, in words: for titles, and for those who have a picture read to them.
+// Descriptions of what is shown, for the page's title and for screen readers.
 import { byId, paced } from './dom.js';
 import { number, said, t } from './i18n.js';
 
@@ -9,9 +9,9 @@ const views = {
   playground: t('Throw', 'Lancia'),
   scale: t('Real size', 'Grandezze vere'),
 };
-const seen = {}; // what a view shows, by its name
+const seen = {}; // what each view shows, by the view's name
 
-// The title says it while the view is the one that is looked at.
+// Sets what a view shows; the page's title has it while the view is open.
 export function entitle(view, what) {
   if (what != null) seen[view] = what;
   const title = `${views[view]}${seen[view] ? `: ${seen[view]}` : ''} – kerrd`;
@@ -43,7 +43,7 @@ function whence(scene) {
   return t(`seen from ${number(r)} M, ${wide}° across`, `visto da ${number(r)} M, largo ${wide}°`);
 }
 
-// The server says what shines.
+// The emitters come from the server.
 export function describe(scene) {
   const hole = t(
       `A black hole, ${nameOf(scene)}, ${whence(scene)}.`,
@@ -53,7 +53,7 @@ export function describe(scene) {
   return [hole, ...told].join(' ');
 }
 
-// Keeps title, picture and stage at what the scene is.
+// Keeps the title and the alternative texts up to date with the scene.
 export function followScene(scene) {
   function follow() {
     entitle('lensing', nameOf(scene));

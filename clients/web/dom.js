@@ -17,8 +17,9 @@ export const svg = maker(tag => document.createElementNS('http://www.w3.org/2000
 export const math = maker(tag => document.createElementNS('http://www.w3.org/1998/Math/MathML', tag));
 export const byId = id => document.getElementById(id);
 
-// What somebody types into a field stays there until it is given. typed: a value that is not given yet; held: that, or
-// the field has the focus, for values that come all the time, older ones among them; given(): it was given by a key.
+// Protects what somebody types into a field from being overwritten. typed: the field has a value that is not submitted
+// yet. held: that, or the field has the focus; for values that arrive all the time and may be older. given(): the value
+// was submitted by a key.
 export function typing(input) {
   let typed = false;
   const given = () => (typed = false);
@@ -37,7 +38,7 @@ export function typing(input) {
 
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
-// Waits until somebody looks elsewhere. The listener that is not called goes, too.
+// Waits until the view or the visibility of the page changes. Then both listeners are removed.
 const looksElsewhere = () =>
   new Promise(resolve => {
     const heard = new AbortController();
@@ -45,12 +46,13 @@ const looksElsewhere = () =>
       document.addEventListener(event, () => (heard.abort(), resolve()), { signal: heard.signal });
   });
 
-// Waits until somebody looks at a view.
+// Waits until a view is visible.
 export async function seen(view) {
   while (document.hidden || document.body.dataset.view !== view) await looksElsewhere();
 }
 
-// Runs a task that may take a while: one at a time, and of those asked for meanwhile only the newest.
+// Wraps an asynchronous task so that one call runs at a time. Of the calls made meanwhile only the newest runs
+// afterwards.
 export function latest(task) {
   let busy = false,
     next = null;
@@ -73,7 +75,7 @@ export function latest(task) {
 
 const pace_ms = 250;
 
-// What follows each change of something: at once the first of them, and while they go on four times a second.
+// Runs a task after changes: at once after the first, and at most four times a second while they go on.
 export function paced(task) {
   let timer = 0,
     late = false;

@@ -1,7 +1,8 @@
-// The first view drifts: the camera goes round slowly until somebody touches anything. Who wants no motion has none.
+// The camera drifts round the hole in the first view until somebody touches anything. With reduced motion preferred it
+// does not.
 import { still } from './dom.js';
 
-const rate_deg = 1.5; // a second
+const rate_deg = 1.5; // degrees a second
 
 export function begin(scene) {
   if (

@@ -1,19 +1,19 @@
-// M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: our picture, the same
-// through the telescope's beam, and the ring with its error. A slider goes from one to the next.
+// M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: the rendered picture, the
+// same through the telescope's beam, and the measured ring with its error. A slider blends from one to the next.
 import { byId, el, svg } from './dom.js';
 import { persistent } from './again.js';
 import { number, t } from './i18n.js';
 import * as link from './link.js';
 import { ask, drawn, physics } from './server.js';
 
-const across_uas = 150; // of each panel, so that one microarcsecond is as long in both
-const alone_m = 36; // of a hole that nobody has measured
+const across_uas = 150; // width of each panel on the sky, so that both have the same scale
+const alone_m = 36; // width in M of a hole without a measured ring
 const beam_uas = 20; // of the telescope at 1.3 mm: EHT Collaboration 2019, ApJL 875, L1
 const most_px = 720;
 const key = 'scale.beside';
 
-// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin away from us (ApJL 875, L5),
-// north up. Of Sgr A* the inclination is low (ApJL 930, L16), its direction on the sky is not known.
+// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin pointing away from us (ApJL 875,
+// L5), north up. The inclination of Sgr A* is low (ApJL 930, L16); its orientation on the sky is unknown.
 export const seen = {
   m87: { name: 'M87*', inclination: 163, roll: 108 },
   sgra: { name: 'Sgr A*', inclination: 30, roll: 0 },
@@ -26,7 +26,7 @@ export const stops = [
   [2, t('the ring as measured', 'l’anello misurato')],
 ];
 
-// One hole: two pictures that lie over each other, and lines over both.
+// The panel of one hole: two pictures on top of each other, and lines over both.
 function panel(hole) {
   const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': seen[hole].name }),
     pictures = ['sharp', 'beam'].map(kind => el('img', { class: kind, alt: '', draggable: false, hidden: true })),
@@ -40,7 +40,7 @@ function panel(hole) {
     stack,
     words,
   );
-  const shown = []; // addresses of what the pictures are made of
+  const shown = []; // the addresses from which the pictures were loaded
 
   function query(look, more) {
     const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;
@@ -62,7 +62,7 @@ function panel(hole) {
     });
   }
 
-  // A picture that is there already stays until the next one can be shown whole.
+  // The old picture stays until the new one is decoded.
   async function picture(i, look, more) {
     const address = 'v1/render?' + query(look, more);
     if (shown[i] === address) return;
@@ -75,7 +75,7 @@ function panel(hole) {
     URL.revokeObjectURL(old);
   }
 
-  // Lengths are microarcseconds, or M where they are too small to be told.
+  // Lengths are in microarcseconds, or in M where they are too small for that.
   function draw(look, edge, v) {
     const [c, s] = [Math.cos, Math.sin].map(of => of((look.roll * Math.PI) / 180)),
       points = edge.alpha.map((a, i) => [
@@ -89,7 +89,7 @@ function panel(hole) {
         .filter(x => x < half * 0.75)
         .sort((a, b) => a - b)
         .at(-1),
-      ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 }, // where it lies was not measured
+      ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 }, // its place was not measured
       text = (12 * look.width) / (stack.clientWidth || 360); // 12 pixels
     lines.setAttribute('viewBox', `${-half} ${-half} ${look.width} ${look.width}`);
     lines.replaceChildren(
@@ -136,8 +136,8 @@ function panel(hole) {
 
   return {
     node,
-    // v: values of the quantity scale for it. Draws the lines, and returns what the pictures then have to be:
-    // functions, the coarse one first.
+    // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures, the coarse one
+    // first.
     async show(spin, inclination, v) {
       const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn }))
           .values,
@@ -161,7 +161,7 @@ function panel(hole) {
   };
 }
 
-// The slider: 0 our picture, 1 through the beam, 2 the ring.
+// The slider: 0 is the rendered picture, 1 the picture through the beam, 2 the ring.
 function slide(root) {
   const slider = el('input', {
       type: 'range',
@@ -182,7 +182,7 @@ function slide(root) {
     const at = slider.valueAsNumber,
       beam = Math.min(at, 1),
       ring = Math.max(at - 1, 0);
-    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // else it would shine through what is dimmed
+    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // else it would shine through the dimmed pictures
     root.style.setProperty('--beam', beam);
     root.style.setProperty('--ring', ring);
     const nearest = Math.round(at);
@@ -195,7 +195,7 @@ function slide(root) {
   return el('div', { class: 'beside' }, slider, el('p', { class: 'row' }, marks));
 }
 
-// Returns show(hole, spin, inclination, values): the chosen hole and, beside it, the other measured one.
+// Returns show(hole, spin, inclination, values), which shows the chosen hole and, beside it, the other measured one.
 export function beside(root) {
   const panels = Object.fromEntries(Object.keys(seen).map(hole => [hole, panel(hole)])),
     control = slide(root),
@@ -232,6 +232,6 @@ export function beside(root) {
         )),
       );
     }
-    paint(pictures); // while the numbers are there already
+    paint(pictures); // the numbers need not wait for the pictures
   };
 }

@@ -1,4 +1,4 @@
-// Ciò che sta sotto ogni curva, in poche frasi, e come si ricava, ripiegato. explained.js ha lo stesso in inglese.
+// Il testo sotto ogni curva e la sua derivazione, ripiegata. explained.js ha lo stesso in inglese.
 export const explained = {
   'null-potential': {
     text: 'La luce non ha massa, ma ha un’energia E e un momento angolare L, e li conserva lungo la via: conta solo il loro rapporto b = L/E, la distanza a cui mancherebbe il buco se andasse diritta. La collina è la minima energia che serve in r alla luce con L = 1. Dove la linea 1/b incontra la collina la luce torna indietro; dove passa sopra la cima nulla la ferma, e cade. Proprio in cima può girare in cerchio, ma la minima spinta la porta via: è l’orbita dei fotoni, e il bordo dell’ombra è fatto della luce che quasi vi rimane.',

@@ -1,5 +1,4 @@
-// What stands under each curve, in a few sentences, and how it follows, folded. explained-it.js has the same in
-// Italian.
+// The text under each curve, and its derivation, folded. explained-it.js has the same in Italian.
 export const explained = {
   'null-potential': {
     text: 'Light has no mass, but it has an energy E and an angular momentum L, and keeps both on its way: only their ratio b = L/E matters, the distance by which it would miss the hole if it went straight. The hill is the least energy that light with L = 1 needs to be at r. Where the line 1/b runs into the hill, light turns back; where it passes above the top, nothing holds it and it falls in. On the top itself light can go round in a circle, but the least push takes it off: that is the photon orbit, and the edge of the shadow is made of rays that all but stay there.',

@@ -1,22 +1,22 @@
-// "Fall in": the observer falls freely through the horizon, while its clock, the redshift of the sky and the black disk
-// before it are told. The session lets it fall and tells its clock with each picture; here is said how fast, and where
-// to when somebody pulls the slider.
+// "Fall in": the observer falls freely through the horizon, while the page shows its clock, the redshift of the sky and
+// the size of the shadow. The session moves the observer and sends its clock with each picture; this module sets how
+// fast it falls, and where it is put by the slider.
 import { byId, latest, still } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
 import { physics } from './server.js';
 
-const begin_r = 20; // M, where the camera is not near
+const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
 const wide_deg = 100;
-const fold_s = 3; // seconds of watching in which the time that is left to the end becomes 1/e of itself, nearly,
-const fold_pictures = 5; // and no fewer pictures than these, so that a slow server shows the way, too:
-const fastest = 1e6; // M a second: there is no faster one
-const uneven = 0.1; // its pace is that of a moment ago, by so much at most
+const fold_s = 3; // seconds of watching in which the proper time left to the end shrinks by about a factor e,
+const fold_pictures = 5; // but in no fewer pictures than these, so that a slow server shows the fall as well
+const fastest = 1e6; // M a second: the server's limit
+const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm
 
 const numbers = ['infall_from', 'infall_energy', 'infall_momentum'];
 const velocities = ['velocity_r', 'velocity_theta', 'velocity_phi'];
 const pace = 'motion.proper_time_rate',
   rates = ['motion.azimuth_rate_deg', 'motion.time_rate', pace];
-// It takes these from the scene, and gives them back.
+// The fields that a fall changes, and restores at its end.
 const taken = [
   ...['r', 'azimuth_deg', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(
     name => 'camera.' + name,
@@ -30,7 +30,7 @@ const thousandth = x => Math.round(x * 1e3) / 1e3;
 const turn = degrees => thousandth(degrees - 360 * Math.round(degrees / 360));
 const falls = scene => scene.get('camera.r') !== 'infinity' && scene.get('camera.observer') === 'infall';
 
-// Who falls: what falls already, as it does, else from rest at infinity.
+// Parameters of the fall: those of an observer that falls already, else from rest at infinity.
 function faller(scene) {
   const own = name => [name, scene.get('camera.' + name)];
   return {
@@ -51,16 +51,16 @@ export function buildFall(scene) {
     'fall-back',
     'fall-fault',
   ].map(byId);
-  let way = null, // what /v1/physics/infall says of where it began; last: the radius where it ends here
+  let way = null, // the answer of /v1/physics/infall for the start; last: the radius where the fall ends here
     before = null,
-    held = false, // before
-    left = 0, // of its own time, to the end
-    r = 0, // where it is
-    given = 0, // the radius that the scene was given
-    rate = 0, // the pace that it was given
-    waits = false, // for the first picture of it
-    seen = 0, // when the last picture of it came, by performance.now()
-    gap = 0; // seconds between its pictures: the longest of late
+    held = false, // whether the scene was held before the fall
+    left = 0, // proper time left to the end, M
+    r = 0, // its radius, M
+    given = 0, // the radius that was set in the scene
+    rate = 0, // the pace that was set in the scene
+    waits = false, // until the first picture of the fall has come
+    seen = 0, // when the last picture of the fall came, by performance.now()
+    gap = 0; // seconds between its pictures: a maximum that decays
 
   const ended = () => r <= way.last;
 
@@ -74,7 +74,7 @@ export function buildFall(scene) {
       : t('The singularity: the end', 'La singolarità: la fine');
   }
 
-  // The sky from where the camera is, and the black disk before it.
+  // Redshift of the sky at the observer, and the size of the shadow.
   const measure = latest(async () => {
     const { mass_msun, ...who } = faller(scene),
       { values } = await physics('sky', {
@@ -111,11 +111,11 @@ export function buildFall(scene) {
       at.value = (1000 * Math.log(r / way.r)) / Math.log(way.last / way.r);
     at.setAttribute('aria-valuetext', `${byId('fall-r').textContent}, ${now}`);
     showPlay();
-    // the others are as good without
+    // the other numbers do not need these
     measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
   }
 
-  // So fast that what is left falls by the same part every second; not told anew with each picture.
+  // Sets the pace so that the time left shrinks by the same factor every second; small changes are not sent.
   function keepPace() {
     const now = Math.min(fastest, Number((left / Math.max(fold_s, fold_pictures * gap)).toPrecision(3)));
     if (Math.abs(Math.log(now / rate)) < uneven) return;
@@ -123,7 +123,7 @@ export function buildFall(scene) {
     scene.change({ [pace]: rate });
   }
 
-  // Puts it somewhere on its way; clock: as it is from there on.
+  // Puts the observer at a radius on its way; clock: its clock there.
   function put(radius, clock) {
     left = clock.proper_time_to_end;
     r = given = radius;
@@ -192,7 +192,7 @@ export function buildFall(scene) {
     start.hidden = true;
     play.focus();
     scene.hold(still.matches);
-    waits = !scene.held; // one that stands may be the picture that is there
+    waits = !scene.held; // a held scene may show that picture already
     show(way);
   });
 
@@ -209,7 +209,7 @@ export function buildFall(scene) {
   scene.addEventListener('change', () => {
     if (!way) return;
     if (scene.begun('camera.r') === given && scene.get(pace) === rate && falls(scene)) return showPlay();
-    stop(); // whoever moves the camera by another way, or makes it another one, has it
+    stop(); // any other change of the camera ends the fall
     if (rate && scene.get(pace) === rate) scene.change({ [pace]: 0 });
   });
   return {
@@ -217,16 +217,16 @@ export function buildFall(scene) {
     halt: () => way && !scene.held && scene.hold(true),
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
-      if (scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3) return; // from before it was put there
+      if (scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3) return; // an older picture
       ({ r, proper_time_to_end: left } = clock);
-      given = scene.begun('camera.r'); // the server moves it, too
+      given = scene.begun('camera.r'); // the server may have changed it
       waits = false;
       show(clock);
       if (scene.held) return;
       const now = performance.now();
       gap = Math.max((now - seen) / 1e3, 0.7 * gap);
       seen = now;
-      ended() ? scene.hold(true) : keepPace(); // from the first picture of it on
+      ended() ? scene.hold(true) : keepPace(); // from the first picture of the fall on
     },
   };
 }

@@ -1,13 +1,13 @@
-// A search through all settings: by label, help, choice or name of the field, in both languages. What is found stays in
-// its group, which opens; the rest is away until the search is empty again.
+// A search through all settings by label, help, choice or name of the field, in both languages. Matching fields stay in
+// their groups, which open; all others are hidden until the search is empty.
 import { byId } from './dom.js';
 import { english, lang, t } from './i18n.js';
 
-const most = 4; // names of what means nothing here
+const most = 4; // matching fields without effect that are named
 
 const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').replace(/[’‘]/g, "'").toLowerCase();
 
-// What the other language says of a field.
+// A function that gives the texts of a field in the other language.
 async function otherWords(scene) {
   if (lang === 'it') return path => [english(path), scene.fields.get(path)?.help];
   const { fields } = await import('./it-fields.js');
@@ -19,10 +19,11 @@ export async function buildFind(scene) {
     told = byId('found'),
     form = byId('fields'),
     other = await otherWords(scene),
-    texts = new Map(), // of nodes, as they were read
+    texts = new Map(), // texts of nodes
     opened = new Set(); // details that the search has opened
 
-  // Elements of a list have the names of its first one; that of a field is also found with spaces.
+  // Elements of a list are searched by the names of the first one. A field's name is also found with spaces for its
+  // underscores.
   function read(node) {
     const { path = '' } = node.dataset,
       name = path.replace(/\.\d+\./, '.'),

@@ -1,13 +1,13 @@
-// All of a preset is in the window, whatever the window's shape: the field is as wide as the scene says in windows up
-// to 16:9, the shape that scenes are composed for, and in lower ones wider, so that as much is seen upwards. It follows
-// the window until somebody chooses a field.
+// Fits presets into the window, whatever its shape. In windows up to 16:9, the shape that scenes are composed for, the
+// field of view is as wide as the scene says. In wider windows it is larger, so that the same height is seen. It
+// follows the window until somebody sets the field of view.
 import { byId } from './dom.js';
 
 const widest = 16 / 9;
 const most = { 'camera.fov_deg': 150, 'camera.field_m': 1e4 };
 const half = degrees => (degrees * Math.PI) / 360;
 
-// Which field of the camera is the width; none is in a picture of all directions.
+// The field of the camera that sets the width; null if there is none, as in a picture of all directions.
 function widthOf(get) {
   const projection = get('camera.projection'),
     far = get('camera.r') === 'infinity';
@@ -22,13 +22,13 @@ function wide(path, base) {
   return by > 1 ? Math.max(base, Math.min(Number(value.toPrecision(4)), most[path])) : base;
 }
 
-// Whether a window is so high that the width of a preset is its own.
+// Whether the window is high enough to show a preset at its own width.
 export const fits = ({ clientWidth: width, clientHeight: height }) => width > 0 && width <= widest * height;
 
 export function buildFit(scene) {
-  let held = null; // { path, base, value }
+  let held = null; // { path, base: the scene's own width, value: the fitted one }
 
-  // Values of a scene by path, with the width that fits; given: what somebody chose.
+  // Returns values of a scene by path, with the width fitted; given: the values that somebody chose.
   scene.fits = (values, given = {}) => {
     const get = path => values[path] ?? scene.fields.get(path).default,
       path = widthOf(get);
@@ -37,14 +37,14 @@ export function buildFit(scene) {
     held = { path, base: get(path), value: wide(path, get(path)) };
     return { ...values, [path]: held.value };
   };
-  // As it was before: what fitted() gave then.
+  // Restores what fitted() returned earlier.
   scene.refit = fitted => (held = fitted && { ...fitted });
-  // What the scene itself says, where the window has made it wider.
+  // The scene's own width, if the window has changed it; else null.
   scene.fitted = () => (held && scene.get(held.path) === held.value ? held : null);
 
   new ResizeObserver(() => {
     const now = scene.fitted();
-    // one who falls meanwhile has another width
+    // during a fall the width is another field
     if (!now || byId('lensing').hidden || widthOf(path => scene.get(path)) !== now.path) return;
     const value = wide(now.path, now.base);
     if (value === now.value) return;

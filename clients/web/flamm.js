@@ -1,11 +1,11 @@
-// Curved space over the picture: Flamm's paraboloid, Kerr's too, and how its spokes are dragged.
+// Curved space over the picture: Flamm's paraboloid, also of a spinning hole, and how its spokes are dragged round.
 import { t } from './i18n.js';
 import { drawn, physics } from './server.js';
 
 const radians = Math.PI / 180;
-const dragged_for = 10; // M, time for which the lines of the Flamm grid are dragged
+const dragged_for = 10; // M, the time for which the spokes are dragged
 
-// The grid in space, looked at along straight lines from where the camera is.
+// The grid in space, projected along straight lines from the camera.
 export async function flamm(scene, look, path) {
   const spin = scene.get('spacetime.spin'),
     far = scene.get('camera.r') === 'infinity',

@@ -1,13 +1,15 @@
-// Requests for pictures that are under way. Several are while something moves, each for the frame after that of the one
-// before: while one picture is read and drawn the server makes the next, and over a long line more of them. As many as
-// there are wait to be asked for again, so that what is late holds all back. At rest there is one. Over a long line a
-// change of the camera goes with a request, so that it costs no way of its own: from.pending is the next one.
+// Requests for pictures. While something moves, several are under way, each for the frame after that of the one before:
+// the server makes the next picture while one is read and drawn, and several over a line of high latency. New requests
+// are sent as answers come, so a slow answer slows all of them down. At rest there is one request. Over a line of high
+// latency a change of the camera is sent with a request, which saves a round trip; from.pending is the next change to
+// send.
 import { Problem, ask } from './server.js';
 
-export const still_ms = 600; // without a change and a picture that is not the last, after which one request is enough
+export const still_ms = 600; // after so long without a change or an unfinished picture, one request is enough
 
-// moving(): lately; goesOn(): pictures come whether anything is changed or not; options(change) of fetch; arrived(from,
-// request, answer) is told of changes that the server knows, and refused(from) of one that it does not take.
+// moving(): whether something moved lately; goesOn(): whether pictures come without changes; options(change): options
+// of fetch; arrived(from, request, answer) is called when the server has taken a change, refused(from) when it has
+// refused one.
 export function buildFlight(line, { moving, goesOn, options, arrived, refused }) {
   let kick = () => {};
 
@@ -25,12 +27,13 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
     from.flight.push(one);
   }
 
-  // Where pictures come of changes alone, requests that bring none would only wait, in the place of those that do.
+  // When pictures come only after changes, further requests would wait in vain and take the place of those that carry
+  // changes.
   const depth = () => (!moving() ? 1 : line.far() && !goesOn() ? 2 : line.depth());
   const behind = from => Math.max(from.frame - 1, ...from.flight.map(({ after }) => after)) + 1;
 
-  // Over a long line they go out one after the other: of those that go together pictures come together, and take each
-  // other’s time.
+  // Over a line of high latency requests are spaced out: pictures of requests that are sent together arrive together
+  // and share the bandwidth.
   function top(from) {
     if (!from.flight.some(({ after }) => after === from.frame)) poll(from, from.frame);
     const wanted = () => from.flight.length < depth() || (from.pending && from.flight.length < line.most);
@@ -45,12 +48,12 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
 
   return {
     kick: () => kick(),
-    // The next answer with a newer picture; null: there is none yet.
+    // The next answer with a newer picture, or null if there is none yet.
     async newest(from) {
       top(from);
       const kicked = new Promise(resolve => (kick = () => resolve({})));
       const { one, answer, error, took } = await Promise.race([...from.flight.map(({ answer }) => answer), kicked]);
-      if (!one) return null; // there is more to be asked for
+      if (!one) return null; // woken to send more requests
       from.flight.splice(from.flight.indexOf(one), 1);
       if (error && one.carries) refused(from);
       if (error && one.carries && error instanceof Problem && error.status !== 404) return null;
@@ -58,7 +61,7 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
       line.answered(took - Number(answer.headers.get('Kerrd-Waited')));
       if (one.carries) arrived(from, one, answer);
       if (answer.status !== 204 && Number(answer.headers.get('Kerrd-Frame')) > from.frame) return answer;
-      answer.body?.cancel(); // it came by another request already
+      answer.body?.cancel(); // another request has brought it already
       return null;
     },
   };

@@ -1,11 +1,11 @@
-// What becomes of a body that is aimed at, as far as the page can tell: its path, until it is captured or far away.
+// Prediction of the path of a body that is aimed, until it is captured or far away.
 import { latest } from './dom.js';
 import { ask_kerr, heavy, predict, reference } from './predict.js';
 
-const beyond = 8; // times what is seen: farther out a predicted path ends
+const beyond = 8; // a predicted path ends at this multiple of the visible radius
 
-// aims() is what the hand aims at, mass() that of a new body. Returns the speed of a circular orbit at a place, and
-// what draws the path of the aim.
+// aims(): what is aimed at; mass(): the mass of a new body. Returns the speed of a circular orbit at a place, and a
+// function that draws the predicted path.
 export function foretold(running, plane, aims, mass) {
   const soften = () => running.state?.settings.softening ?? 0.05;
   const speed = place => reference(place, heavy(plane.all()), soften());

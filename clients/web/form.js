@@ -1,4 +1,4 @@
-// Small forms of numbers whose values live in the page's address: labels, units and help are the server's.
+// Small forms of numbers whose values are kept in the page's address. Labels, units and help come from the server.
 import { badge } from './badge.js';
 import { el, typing } from './dom.js';
 import { named, unit, word } from './i18n.js';
@@ -15,10 +15,10 @@ function slider(spec, input, tell) {
   return { node, follow: () => input.value !== '' && (node.value = s.to(input.valueAsNumber)) };
 }
 
-// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over
-// what the name says, about over the server's help; without a nature it is physics; changed() is told. What is auto has
-// no value until somebody gives it one, and is emptied to have none again. Returns values() by name, and put({ name:
-// value }).
+// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]. label replaces the
+// label made from the name, about the server's help; the nature is physics by default. changed() is called after a
+// change. An auto field has no value until somebody enters one, and again when it is emptied. Returns values() by name,
+// and put({ name: value }).
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
   for (const spec of specs) {
@@ -81,7 +81,7 @@ export function buildForm(root, prefix, specs, changed) {
       Object.fromEntries(
         [...inputs].filter(([, { input }]) => input.chosen).map(([name, { input }]) => [name, input.value]),
       ),
-    // Several at once, as one change: who calls says so.
+    // Sets several values; the caller handles it as one change.
     put(values) {
       for (const [name, value] of Object.entries(values)) {
         const { input, spec, key, follow } = inputs.get(name);
@@ -91,7 +91,7 @@ export function buildForm(root, prefix, specs, changed) {
         link.set(key, input.value === String(spec.value) ? null : input.value);
       }
     },
-    // What an auto field comes to, as long as nobody has chosen or is choosing.
+    // Shows the value that an auto field takes, unless somebody has entered or is entering one.
     suggest(name, value) {
       const { input, hand, follow } = inputs.get(name);
       if (!input.chosen && !hand.typed) (input.value = value), follow();

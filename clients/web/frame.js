@@ -1,7 +1,7 @@
-// What the header of a picture says.
+// Parsers of the headers of a picture.
 import { getJson } from './server.js';
 
-// "width=640 height=360 ..." as numbers.
+// "width=640 height=360 ..." as an object of numbers.
 export const figures = header =>
   Object.fromEntries(
     (header ?? '')
@@ -13,7 +13,7 @@ export const figures = header =>
       }),
   );
 
-// The sentence of each approximation by its name: asked for once, and again where that failed.
+// The sentence of each approximation by its name. A failed request is repeated at the next call.
 let known = null;
 export function sentences() {
   known ??= getJson('v1/approximations')
@@ -24,8 +24,8 @@ export function sentences() {
 
 const names = header => (header ?? '').split(', ').filter(Boolean);
 
-// What a picture leaves out. The server sends its names where they are not what the request said is known: the session
-// keeps them by their number.
+// The approximations of a picture, as sentences. The server sends their names only when the set differs from the one
+// whose number the request gave; the session keeps the sets by number.
 export async function approximations(session, get) {
   session.told = get('Kerrd-Sentences');
   if (!session.sentences.has(session.told)) session.sentences.set(session.told, names(get('Kerrd-Approximations')));
@@ -44,8 +44,8 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// What is said of a picture’s size: all: it has all pixels that one at rest will have; narrow: fewer than were to be
-// kept while something moves.
+// What the page states on a picture's size. all: it has all the pixels of a picture at rest; narrow: it has fewer than
+// were to be kept in motion.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {

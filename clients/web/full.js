@@ -1,10 +1,10 @@
-// The picture alone fills all of the window: by the key F or a button, left by Esc. Where the browser can, the window
-// takes all of the screen.
+// The picture alone fills the window: by the key F or a button, left by Esc. If the browser allows, the window fills
+// the screen too.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
 
-const awake_ms = 2500; // the buttons stay after a pointer has moved
+const awake_ms = 2500; // how long the buttons stay visible after a pointer has moved
 
 export function buildFull(stage) {
   const body = document.body,
@@ -34,7 +34,7 @@ export function buildFull(stage) {
     else (before?.isConnected && before !== body ? before : stage).focus();
   }
 
-  // A browser may refuse: then the window is all there is.
+  // If the browser refuses, the picture fills the window alone.
   function enter() {
     show(true);
     document.documentElement.requestFullscreen?.().catch(() => {});

@@ -1,14 +1,14 @@
-// The presets are a strip of small pictures, each with a name and a sentence.
+// The strip of presets: a small picture, a name and a caption for each.
 import { first_view } from './ahead.js';
 import { byId, el } from './dom.js';
 import captions from './captions.js';
 import { label, t } from './i18n.js';
 import { swipe } from './swipe.js';
 
-// One that has no caption here has its title.
+// A preset without a caption shows its title.
 export const caption = (name, title) => (captions[name] ? t(...captions[name]) : title);
 
-// What people come for stands first, and what tests programs last; between them the server's order.
+// The most wanted presets stand first, and those that test programs last; between them the server's order holds.
 const wanted = [first_view, 'gargantua-gas', 'milky-way', 'jet', 'infall', 'm87', 'polarised-ring'];
 function order(name) {
   if (wanted.includes(name)) return wanted.indexOf(name) - wanted.length;
@@ -36,7 +36,7 @@ export function buildGallery(scene, select, presets) {
     select.dispatchEvent(new Event('change'));
   }
 
-  // The one beside it; beyond the last there is none.
+  // Chooses the neighbouring preset, if there is one.
   function turn(by) {
     const card = cards[cards.findIndex(card => card.dataset.preset === select.value) + by];
     if (!card) return;
@@ -49,7 +49,7 @@ export function buildGallery(scene, select, presets) {
     for (const other of cards) other.tabIndex = other === card ? 0 : -1;
   }
 
-  let shown = null; // the name of the card that was brought into sight
+  let shown = null; // the card that was last scrolled into view
   function follow() {
     const now = cards.find(card => card.dataset.preset === select.value);
     if (now && shown !== select.value && !strip.matches(':hover'))
@@ -70,7 +70,7 @@ export function buildGallery(scene, select, presets) {
   });
   strip.addEventListener('focusin', event => reach(event.target.closest('button')));
 
-  // Pictures are part of the program (scripts/stills), and come once their card is in sight.
+  // The pictures belong to the program (scripts/stills); each is loaded when its card comes into view.
   const eyes = new IntersectionObserver(
     entries => {
       for (const { target, isIntersecting } of entries) {

@@ -1,12 +1,12 @@
-// Throwing by hand: with a pointer, with fingers, with keys. Press where nothing is and drag: the arrow is the
-// velocity; or drag a body, to throw it anew. Two fingers, the wheel, Shift or another button move the view.
-const small_px = 5; // less is no drag
+// Throwing bodies by pointer, touch and keyboard. Press on an empty place and drag: the arrow is the velocity. Drag a
+// body to throw it again. Two fingers, the wheel, Shift or another button move the view.
+const small_px = 5; // a shorter movement is a tap
 const near_px = 12;
-const arrow_px = 90; // an arrow so long has the reference speed (predict.js)
+const arrow_px = 90; // length of an arrow of the reference speed (predict.js)
 const turn = Math.PI / 36;
 
-// aims: { from: [x, y, z], velocity: [x, y, z], body: id or null, armed: it has been given a velocity }
-// told: { aim(aims), release(), choose(id), pause(), step(), remove(), fit(), speed(place) } - speed: the reference
+// aims: { from: [x, y, z], velocity: [x, y, z], body: id or null, armed: whether a velocity was set }
+// told: { aim(aims), release(), choose(id), pause(), step(), remove(), fit(), speed(place) }; speed: the reference
 // speed at a place.
 export function hands(stage, plane, told) {
   const aims = { from: [20, 0, 0], velocity: [0, 0, 0], body: null, armed: false };
@@ -23,7 +23,7 @@ export function hands(stage, plane, told) {
     return [event.clientX - box.left, event.clientY - box.top];
   };
 
-  // What an arrow of pixels from a place means.
+  // The velocity of an arrow of so many pixels from a place.
   function velocity(from, px, py) {
     const [x, y] = plane.project(from),
       v = told.speed(from) / arrow_px,
@@ -94,7 +94,7 @@ export function hands(stage, plane, told) {
     { passive: false },
   );
 
-  // The arrow by keys: longer, shorter, round.
+  // Changes the arrow by keys: its length and its direction.
   function bend(longer, angle) {
     const [x, y] = aims.velocity,
       ref = told.speed(aims.from),

@@ -1,4 +1,4 @@
-// What has happened in a playground, newest first: a line of words and the numbers.
+// The events of a playground, newest first, each a line of words and numbers.
 import { el } from './dom.js';
 import { number, said, t } from './i18n.js';
 
@@ -25,7 +25,7 @@ const masses = e =>
     .map(m => number(m, 3))
     .join(e.mass_left == null ? ' + ' : ' → ');
 
-// Returns { happened(event), clear() }; aloud(sentence) is told of each.
+// Returns { happened(event), clear() }; aloud(sentence) is called for each event.
 export function eventList(root, aloud) {
   const rows = el('tbody', {}),
     none = el('p', { class: 'help' }, t('Nothing yet.', 'Ancora niente.'));

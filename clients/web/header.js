@@ -1,4 +1,4 @@
-// Above the picture: the languages, the list of keys, and the line that says what this is.
+// Above the picture: the languages, the list of keys, and the line that introduces the page.
 import { byId } from './dom.js';
 import { lang } from './i18n.js';
 import * as link from './link.js';
@@ -14,7 +14,7 @@ export function buildLanguages() {
   }
 }
 
-// Which keys there are: ? asks for them.
+// The list of keys, opened by ? or a button.
 export function buildKeys() {
   const keys = byId('keys'),
     show = () => keys.open || keys.showModal();
@@ -25,7 +25,7 @@ export function buildKeys() {
   });
 }
 
-// A line says what this is until somebody does something; who follows a link to a scene knows.
+// The line that introduces the page is shown until the first input, and not to visitors of a link to a scene.
 export function welcome() {
   const line = byId('welcome');
   line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));

@@ -1,13 +1,13 @@
-// Undo and redo of all that is changed in the scene: Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y, and two buttons.
+// Undo and redo of all changes of the scene: Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y, and two buttons.
 import { byId } from './dom.js';
 import { valueAt } from './scene.js';
 
-const together_ms = 400; // changes that follow each other sooner are one, as those of a drag are
+const together_ms = 400; // changes that follow each other sooner are one step, as those of a drag
 const most = 200;
 
 export function buildHistory(scene) {
-  // text: the scene without time and what the server moves, which undo does not take back; but where it takes back what
-  // began a motion, or ended one, time is again that of then, and what was moved is where it began. fitted: of fit.js.
+  // text: the scene without time and without what the server moves, which undo leaves alone. When undo crosses the
+  // start or the end of a motion, time and what was moved go back to their values of then. fitted: see fit.js.
   function whole() {
     const { time, ...document } = scene.document({}, true);
     return { text: JSON.stringify(document), time: scene.get('time'), fitted: scene.fitted() };
@@ -54,7 +54,7 @@ export function buildHistory(scene) {
     clearTimeout(timer);
     timer = setTimeout(note, together_ms);
   });
-  // What the server has changed, and where a camera has drifted to, is where the next change begins.
+  // The values that the server set, and the place that a camera has drifted to, are where the next change begins.
   scene.addEventListener('settle', () => timer || (now = whole()));
   scene.addEventListener('tick', () => timer || (now.time = scene.get('time')));
   buttons[0].addEventListener('click', () => go(past, future));

@@ -1,10 +1,10 @@
-// English and Italian. A text of the page stands in both languages where it is used: t('Presets', 'Preimpostazioni'),
-// or in index.html as data-it beside the English one. it.js has what the server says in English, and is fetched for
-// Italian alone.
+// English and Italian. Texts of the page stand in both languages where they are used: t('Presets', 'Preimpostazioni'),
+// or in index.html as data-it beside the English text. it.js translates the texts of the server; it is loaded for
+// Italian only.
 import * as link from './link.js';
 
 export const lang = (link.get('lang') ?? navigator.language ?? 'en').startsWith('it') ? 'it' : 'en';
-// WebKit under LANG=C calls its language "c", which Intl does not take: uPlot would throw over it while it is loaded.
+// WebKit under LANG=C reports the language "c", which Intl refuses: uPlot would throw while it is loaded.
 try {
   new Intl.NumberFormat(navigator.language);
 } catch {
@@ -15,7 +15,7 @@ export const t = (en, it) => (lang === 'it' ? it : en);
 
 const words = lang === 'it' ? await import('./it.js') : null;
 
-// What a view adds to it.js when it is opened: it-playground.js, say.
+// Adds the words of a view that is loaded later, such as it-playground.js.
 export function learn({ sentences, values, presets, refusals }) {
   Object.assign(words.sentences, sentences);
   Object.assign(words.values, values);
@@ -23,13 +23,13 @@ export function learn({ sentences, values, presets, refusals }) {
   words.learn(refusals);
 }
 
-// A sentence of the server: translated if it is known, else marked as English for those who have it read aloud.
+// A sentence of the server: translated if a translation is known, else marked as English for screen readers.
 export function said(text) {
   const known = words?.sentences[text] ?? words?.refusal(text);
   return { text: known ?? text, lang: known || lang === 'en' || !text ? null : 'en' };
 }
 
-// Puts it into an element.
+// Puts a sentence of the server into an element.
 export function tell(node, sentence) {
   const { text, lang: marked } = said(sentence);
   node.textContent = text;
@@ -59,7 +59,7 @@ export function unit(name) {
   return words?.units[name] ?? abbreviations[name] ?? name ?? '';
 }
 
-// Where the name of a field is too short to be a label.
+// Labels of fields whose names are too short to be labels.
 const labels = {
   'spacetime.distance_pc': 'Distance from Earth',
   'camera.r': 'Distance',
@@ -127,10 +127,10 @@ function labelOf(path) {
   );
 }
 
-// What a field is called in English, whatever the page's language.
+// The English label of a field, whatever the page's language.
 export const english = path => labels[path] ?? labels[path.split('.').pop()] ?? spell(path.split('.').pop());
 
-// A help names other fields by their labels, not by their paths, and points to no file.
+// In a help text, replaces paths of fields by their labels, and drops references to files.
 const inside =
   /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;
 export const readable = help =>
@@ -139,15 +139,15 @@ export const readable = help =>
     .replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione'))
     .replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
 
-// Label and help of a field of the scene or of a parameter, from its path and the server's English.
+// Label and help of a field of the scene or of a parameter, from its path and the server's English help.
 export function named(path, help) {
-  path = path.replace(/\.\d+\./, '.'); // elements of a list have the same fields
+  path = path.replace(/\.\d+\./, '.'); // all elements of a list have the same fields
   const own = words?.fields[path]?.[1],
     told = own ? { help: own } : helpOf(help);
   return { ...told, label: labelOf(path), help: readable(told.help) };
 }
 
-// A help text of the server as a sentence.
+// A help text of the server, as a sentence.
 export function helpOf(help) {
   const { text, lang: marked } = said(help ?? '');
   return { help: text && text[0].toUpperCase() + text.slice(1), helpLang: marked };
@@ -156,12 +156,12 @@ export function helpOf(help) {
 export const section = (name, help) =>
   words?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
 export const element = (list, index) => `${words?.fields[list]?.[0] ?? labels[list] ?? spell(list)} ${index + 1}`;
-// A nature of fields in a word and a sentence.
+// Word and sentence of a nature of fields.
 export function nature(name, help) {
   const [word, text] = words?.natures[name] ?? [];
   return { word: word ?? name, text: text ?? helpOf(help).help, lang: words && !text ? 'en' : null };
 }
-// What a choice is called, where its word alone says too little.
+// Labels of choices whose own words say too little.
 const choices = {
   static: 'at rest',
   zamo: 'zero angular momentum (ZAMO)',
@@ -221,15 +221,15 @@ const choices = {
   'volume.model torus': 'torus in equilibrium',
   'volume.model uniform': 'uniform shell',
 };
-// Some are called something else for a certain field: path.
+// The label of a choice; some differ from field to field, which is what path is for.
 export const word = (value, path) =>
   words?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? words?.values[value] ?? choices[value] ?? value;
-export const preset = (name, title) => words?.presets[name] ?? title; // of the playground; of scenes: captions.js
+export const preset = (name, title) => words?.presets[name] ?? title; // of the playground; for scenes: captions.js
 export const label = (name, text) => words?.labels[name] ?? text;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
 
-// A format is made once for what it is asked with: that takes a hundred times as long as to use it.
+// Formats are cached: making one takes a hundred times as long as using it.
 const formats = new Map();
 function shown(v, most, grouped) {
   const key = `${most} ${grouped}`;
@@ -238,7 +238,7 @@ function shown(v, most, grouped) {
   return formats.get(key).format(v).replace('-', '−');
 }
 
-// 0.0123, 12 300, 1.6 × 10⁻⁷.
+// Formats a number: 0.0123, 12 300, 1.6 × 10⁻⁷.
 export function number(x, digits = 4) {
   if (x == null || Number.isNaN(x)) return '–';
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '−∞';
@@ -261,7 +261,7 @@ const spans = [
   [0, 'µs', 'µs'],
 ];
 
-// Seconds in what they are told in.
+// A duration in a suitable unit.
 export function duration(seconds) {
   const [length, en, it] = spans.find(([least]) => Math.abs(seconds) >= least);
   return `${number(seconds / (length || 1e-6), 3)} ${t(en, it)}`;

@@ -1,11 +1,11 @@
-// The path of one ray past the hole, in space, to be turned by hand or by arrow keys. It draws points that the server
-// has computed.
+// The path of one ray past the hole in space, turned by dragging or by arrow keys. It draws points that the server has
+// computed.
 import { el } from './dom.js';
 import { t } from './i18n.js';
 
 const wide = 240,
   high = 180; // CSS pixels
-const rings = [5, 10, 20, 40]; // M, circles of the plane
+const rings = [5, 10, 20, 40]; // M, radii of the circles in the equatorial plane
 
 export function buildInset() {
   const node = el('canvas', {
@@ -26,16 +26,17 @@ export function buildInset() {
     pitch = 0.5,
     grip = null;
 
-  // How far from the axis a place of the plane is drawn: x and y of the path are those of Boyer and Lindquist.
+  // Distance from the axis at which a place of the plane is drawn: x and y of the path are made from Boyer–Lindquist
+  // coordinates.
   const wider = r => Math.hypot(r, spin);
 
-  // How much of space is shown: the bend, and what it crosses.
+  // The radius that is shown, M: it holds the bend and the crossings that are seen.
   function reach({ path, crossings }) {
     const crossed = crossings.filter(({ seen }) => seen).map(({ r }) => r);
     return Math.min(Math.max(8, 2.2 * path.least_r, 1.15 * Math.max(0, ...crossed)), 60);
   }
 
-  // Seen from far away: right, up and towards the viewer.
+  // The view from far away: right, up and towards the viewer.
   function turned([x, y, z]) {
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)],
       [right, away] = [c * y - s * x, c * x + s * y];
@@ -53,7 +54,7 @@ export function buildInset() {
     context.stroke();
   }
 
-  // Inside the picture, wherever its place is.
+  // Draws a name, shifted so that it is inside the picture.
   function name(text, [right, up], scale) {
     const most = wide / 2 - 4 - context.measureText(text).width,
       x = Math.min(Math.max(right * scale + 6, 4 - wide / 2), most),
@@ -63,7 +64,7 @@ export function buildInset() {
     context.fillText(text, x, y);
   }
 
-  // Where the ray comes in from the observer, what it first meets, and the hole.
+  // Names the observer's end of the ray, the first crossing that is seen, and the hole.
   function names(points, scale, horizon) {
     const inside = ([right, up]) => Math.abs(right * scale) < wide / 2 && Math.abs(up * scale) < high / 2,
       from = points.find(inside),

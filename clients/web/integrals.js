@@ -1,5 +1,5 @@
-// What a picture of the scene adds up to, as a plot: the profile of a line, a spectrum, visibilities by baseline. The
-// server computes it when somebody chooses one, and again when the scene has come to rest as another one.
+// Integrals over a picture of the scene as plots: a line profile, a spectrum, visibilities by baseline. The server
+// computes one when it is chosen, and again when the scene has changed and come to rest.
 import { persistent } from './again.js';
 import { el } from './dom.js';
 import { buildForm } from './form.js';
@@ -8,15 +8,15 @@ import { meansSomething } from './known.js';
 import { plot } from './plot.js';
 import { postJson } from './server.js';
 
-const rest_ms = 400; // after the last change, as of a hand that drags
-const floor = 1e-5; // of the largest value: what lies below is not drawn
+const rest_ms = 400; // since the last change, such as one of a drag
+const floor = 1e-5; // share of the largest value below which nothing is drawn
 
 const isRadio = scene =>
   scene.get('volume.model') !== 'none' &&
   meansSomething(scene, 'volume.frequency_ghz') &&
   scene.get('disk.model') === 'none';
 
-// The disk of the scene, as integrals over thin disks know it.
+// The scene's disk as parameters of integrals over thin disks.
 function disk(scene) {
   const inner = scene.get('disk.inner');
   return {
@@ -27,7 +27,7 @@ function disk(scene) {
   };
 }
 
-// What a plot of a thin disk is, where the picture shows something else.
+// A note that the plot shows a thin disk, for scenes that show something else.
 const elsewhere = scene =>
   (scene.get('disk.model') === 'none'
     ? t(
@@ -204,7 +204,7 @@ const kinds = {
       ...given,
     }),
     show: ({ values, columns, units }) => {
-      const turned = Math.round(columns.length_gl.length / 2), // those of the second angle
+      const turned = Math.round(columns.length_gl.length / 2), // index of the first row of the second angle
         part = (second, order) =>
           columns.amplitude
             .map((y, i) => ({ x: columns.length_gl[i], y, is: columns.order[i] === order && i >= turned === second }))
@@ -242,7 +242,7 @@ const kinds = {
   },
 };
 
-// root: what it stands in; returns choose(kind), with '' for none.
+// root: the element for the plot. Returns choose(kind); '' is none.
 export function buildIntegrals(root, scene) {
   const inputs = el('form', { class: 'inputs' }),
     fault = el('p', { class: 'fault', role: 'status' }),
@@ -250,7 +250,7 @@ export function buildIntegrals(root, scene) {
   const folded = root.closest('details');
   let kind = '',
     form = null,
-    late = false, // the scene has changed while nobody looked
+    late = false, // the scene has changed while the view was hidden
     timer = 0;
   inputs.addEventListener('submit', event => event.preventDefault());
   figure.hidden = true;

@@ -1,5 +1,5 @@
-// These are the names and the helps of fields in Italian.
-// path or name: [label, help]; help may be left out. A list stands here for each of its elements.
+// Names and help texts of fields in Italian, by path or name: [label, help]; help may be left out. A list stands for
+// each of its elements.
 export const fields = {
   spacetime: ['Il buco'],
   camera: ['La camera'],

@@ -1,5 +1,5 @@
-// This is in Italian what the server says of its playgrounds; it.js has the rest. It is fetched when that view is
-// opened in Italian.
+// Italian translations of the server's texts about playgrounds, loaded when that view is opened in Italian; it.js has
+// the rest.
 export const values = { 'paczynski-wiita': 'Paczyński–Wiita', kerr: 'Kerr' };
 
 export const presets = {
@@ -22,7 +22,7 @@ export const refusals = [
   ['position holds {}; it must be {} to {}', 'position contiene {}; deve essere da {} a {}'],
   ['velocity is {} c; it must be at most c', 'velocity è {} c; deve essere fino a c'],
   ['velocity is {} c; it must be less than c', 'velocity è {} c; deve essere meno di c'],
-  ['there are {} bodies, as many as may be', 'ci sono {} corpi, quanti se ne possono avere'],
+  ['there are already {} bodies, the most that a playground may have', 'ci sono {} corpi, quanti se ne possono avere'],
   ['there is no body {}, or it is there no more', 'non c’è il corpo {}, o non c’è più'],
   ['there is no body with this id, or it is there no more', 'non c’è un corpo con questo id, o non c’è più'],
   ['{} is chosen when a playground is made, and stays', '{} si sceglie quando il laboratorio comincia, e resta'],

@@ -1,5 +1,5 @@
-// These are in Italian the sentences with which the server refuses something, or says what is seen.
-// What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
+// Italian translations of the server's refusals and of its descriptions of what is seen, by the pattern of the
+// sentence: {} stands for a value with its unit, {…} for a list.
 const refusals = [
   [
     '{} names an asset of this server, which a link does not hold; it must be null',
@@ -172,7 +172,7 @@ const refusals = [
     'there is no {}: the list has {} element, and the next free index is {}',
     'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}',
   ],
-  ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
+  ['too many open sessions (limit {})', 'troppe sessioni aperte (limite {})'],
   [
     '{} is {}, which follows bound orbits only, and this one is to plunge',
     '{} è {}, che segue solo orbite legate, e questa deve cadere',
@@ -202,7 +202,7 @@ const refusals = [
     'una griglia di materia è un file NPZ di array: {} è {}; deve essere {}',
   ],
   ['a grid of matter is an NPZ file of arrays: {…}', 'una griglia di materia è un file NPZ di array (in inglese): {}'],
-  // what is seen of emitters
+  // descriptions of emitters
   [
     'Matter from a grid of numbers from {} to {}, at {} GHz.',
     'Materia da una griglia di numeri, da {} a {}, a {} GHz.',

@@ -1,4 +1,4 @@
-// This is in Italian what the server says in English. A sentence that is not there stays English and is marked as such.
+// Italian translations of the server's texts. A sentence that is missing here stays English and is marked as such.
 export { fields } from './it-fields.js';
 export { learn, refusal } from './it-refusals.js';
 export { sentences } from './it-sentences.js';
@@ -136,7 +136,7 @@ export const natures = {
   look: ['aspetto', 'Cambia l’immagine, non la fisica'],
 };
 
-// Names of presets for people, by their names for programs.
+// Titles of presets, by their names.
 export const labels = {
   smooth: 'Disco liscio',
   schwarzschild: 'Senza spin',
@@ -169,4 +169,4 @@ export const labels = {
   torus: 'Un toro',
 };
 
-export const presets = {}; // of the playground (it-playground.js); of scenes: captions.js
+export const presets = {}; // presets of the playground (it-playground.js); captions.js has those of scenes

@@ -1,5 +1,5 @@
-// A job of the server's, followed from this page while it goes on: how far it is is told, and it can be cancelled. It
-// outlives a reload of the page.
+// A job of the server, followed by the page: its progress is shown, it can be cancelled, and it survives a reload of
+// the page.
 import { duration, number, t, tell } from './i18n.js';
 import { remaining } from './remaining.js';
 import { ask, getJson, passes, postJson } from './server.js';
@@ -9,7 +9,7 @@ const again_ms = 3000;
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// In the tab's memory: { id, token, … }. In a browser that keeps nothing the job ends with the page's knowledge of it.
+// The job { id, token, … } in sessionStorage. If storage is blocked, a reload loses track of it.
 function memory(key) {
   return {
     read() {
@@ -29,16 +29,17 @@ function memory(key) {
 
 export const remembered = key => Boolean(memory(key).read()?.id);
 
-// key: of the tab's memory. Elements: starts, buttons that wait meanwhile; cancel, another; bar; told and fault, for
-// sentences. words: what is said of it, { done, cancelled, written, before(n) }. take(job) fetches what came of it and
-// may say something itself; seen(status, job) is told of each look, and may give a promise of what it does. Returns {
-// begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is kept with the job.
+// key: of the entry in sessionStorage. starts: buttons, disabled while a job runs; cancel: the button that cancels it;
+// bar: of progress; told and fault: elements for sentences. words: { done, cancelled, written, before(n) }. take(job)
+// fetches the result and may return a sentence; seen(status, job) is called at each poll and may return a promise.
+// Returns { begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is stored with the
+// job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
   const kept = memory(key);
   let job = null,
     left = remaining();
 
-  // The focus goes to the button that is left; how far it has come is not for reading aloud.
+  // The focus moves to the button that is left; progress is not read aloud.
   function show(status) {
     const busy = Boolean(job),
       at = [...starts, cancel].find(button => button === document.activeElement);
@@ -68,13 +69,13 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   const remove = ({ id, token }) =>
     ask('v1/jobs/' + id, { method: 'DELETE', headers: { Authorization: `Bearer ${token}` } });
 
-  // Once it is here, and has been looked at, the server need not keep it.
+  // After the result has been fetched and the last poll has been handled, the server may delete the job.
   async function fetched(done, looked) {
     const sentence = await take(done, () => job === done);
     await looked;
     if (job !== done) return;
     end(sentence ?? words.done);
-    remove(done).catch(() => {}); // it goes within a day
+    remove(done).catch(() => {}); // otherwise it expires within a day
   }
 
   async function follow() {
@@ -92,7 +93,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
         await pause(poll_ms);
       } catch (error) {
         if (job !== now) return;
-        if (!passes(error) || error.status === 500) return end(error.message, true); // what came of it would fail again
+        if (!passes(error) || error.status === 500) return end(error.message, true); // another try would fail as well
         tell(fault, error.message).append(t(' – trying again', ' – si riprova'));
         await pause(again_ms);
       }
@@ -111,11 +112,11 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     async begin(request, about) {
       told.textContent = '';
       tell(fault, '');
-      const asked = (job = {}); // so that one is not asked for twice
+      const asked = (job = {}); // so that a second one is not begun
       show({ fraction: 0 });
       try {
         const { id, token } = await postJson('v1/jobs', await request());
-        // cancelled before the server had answered
+        // it was cancelled before the server answered
         if (job !== asked) return void remove({ id, token }).catch(() => {});
         job = { id, token, ...about };
         kept.write(job);
@@ -134,10 +135,10 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   };
 }
 
-// Of a file: what it shows, if that has a name, and its size in pixels.
+// Name of a file: what it shows, if that has a name, and its size in pixels.
 export const fileName = (names, width, height) => ['kerrd', ...names.filter(Boolean), `${width}x${height}`].join('-');
 
-// Puts a file into a link, and clicks it.
+// Puts a file into a download link, and clicks it.
 export function offer(link, blob, name) {
   URL.revokeObjectURL(link.href);
   link.href = URL.createObjectURL(blob);

@@ -1,19 +1,19 @@
 // <kerr-hole preset spin inclination interactive>: a black hole in any page, rendered by a kerrd server whose
-// --embed-origin names that page's origin. A picture first; with `interactive` a button makes it live, and then it is
-// dragged, or moved by arrow keys. This file needs no other one.
+// --embed-origin names that page's origin. It begins as a picture. With `interactive`, a button makes it live; then it
+// can be dragged, or moved by arrow keys. This file imports no other one.
 //
-//   preset, spin, inclination   what is shown; scene: more of it, as a link has it behind its #
+//   preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its #
 //   interactive                 whether it can be moved
 //   label                       its alternative text
-//   server                      where the server is, with a slash at its end; without it: where this file came from
+//   server                      address of the server, with a slash at its end; by default where this file came from
 const here = new URL('..', import.meta.url);
-const most_live = 2; // sessions of one page; one more ends the oldest
-const most_posters = 2; // that are asked for at once
-const idle_ms = 60000; // after which a hole that nobody moves is a picture again
+const most_live = 2; // live sessions of one page; a further one ends the oldest
+const most_posters = 2; // posters that are requested at once
+const idle_ms = 60000; // without input for so long, a live hole becomes a picture again
 const retry_ms = 3000;
-const degrees_per_width = 180; // that a drag across the element goes round
+const degrees_per_width = 180; // by which a drag across the element turns the camera
 const key_deg = 5;
-const widest = 960; // pixels of a live picture
+const widest = 960; // largest width of a live picture, pixels
 
 const words = {
   en: {
@@ -44,7 +44,7 @@ sheet.replaceSync(`
     font: .875rem/1.3 system-ui, sans-serif; }
   [hidden] { display: none; }`);
 
-// Posters come one after the other, however many there are on a page.
+// Queue of requests for posters, at most most_posters of them at once.
 const waiting = [];
 let asked = 0;
 function next() {
@@ -60,11 +60,11 @@ const inTurn = task => (waiting.push(task), next());
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const clamp = (least, value, most) => Math.min(most, Math.max(least, value));
 
-// A value of a link as a document has it.
+// A value of a link, as a document has it.
 const typed = text =>
   text === 'true' || (text !== 'false' && (text !== '' && !Number.isNaN(Number(text)) ? Number(text) : text));
 
-// "camera.r=30&spots.0.r=9" as a document.
+// "camera.r=30&spots.0.r=9", as a document.
 function documentOf(query) {
   const out = {};
   for (const [path, value] of query) {
@@ -82,7 +82,7 @@ class KerrHole extends HTMLElement {
   #parts = {};
   #session = null;
   #seen = false;
-  #again = 0; // of the posters that have been asked for: only the newest counts
+  #again = 0; // number of the newest request for a poster; older ones are dropped
   #watch = new IntersectionObserver(entries => this.#look(entries.at(-1).isIntersecting), { rootMargin: '200px' });
   #leave = () => this.#end();
 
@@ -127,7 +127,7 @@ class KerrHole extends HTMLElement {
     return new URL(this.getAttribute('server') ?? here, document.baseURI);
   }
 
-  // What is shown, as a link has it.
+  // What is shown, in the form of a link.
   get #query() {
     const query = new URLSearchParams(this.getAttribute('scene') ?? '');
     for (const [name, path] of [
@@ -158,7 +158,7 @@ class KerrHole extends HTMLElement {
     if (this.#seen) this.#poster();
   }
 
-  // It is a picture, and perhaps a button.
+  // Shows the poster, and the button if there is to be one.
   #rest() {
     const { stage, button } = this.#parts,
       own = this.#words;
@@ -254,7 +254,7 @@ class KerrHole extends HTMLElement {
     return answer.json();
   }
 
-  // The newest picture, one after the other, until the session ends.
+  // Draws the session's pictures one after the other, until it ends.
   async #run(session) {
     const { canvas } = this.#parts,
       context = canvas.getContext('2d');
@@ -281,7 +281,7 @@ class KerrHole extends HTMLElement {
     }
   }
 
-  // One patch is under way at a time; the camera goes where it was moved to meanwhile.
+  // Moves the camera. One patch is under way at a time; the next one has the newest place.
   async #move(azimuth, inclination) {
     const session = this.#session,
       { camera } = session;
@@ -329,7 +329,7 @@ class KerrHole extends HTMLElement {
     }).catch(() => {});
   }
 
-  // The last picture stays.
+  // Ends the session; its last picture stays.
   #end() {
     const at = live.indexOf(this);
     if (at >= 0) live.splice(at, 1);

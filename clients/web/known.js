@@ -1,11 +1,10 @@
-// The page knows this of single fields beyond the schema, which says all else. A field that is not here has its control
-// all the same.
+// What the page knows of single fields beyond the schema. A field that is not named here gets its control all the same.
 
-export const left_out = ['image.width', 'image.height']; // the window's
-export const beside_time = ['time', 'motion.time_rate']; // stand beside what starts and stops it
+export const left_out = ['image.width', 'image.height']; // set by the window
+export const beside_time = ['time', 'motion.time_rate']; // shown beside the buttons that start and stop time
 
-// Fields that change nothing without what another section or number brings. What shines beside a disk may take colours
-// and inner edge from its fields.
+// Fields that have no effect without another section or value. Emitters other than the disk may use the disk's colours
+// and inner edge.
 const has_disk = scene => scene.get('disk.model') !== 'none',
   is_map = scene => scene.get('image.layers') !== 'rgb',
   uses_disk = scene =>
@@ -16,7 +15,7 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
-  // maps and rings are of crossings within it
+  // layers and rings show crossings of the plane within this radius
   'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring',
   ...Object.fromEntries(
     [
@@ -36,7 +35,7 @@ const only_with = {
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
-// Fields of the camera that mean something with some choices alone: what is chosen, and whose fields are whose.
+// Fields of the camera that have an effect only with certain choices: the choice in force, and the fields of each.
 const of_camera = [
   {
     chosen: scene =>
@@ -61,10 +60,10 @@ function hasChoice(scene, name) {
   });
 }
 
-// With what a field that switches puts its section out of the picture.
+// The value by which a switch turns its section off.
 const off = field => field.choices?.[0] ?? field.minimum;
 
-// By what the schema says, and what the server says of the scene as it is.
+// Whether a field has an effect, by the schema and by what the server says of the current scene.
 export function meansSomething(scene, path) {
   const field = scene.fields.get(path),
     dot = path.lastIndexOf('.'),

@@ -1,5 +1,5 @@
-// Four large sliders in front of all others: spin, tilt, distance and glow. Each sets a field of the scene, as its
-// control under "All settings" does; both show the value that the scene has.
+// Four large sliders above all others: spin, tilt, distance and glow. Each sets the same field as its control under
+// "All settings"; both show the scene's value.
 import { byId } from './dom.js';
 import { duration, lang, number, t, unit } from './i18n.js';
 import { meansSomething } from './known.js';
@@ -8,8 +8,7 @@ import { light_m_s, sun_m } from './scene.js';
 
 const au_m = 149597870700;
 
-// The fields of each, of which one counts: an observer at infinity has no distance, and the picture's width takes its
-// place.
+// The fields of each slider, of which one is in use: for an observer at infinity, "distance" sets the picture's width.
 const sliders = {
   spin: ['spacetime.spin'],
   tilt: ['camera.inclination_deg'],
@@ -24,7 +23,7 @@ const metres = x =>
       ? `${number(x / 1e3, 3)} km`
       : `${number(x, 3)} m`;
 
-// 10 suns, 100 million suns.
+// A mass in words: "10 suns", "100 million suns".
 function suns(mass) {
   if (mass === 1) return t('one sun', 'un sole');
   if (mass < 1e6) return t(`${number(mass)} suns`, `${number(mass)} soli`);

@@ -1,4 +1,4 @@
-// The playground as light shows it: pictures of the server's, one after the other as they come.
+// The lensed view of the playground: pictures rendered by the server, one after the other.
 import { again_ms } from './again.js';
 import { el, latest } from './dom.js';
 import { t, tell } from './i18n.js';
@@ -6,9 +6,9 @@ import { ask } from './server.js';
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const even = x => Math.max(16, 2 * Math.round(x / 2));
-const widest = 960; // device pixels
+const widest = 960; // largest width, device pixels
 
-// box: where pictures go; running: running.js. Returns { show(yes) }.
+// box: the element for the pictures; running: see running.js. Returns { show(yes) }.
 export function lensed(box, running) {
   let picture = el('img', {
       alt: t('The playground as light shows it', 'Il laboratorio come lo mostra la luce'),
@@ -33,7 +33,7 @@ export function lensed(box, running) {
     }
   });
 
-  // As large as it is shown; a session begins with a size of its own.
+  // Sets the size of the pictures to that of the box; a new session has a default size.
   function fit() {
     const ratio = Math.min(devicePixelRatio || 1, widest / Math.max(box.clientWidth, 1)),
       [width, height] = [even(box.clientWidth * ratio), even(box.clientHeight * ratio)],
@@ -74,7 +74,7 @@ export function lensed(box, running) {
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => wanted && pull());
   running.addEventListener('begun', () => ((frame = 0), (camera = null), begin(), fit()));
 
-  // Dragged, or by arrow keys, the camera goes round the hole.
+  // Dragging, or the arrow keys, turn the camera round the hole.
   let from = null;
   function turn({ inclination_deg, azimuth_deg }) {
     camera = {

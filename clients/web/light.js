@@ -1,13 +1,13 @@
-// The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve,
-// where its middle goes, and how it is polarised.
+// Light curve, centroid track and polarisation of the picture and of the light that is photometred separately, from the
+// session's events, one for each frame.
 import { byId, el } from './dom.js';
 import { said, t } from './i18n.js';
 import { apart } from './living.js';
 import { plot } from './plot.js';
 import { drawing, drawTrack } from './track.js';
 
-const kept = 1500; // points, at 20 to 45 a second
-const pace_ms = 200; // between two drawings
+const kept = 1500; // points, of which 20 to 45 come a second
+const pace_ms = 200; // least time between two drawings
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
@@ -116,11 +116,11 @@ export function buildLight(root, scene) {
     loop.figure.hidden ||= !light?.stokes;
     none.hidden = Boolean(light);
     if (!light) return;
-    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 }); // a struck hole is the same one
+    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 }); // a strike is no new scene
     const against = (time - points.at(-1)?.time) * scene.get('motion.time_rate') < 0;
-    if (now !== kind || against) points = []; // another scene, or another time
+    if (now !== kind || against) points = []; // another scene, or time has been set back
     kind = now;
-    if (time === points.at(-1)?.time) points.pop(); // the same, seen finer
+    if (time === points.at(-1)?.time) points.pop(); // the same moment in a finer picture replaces the coarse one
     const { flux, spots, stokes } = light;
     points = [
       ...points.slice(1 - kept),
@@ -136,7 +136,7 @@ export function buildLight(root, scene) {
     timer ||= setTimeout(draw, pace_ms);
   }
 
-  // A stream counts as a viewer, so there is one only while somebody looks.
+  // An event stream counts as a viewer of the session, so it is open only while the view is visible.
   return function follow(to, wanted) {
     wanted &&= !document.hidden && !byId('lensing').hidden;
     if (stream && (!wanted || to !== address)) stream = stream.close() ?? null;

@@ -1,7 +1,7 @@
-// The page's address is its state: after the # stand the view, the language, what differs from the default scene, and
-// the parameters of the other views, as in a query.
+// The page's address is its state. After the # stand the view, the language, the fields that differ from the default
+// scene, and the parameters of the other views, in the form of a query.
 const state = new URLSearchParams(location.hash.slice(1));
-const load = performance.timeOrigin; // marks the entries of the browser's history that are ours
+const load = performance.timeOrigin; // marks entries of the browser's history that this load of the page made
 let timer = 0;
 
 function write(how) {
@@ -13,7 +13,7 @@ function write(how) {
 export const get = key => state.get(key);
 export const entries = prefix => [...state].filter(([key]) => key.startsWith(prefix));
 
-// Browsers limit how often the address may change, so it follows a drag only at its end.
+// Browsers limit how often the address may change, so it is updated only at the end of a drag.
 export function set(key, value) {
   if (value == null || value === '') state.delete(key);
   else state.set(key, value);
@@ -25,17 +25,17 @@ export function flush(how = 'replaceState') {
   if (timer || how !== 'replaceState') clearTimeout(timer), write(how);
 }
 
-// Another view, which the browser's Back leaves again.
+// Opens another view as a new entry of the history, so that Back returns.
 export function enter(view) {
   flush();
   set('view', view);
   flush('pushState');
 }
 
-// Back and forward go from view to view; what else was changed meanwhile stays.
+// Back and forward switch views; other changes that were made since stay.
 export function onReturn(show) {
   addEventListener('popstate', event => event.state?.load === load && show(event.state.view));
 }
 
-// An address that somebody typed, or one from before.
+// An address that was typed, or an entry of an earlier load of the page: the page is loaded anew.
 addEventListener('hashchange', () => history.state?.load === load || location.reload());

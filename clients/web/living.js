@@ -1,23 +1,24 @@
-// Here is who says what lives, and the session moves it: time that goes on or stands, what buttons set, a struck hole.
+// Controls of what moves: play and pause, the clock, the buttons that set fields, another seed, and the struck hole.
+// The session does the moving.
 import { byId, el, latest } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
 import { meansSomething } from './known.js';
 import { physics } from './server.js';
 
-const usual_rate = 8; // M a second, where none was chosen
+const usual_rate = 8; // M a second, unless a rate was chosen
 
-// The server says what there is to be seen: light of which flux and centroid are told, light of higher image orders to
-// ring, another time, another azimuth.
+// Properties that the server states of a scene: an emitter that is photometred separately, light of higher image orders
+// that can ring, and whether another time or azimuth would change the picture.
 export const apart = scene => scene.emitters.find(emitter => emitter.apart);
 const canRing = scene => scene.get('accuracy.orders') > 1 && scene.emitters.some(({ at }) => at === 'crossing');
 const showsTime = scene => scene.varies.some(word => word.endsWith('_time'));
 const showsAzimuth = scene => scene.varies.includes('moves_with_azimuth');
 
-// Fields that have a button, of a list those of its first element; and those that another number makes look otherwise.
+// Fields that have a button; of a list, those of its first element.
 const withButton = scene => [...scene.fields.values()].filter(({ button, path }) => button && !/\.[1-9]/.test(path));
 const seeds = scene => [...scene.fields.keys()].filter(path => path.endsWith('.seed') && meansSomething(scene, path));
 
-// A button gives its field a value, and takes it back; what then could move does.
+// A button sets its field, and resets it when pressed again. Setting it also gives time a rate, if it has none.
 function buildButton(scene, { path, button, type, default: usual }, rate) {
   const isOn = () => (type === 'choice' ? scene.get(path) === button.value : scene.get(path) !== usual);
   const node = el('button', {
@@ -36,15 +37,15 @@ function buildButton(scene, { path, button, type, default: usual }, rate) {
 export function buildLiving(stage, scene, source) {
   const [play, clock, seed, strike] = ['play', 'clock', 'new-seed', 'strike'].map(byId),
     fault = byId('strike-fault');
-  let second = 0; // M as a time, of the hole's mass
+  let second = 0; // one M of time in seconds, for the hole's mass
 
-  // the observer, by its own clock, which takes time and azimuth along
+  // the observer moves by its own proper time, which time and azimuth then follow
   const goesItself = () => scene.get('motion.proper_time_rate') !== 0;
   const moves = () =>
     goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
   const rate = () => (goesItself() ? {} : { 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
   const buttons = withButton(scene)
-    .reverse() // each is put before those that are there
+    .reverse() // each is put before the existing ones
     .map(field => buildButton(scene, field, rate));
 
   function toggle() {
@@ -81,7 +82,7 @@ export function buildLiving(stage, scene, source) {
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
     fault.textContent = '';
-    if (showsTime(scene)) weigh().catch(() => {}); // the clock then has no seconds
+    if (showsTime(scene)) weigh().catch(() => {}); // then the clock shows no seconds
     tell_time();
   }
 
@@ -89,7 +90,7 @@ export function buildLiving(stage, scene, source) {
   seed.addEventListener('click', () =>
     scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))),
   );
-  // Only in time that goes on does it ring.
+  // The hole rings only while time runs.
   strike.addEventListener('click', () => {
     if (!goesItself() && scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });
     if (scene.held) scene.hold(false);

@@ -1,7 +1,7 @@
-// Marks on the plane of the playground: the hole's circles, what is aimed at, and the scale.
+// Marks in the playground's plane: the circles of the hole, the aim, and the scale bar.
 import { t } from './i18n.js';
 
-const margin = 4; // of names to the picture's edge
+const margin = 4; // pixels between a name and the picture's edge
 
 function ring(c, plane, r) {
   const [x, y] = plane.project([0, 0, 0]);
@@ -67,7 +67,7 @@ export function aim(c, plane, colours) {
       c.moveTo(tx, ty), c.lineTo(tx - 9 * Math.cos(angle + side), ty - 9 * Math.sin(angle + side));
   c.stroke();
   c.lineWidth = 1;
-  // On the side to which it points, but where all of it is in the picture.
+  // The text stands on the side that the arrow points to, shifted so that all of it is in the picture.
   const [w, h] = plane.size,
     wide = c.measureText(text).width,
     left = Math.min(Math.max(tx < x ? tx - 8 - wide : tx + 8, margin), w - margin - wide),
@@ -76,7 +76,7 @@ export function aim(c, plane, colours) {
   c.fillText(text, left, low);
 }
 
-// How long a round number of M is.
+// The scale bar, of a round number of M.
 export function bar(c, plane, colours) {
   const [w, h] = plane.size;
   const raw = (0.2 * Math.min(w, 500)) / plane.scale,

@@ -1,12 +1,11 @@
-// A hole whose ring the Event Horizon Telescope measured has a slider over its picture: from our picture, without a
-// beam, through the one that a beam blurs, which is the scene as it is, to the measured ring with its error, drawn to
-// scale.
+// For a hole whose ring the Event Horizon Telescope measured, a slider over the picture: from the picture without a
+// beam, through the scene as it is, blurred by its beam, to the measured ring with its error, drawn to scale.
 import { byId, el } from './dom.js';
 import { stops } from './eht.js';
 import { number, t } from './i18n.js';
 import { ask, drawn, physics } from './server.js';
 
-// By mass and distance, in solar masses and parsecs: those that the quantity `scale` has.
+// Mass and distance of each hole, in solar masses and parsecs: the values of the quantity `scale`.
 const holes = { m87: [6.5e9, 16.8e6], sgra: [4.297e6, 8277] };
 
 export function holeOf(scene) {
@@ -17,8 +16,8 @@ export function holeOf(scene) {
 export const isMeasured = scene =>
   Boolean(holeOf(scene)) && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
 
-// The line over the picture: the ring, and the edges of its error. Where on the sky it lies was not measured: it is
-// drawn round the middle of the shadow.
+// The measured ring and the limits of its error, as lines over the picture. Its place on the sky was not measured: it
+// is drawn round the centre of the shadow.
 export async function ring(scene, look, path) {
   const hole = holeOf(scene);
   if (!hole)
@@ -59,7 +58,7 @@ export async function ring(scene, look, path) {
   };
 }
 
-// choose(yes): whether the ring is drawn. size(): of the pictures.
+// choose(yes): sets whether the ring is drawn; size(): of the pictures.
 export function buildMeasured(stage, scene, size, choose) {
   const slider = el('input', {
       type: 'range',
@@ -78,7 +77,7 @@ export function buildMeasured(stage, scene, size, choose) {
     sharp = el('img', { id: 'sharp', alt: '', draggable: false, hidden: true });
   byId('moving').after(sharp);
   stage.parentNode.append(root);
-  let key = '', // of the scene that the sharp picture is of
+  let key = '', // the scene that the sharp picture shows
     old = '',
     asking = false;
 

@@ -9,18 +9,18 @@ function differences(before, after) {
   return patch;
 }
 
-// RFC 7396, from one document to another: a list that changes is sent whole. A style that is named gives its own
-// colours to all that a patch does not say, so with another name all of the new style is said.
+// A patch (RFC 7396) from one document to another. A changed list is sent whole. A patch that names a style also
+// applies the style's values to the fields that it does not set; so when the name changes, the whole style is sent.
 export function mergePatch(before, after) {
   const patch = differences(before, after);
   if (patch.style?.name !== undefined) patch.style = { ...patch.style, ...after.style };
   return patch;
 }
 
-// What a hand moves of a camera.
+// Fields of the camera that a drag or a key changes.
 const by_hand = ['azimuth_deg', 'inclination_deg', 'yaw_deg', 'pitch_deg', 'field_m', 'fov_deg', 'r'];
 
-// Whether a patch only moves the camera, as a drag does: nothing that the server says of a scene follows from that.
+// Whether a patch only moves the camera by hand. The server's statements on the scene do not depend on that.
 export const moves = ({ camera, ...rest }) =>
   camera != null &&
   !Object.keys(rest).length &&

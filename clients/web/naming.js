@@ -1,10 +1,10 @@
-// Lines over the picture carry their names: each at a place of its line that is in the window and far from the names
-// that are there.
+// Places the names of lines over the picture. Each stands at a point of its line that is in the window and far from the
+// other names.
 import { svg } from './dom.js';
 
-const places = 40; // of a line that are tried
+const places = 40; // points of a line that are tried
 const margin = { x: 8, y: 20, bottom: 40 };
-const letter = 7; // pixels, about
+const letter = 7; // width of a letter, about, pixels
 
 function candidates(path, width, height, wide) {
   const length = path.getTotalLength(),
@@ -14,13 +14,13 @@ function candidates(path, width, height, wide) {
   );
 }
 
-// Apart from names, and from the middle, where most lines cross.
+// How much room there is at a point: the distance to other names, and to the middle, where most lines cross.
 function room({ x, y }, taken, width, height) {
   const off = Math.hypot((x - width / 2) / width, (y - height / 2) / height);
   return Math.min(...taken.map(([tx, ty]) => Math.hypot((x - tx) / 4, y - ty)), 60) + 40 * off;
 }
 
-// groups: [{ node, tags }], a tag for each of the first paths of a node.
+// groups: [{ node, tags }], one tag for each of the first paths of the node.
 export function nameLines(groups, width, height) {
   const taken = [];
   for (const { node, tags } of groups) {

@@ -1,8 +1,8 @@
-// The numbers of a chart, as a table under a heading and as CSV.
+// The numbers of a chart, as a table and as CSV.
 import { el } from './dom.js';
 import { number, t } from './i18n.js';
 
-const live_ms = 1000; // between two tables
+const live_ms = 1000; // least time between two updates of a table
 
 export const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
 
@@ -43,7 +43,7 @@ function table(spec) {
 
 const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 
-// No address gives this again.
+// The CSV is made in the page: no address of the server returns it.
 function sheet(spec) {
   const [{ x }] = spec.series,
     rows = [
@@ -53,7 +53,7 @@ function sheet(spec) {
   return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
 }
 
-// The numbers of a spec under a heading, made when they are opened; of what is live anew after a while.
+// The numbers of a chart under a heading. The table is made when it is opened, and that of a live chart is updated.
 export function numbers(id) {
   const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
     links = el('p', {});

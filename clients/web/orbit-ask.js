@@ -1,8 +1,8 @@
-// An orbit asked of the server, so that nothing is refused: a refusal would stand in the browser's console.
+// Requests for orbits, prepared so that the server refuses none: browsers write refusals into the console.
 import { physics, postJson } from './server.js';
 
-// Inside the separatrix a rosette turns into the plunge of a body with the energy of the last orbit that turns back;
-// L^2 and Q are less as p is.
+// Inside the separatrix there is no rosette. It is replaced by a plunge with the energy of the last orbit that turns
+// back, and with L^2 and Q scaled by p over the separatrix's p.
 async function plunge(asked, edge) {
   const { duration: _, seen: __, ...alone } = asked,
     share = asked.orbit.p / edge,
@@ -17,12 +17,12 @@ async function plunge(asked, edge) {
   return { asked: { ...whole, method: asked.method === 'closed' ? 'yoshida6' : asked.method, orbit }, edge, share };
 }
 
-// What is thrown may fall in or fly away, which no closed form follows.
+// Thrown bodies may fall in or fly away, which the closed form does not cover.
 const anyWay = asked => (asked.method === 'closed' && asked.orbit.p == null ? { ...asked, method: 'yoshida6' } : asked);
 
-// { asked }: the document that the server follows; of a rosette within the separatrix { edge, share } too: its p there,
-// and the share of it that p is. Circles there are down to the orbit of light, unstable ones, which the closed form
-// does not follow either.
+// Returns { asked }, the document to send. For a rosette inside the separatrix also { edge, share }: the separatrix's
+// p, and p as a share of it. There are unstable circles inside it, down to the photon orbit; the closed form does not
+// cover these either.
 export async function settled(asked) {
   const { p, e, inclination_deg } = asked.orbit;
   if (p == null) return { asked: anyWay(asked) };
@@ -33,12 +33,12 @@ export async function settled(asked) {
     : plunge(asked, values.p);
 }
 
-// Followed with samples enough for a smooth path: each has 90 bytes on the wire. How often it goes round is known once
-// there is one.
+// Requests an orbit, and again with more samples if the path needs them to be smooth: each sample has 90 bytes on the
+// wire. The first answer gives the number of turns.
 export async function follow(orbit) {
   const { series, ...answer } = await postJson('v1/orbits', orbit),
     at = name => series.columns.indexOf(name),
-    rows = series.rows.filter(row => row[at('t')] != null), // all but the horizon
+    rows = series.rows.filter(row => row[at('t')] != null), // all but the row of the horizon
     turns = Math.abs(rows.at(-1)[at('phi')] - rows[0][at('phi')]) / (2 * Math.PI),
     samples = Math.min(Math.round(24 * turns), 3000);
   if (samples > 1.2 * orbit.samples) return follow({ ...orbit, samples });

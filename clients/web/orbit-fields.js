@@ -1,5 +1,5 @@
-// What an orbit is made of, by three ways: its shape, its integrals of motion, or a place and a velocity; and how it is
-// followed.
+// The fields that define an orbit: its shape, its constants of motion, or a position and a velocity; and how it is
+// integrated.
 import { t } from './i18n.js';
 
 export const own = 'shape';
@@ -175,10 +175,10 @@ const shapes = {
   }),
 };
 
-// What goes into no periods.
+// Whether the orbit has no periods.
 export const ends = v => v.orbit === 'plunge';
 
-// The document that the server is asked for, by the values of the fields.
+// The document of the request, from the values of the fields.
 export function requested(v) {
   const shape = shapes[v.orbit];
   return {

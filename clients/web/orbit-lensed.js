@@ -1,18 +1,18 @@
-// The orbit of the Orbits view, as the camera of the scene sees it: its direct image, of which the server finds each
-// point by the ray that leads there.
+// The orbit of the Orbits view as the camera of the scene sees it: its direct image. The server finds each point by the
+// ray that leads there.
 import { number, t } from './i18n.js';
 import * as link from './link.js';
 import { follow, settled } from './orbit-ask.js';
 import { requested, specs } from './orbit-fields.js';
 import { lines } from './server.js';
 
-const apart = (5 * Math.PI) / 180; // between neighbouring points, as the hole sees them
-const margin = 1.1; // the largest angle is that of a path with other samples
-const most = 20000; // samples that the server takes
+const apart = (5 * Math.PI) / 180; // angle between neighbouring points as seen from the hole
+const margin = 1.1; // the largest angle was measured on a path with other samples
+const most = 20000; // the server's limit on samples
 const patience_ms = 5000;
-const torn = 0.25; // of the window’s width: points that are further apart belong to two arcs
+const torn = 0.25; // of the window's width: points that are further apart belong to two arcs
 const frames = ['static', 'zamo', 'keplerian', 'retrograde', 'infall'];
-// what was asked of late: the same place of the camera asks for it at each picture at rest
+// the latest answer, for a camera that has not moved: each picture at rest asks for it
 let last = { key: '', answer: null };
 
 function observer(scene) {
@@ -28,7 +28,8 @@ function observer(scene) {
   };
 }
 
-// The largest angle between neighbouring places, from the hole. An azimuth would jump where the path passes the axis.
+// The largest angle between neighbouring points as seen from the hole. Azimuths would jump where the path passes the
+// axis.
 function widest(column) {
   const places = ['x', 'y', 'z'].map(column),
     unit = i => places.map(axis => axis[i] / Math.hypot(...places.map(other => other[i])));
@@ -40,8 +41,8 @@ function widest(column) {
   return angle;
 }
 
-// The same orbit with points that are close enough, over as many periods as one answer holds: { asked, all }, all:
-// periods that were wanted. A circle in the plane is one turn.
+// The same orbit with points that are close enough, over as many periods as one answer can hold: { asked, all }, where
+// all is the number of periods that were wanted. For a circle in the equatorial plane one turn is enough.
 async function sampled(asked) {
   const { duration } = asked,
     path = await follow({ ...asked, samples: 400, digits: 7 }),
@@ -59,7 +60,7 @@ async function sampled(asked) {
   };
 }
 
-// Images of its points, as many as are found in time.
+// Images of the orbit's points, as many as the server finds within patience_ms.
 async function images(asked, signal) {
   const enough = new AbortController(),
     answer = { rows: [] };
@@ -94,7 +95,7 @@ async function seen(scene, signal) {
   return answer;
 }
 
-// How much of the path was found in time.
+// A sentence on how much of the path was found in time.
 function share({ rows, asked, all, fate }) {
   const part = Math.min(rows.length / asked.samples, 1),
     periods = part * (asked.duration?.periods ?? 1);
@@ -106,7 +107,7 @@ function share({ rows, asked, all, fate }) {
   return t(`${much}, as many as were found within 5 s`, `${much}, quanti se ne sono trovati in 5 s`);
 }
 
-// look, path: of overlay.js; signal: ends it, for the camera has moved on
+// look, path: see overlay.js; signal: aborts when the camera moves
 export async function orbit(scene, look, path, width, signal) {
   const answer = await seen(scene, signal),
     { rows, columns, spin, shape } = answer,

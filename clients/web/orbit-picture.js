@@ -1,8 +1,9 @@
-// The path of a body in space, which can be turned; the body can be put elsewhere by a drag, and thrown by another.
+// The path of a body in space. Dragging beside the body turns the view; dragging the body places it, and dragging it
+// again throws it.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
 
-// Through the sample before and after each stretch goes a cubic (E. Catmull & R. Rom 1974), as Bezier curves have it.
+// Cubic interpolation between samples (E. Catmull & R. Rom 1974), in the form of Bezier curves.
 const nudge = (from, to, at) => at.map((x, i) => x + (to[i] - from[i]) / 6);
 
 export function smooth(points, k, share) {
@@ -13,12 +14,12 @@ export function smooth(points, k, share) {
   return mix(mix(mix(a, b), mix(b, c)), mix(mix(b, c), mix(c, d)));
 }
 
-const grip = 8; // as near to the body a drag takes hold of it, of 200 across
-const full = 60; // how long an arrow is for the speed of light
+const grip = 8; // distance from the body within which a drag takes hold of it; the picture is 200 wide
+const full = 60; // length of an arrow of the speed of light
 
-// The path as an outside eye far away sees it, by straight lines: turn about the axis, then tilt.
-// hand: { placed([x, y]), thrown([x, y], [vx, vy]) } is told of places in the equatorial plane, M, and velocities in
-// it, c.
+// The path seen from far away along straight lines: turned about the axis, then tilted.
+// hand: { placed([x, y]), thrown([x, y], [vx, vy]) } gets places in the equatorial plane in M, and velocities in it in
+// c.
 export function buildPicture(root, hand) {
   const turn = el('input', { type: 'range', id: 'orbit-turn', min: -180, max: 180, value: 30 });
   const tilt = el('input', { type: 'range', id: 'orbit-tilt', min: 0, max: 180, value: 62 });
@@ -74,7 +75,8 @@ export function buildPicture(root, hand) {
     );
   }
 
-  // Where a point of the picture lies in the equatorial plane; seen along it, as far as it can be told.
+  // The point of the equatorial plane at a point of the picture. Seen nearly edge-on, the distance towards the viewer
+  // is limited.
   function inPlane({ x, y }) {
     const a = (turn.valueAsNumber * Math.PI) / 180,
       c = Math.cos((tilt.valueAsNumber * Math.PI) / 180),
@@ -83,7 +85,7 @@ export function buildPicture(root, hand) {
       right = x / k;
     return [towards * Math.cos(a) - right * Math.sin(a), towards * Math.sin(a) + right * Math.cos(a)];
   }
-  // Nobody puts a body into the hole: it stays beside the horizon, sqrt(r^2 + a^2) from the middle.
+  // A body cannot be placed inside the hole: it stays beside the horizon, at sqrt(r^2 + a^2) from the middle.
   function outside(at) {
     const least = 1.02 * Math.hypot(hole, spin),
       far = Math.hypot(...at);
@@ -93,9 +95,9 @@ export function buildPicture(root, hand) {
   const onBody = at => Math.hypot(at.x - body.getAttribute('cx'), at.y - body.getAttribute('cy')) < grip;
   const arrow = svg('path', { class: 'throw' }),
     speed = svg('text', { class: 'axis' });
-  let held = null; // where the body is while somebody holds it: in the plane
-  let aimed = null; // the velocity that it will be thrown with
-  let put = false; // it has been placed: the next drag throws it
+  let held = null; // place of a body that is dragged, in the plane
+  let aimed = null; // velocity with which it will be thrown
+  let put = false; // whether the body was placed: then the next drag throws it
 
   function drag(event) {
     const at = pointer(event),
@@ -177,9 +179,9 @@ export function buildPicture(root, hand) {
       reach = Math.max(...points.map(p => Math.hypot(...p)), horizon);
       draw();
     },
-    // Not while somebody holds it.
+    // Does nothing during a drag.
     place: point => holding || place(point),
-    // Whatever was placed is so no more.
+    // The next drag places the body again.
     free: () => (put = false),
   };
 }

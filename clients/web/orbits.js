@@ -1,5 +1,5 @@
-// Orbits of bodies, by POST /v1/orbits: the path in space, the potential it moves in, how well its energy is kept, and
-// how its periastron advances.
+// Orbits of bodies, by POST /v1/orbits: the path in space, the effective potential, the numerical drift of the energy,
+// and the advance of the periastron.
 import { persistent } from './again.js';
 import { entitle } from './describe.js';
 import { byId, el, still } from './dom.js';
@@ -89,7 +89,7 @@ export async function openOrbits() {
   );
   hint.textContent = hints;
   let samples = null,
-    shown = '', // its name
+    shown = '', // name of the orbit that is shown
     at = 0,
     running = !still.matches,
     last = 0;
@@ -107,7 +107,7 @@ export async function openOrbits() {
     }
     if (running) begin();
   }
-  let frame = 0; // one at a time, however often something new is shown
+  let frame = 0; // one animation frame at a time, even if several orbits are shown quickly
   function begin() {
     cancelAnimationFrame(frame);
     frame = requestAnimationFrame(step);
@@ -122,8 +122,7 @@ export async function openOrbits() {
     if (began) (last = performance.now()), begin();
   }
   play.addEventListener('click', () => run(!running));
-  // The lines over the picture of the view See follow what the fields say (orbit-lensed.js); its hole spins as this
-  // one does.
+  // Shows the orbit over the picture (orbit-lensed.js), whose hole gets the spin of this one.
   byId('orbit-show').addEventListener('click', () => {
     document.querySelector('nav [data-view=lensing]').click();
     document.dispatchEvent(new CustomEvent('showorbit', { detail: constants?.spin }));
@@ -132,13 +131,12 @@ export async function openOrbits() {
 
   const load = persistent(fault, 'orbits', follows, keep);
 
-  // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same;
-  // all of it is one change.
+  // A drag of the body sets the fields, so that links and the keyboard can do the same. All of it is one change.
   const set = values => (form.put(values), load());
   const azimuth = ([x, y]) => Math.atan2(y, x);
   const digits = (x, n) => Number(x.toFixed(n));
 
-  // x and y are sqrt(r^2 + a^2) by the azimuth's cosine and sine.
+  // x and y are sqrt(r^2 + a^2) times the cosine and the sine of the azimuth.
   function placed(at) {
     const a = Number(form.input('spin').value);
     run(false);
@@ -166,7 +164,7 @@ export async function openOrbits() {
     [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'],
   };
 
-  // Who turns to the integrals of motion begins with those of the orbit that is shown.
+  // When somebody changes to constants of motion, the fields get those of the orbit that is shown.
   let constants = null,
     chosen = null;
   function take({ orbit }) {
@@ -193,7 +191,7 @@ export async function openOrbits() {
     const asked = {
       ...requested(v),
       samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
-      digits: 7, // a path is drawn over some thousand pixels
+      digits: 7, // enough for a path drawn over some thousand pixels
     };
     let said = '';
     const { asked: whole, edge, share } = await settled(asked);
@@ -207,7 +205,7 @@ export async function openOrbits() {
     await show(answer, said);
   }
 
-  // Where there is no such orbit the one before stays, under its own name.
+  // If there is no such orbit, the previous one stays under its own name.
   function keep() {
     if (!shown) return;
     byId('orbits').dataset.kept = true;
@@ -217,7 +215,7 @@ export async function openOrbits() {
     );
   }
 
-  // What is said of an orbit stands beside it from the start, before the answers that draw its potential.
+  // The numbers of an orbit are shown at once; the potential follows when its answers come.
   async function show(answer, said) {
     const { column } = answer;
     const [x, y, z] = ['x', 'y', 'z'].map(column),
@@ -273,7 +271,8 @@ export async function openOrbits() {
       r: `${horizon}:${high}:400`,
       ...(high < 1e3 ? drawn : {}),
     });
-    // Far out all of it is next to 1, and what is above 1 is a wall next to the hole.
+    // Far out, the potential is close to 1 everywhere, and where it exceeds 1 it is a steep wall next to the hole. Then
+    // its difference from 1 is drawn.
     const least = v.values.v_min_matter ?? constants.energy,
       off = 1 - least < 1e-3 ? 1 : 0,
       energy = off ? -constants.binding / (1 + constants.energy) : constants.energy,

@@ -1,5 +1,5 @@
-// Lines lie over the picture. Each is made of numbers of /v1/physics: places on the image plane, or directions from a
-// camera that is near; what is done with them here is to look through the camera at them.
+// Lines over the picture. Each is made of values of /v1/physics: points of the image plane, or directions from a camera
+// near the hole. This module projects them by the camera.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t, tell } from './i18n.js';
 import { nameLines } from './naming.js';
@@ -8,8 +8,8 @@ import * as link from './link.js';
 
 const radians = Math.PI / 180;
 
-// From numbers to pixels of a window of the given size, by the camera of src/render/camera.c: `plane` takes alpha and
-// beta, `direction` components towards -r, +phi and -theta.
+// The projection of values to pixels of a window of the given size, as in src/render/view/camera.c: `plane` takes alpha
+// and beta, `direction` takes components towards -r, +phi and -theta.
 function camera(scene, width, height) {
   const get = name => scene.get('camera.' + name),
     roll = get('roll_deg') * radians;
@@ -17,7 +17,7 @@ function camera(scene, width, height) {
     width / 2 + (x * Math.cos(roll) - y * Math.sin(roll)) * unit,
     height / 2 - (x * Math.sin(roll) + y * Math.cos(roll)) * unit,
   ];
-  // Where angles are distances; c and s: of the roll, by which the camera's own right and up are turned.
+  // Projections in which angles are distances. c and s: of the roll, by which the camera's right and up are turned.
   function turned(projection, ahead, side, upward) {
     const [c, s] = [Math.cos(roll), Math.sin(roll)],
       right = side * c - upward * s,
@@ -49,7 +49,7 @@ function camera(scene, width, height) {
   };
 }
 
-// Pixels: neighbours that are further apart stand on both sides of where a picture of all directions begins and ends.
+// Pixels: neighbours that are further apart lie on two sides of the seam of a picture of all directions.
 let seam = Infinity;
 const beyondSeam = (a, b) => a && b && Math.abs(a[0] - b[0]) > seam;
 
@@ -96,7 +96,7 @@ async function shadow(scene, look) {
   return {
     lines: [path(points, true)],
     tags: [t('edge of the shadow', 'bordo dell’ombra')],
-    // There are no measures for an observer that moves in latitude.
+    // The server gives no width or height for an observer that moves in latitude.
     words:
       v.width === null
         ? ''
@@ -107,13 +107,13 @@ async function shadow(scene, look) {
   };
 }
 
-// Why a circle has no image to draw.
+// Messages where a circle has no image to draw.
 const refusals = {
   '/inclination_deg': t('a line, seen from the plane itself', 'una linea, vista dal piano stesso'),
 };
 
-// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is seen far spread, more points
-// are asked for.
+// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is spread wide, more points are
+// requested.
 async function circle(scene, look, r, order = 0) {
   const far = at_infinity(scene);
   const ask = async angle_deg => {
@@ -232,13 +232,13 @@ const overlays = [
   ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
 ];
 
-const slow = ['orbit']; // takes seconds: the others are there before it
+const slow = ['orbit']; // takes seconds: the other lines are drawn first
 
 export function buildOverlays(root, stage, scene) {
   const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)),
     layer = byId('overlay'),
     notes = new Map();
-  let leave = new AbortController(); // of what the camera has left
+  let leave = new AbortController(); // aborts what the camera's move has made useless
 
   function lay(groups, width, height) {
     layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -294,7 +294,7 @@ export function buildOverlays(root, stage, scene) {
     layer.classList.remove('late');
   });
 
-  // What a slider over the picture chooses; who then chooses otherwise has it so.
+  // Lets a slider over the picture switch an overlay. A choice by the user's own click overrides it.
   const boxes = new Map(),
     asked = new Map();
   function choose(name, yes) {
@@ -338,12 +338,12 @@ export function buildOverlays(root, stage, scene) {
     box.dispatchEvent(new Event('change'));
     if (spin != null && spin !== scene.get('spacetime.spin')) scene.change({ 'spacetime.spin': spin });
   });
-  // until the picture has come to rest
+  // the lines are dimmed until the picture is at rest
   for (const event of ['change', 'move'])
     scene.addEventListener(event, () => (leave.abort(), layer.classList.add('late')));
-  // of another place
+  // a falling observer has moved on
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren());
-  // Axes belong to a coarse picture, too.
+  // The axes of the ring projection are drawn for coarse pictures too.
   const axes = () => scene.get('camera.projection') === 'ring' && draw();
   scene.addEventListener('change', axes);
   axes();

@@ -1,5 +1,5 @@
-// How large pictures are: at rest as large as the window, and while something moves how much of that they keep at
-// least, Auto, Sharp or Fast (sizes.js).
+// The choice of Auto, Sharp or Fast: the least share of the window's width that pictures keep in motion (sizes.js). At
+// rest they are as large as the window.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';

@@ -1,5 +1,4 @@
-// The curves: each a few parameters, an equation, numbers of /v1/physics, a few sentences, and what they are taken
-// from.
+// The view of curves. Each has parameters, an equation, values of /v1/physics, a short text, and its sources.
 import { persistent } from './again.js';
 import { light } from './curves-light.js';
 import { matter } from './curves-matter.js';
@@ -12,7 +11,7 @@ import { drawn, getJson, physics, physicsUrl } from './server.js';
 
 const { explained } = await import(lang === 'it' ? './explained-it.js' : './explained.js');
 
-// In the order in which they are read.
+// The order in which the curves are shown.
 const order = [
   'null-potential',
   'deflection',
@@ -29,7 +28,7 @@ const order = [
 ];
 const charts = [...light, ...matter].sort((a, b) => order.indexOf(a.id ?? a.name) - order.indexOf(b.id ?? b.name));
 
-// A few sentences under a curve, and how it follows, folded.
+// The text under a curve, and its derivation, folded.
 function reading(id) {
   const { text, steps } = explained[id];
   return [
@@ -62,11 +61,11 @@ function card(chart, known) {
     chart.inputs.map(input => ({ ...parameter[input.name], ...input })),
     () => draw(),
   );
-  formula.innerHTML = `<math display="block">${chart.equation}</math>`; // our own text, from above
+  formula.innerHTML = `<math display="block">${chart.equation}</math>`; // constant text of this page, so it is safe
   inputs.addEventListener('submit', event => event.preventDefault());
 
   const draw = persistent(fault, 'physics', async () => {
-    const { octaves, ...asked } = { ...chart.query, ...form.values() }; // the first is for ears alone
+    const { octaves, ...asked } = { ...chart.query, ...form.values() }; // octaves is a parameter of the sound only
     Object.assign(asked, await chart.adjust?.(asked));
     const [answer, also] = await Promise.all([physics(chart.name, { ...asked, ...drawn }), chart.also?.(asked)]);
     const shown = chart.show(answer.values, answer.parameters, also);
@@ -93,7 +92,7 @@ function card(chart, known) {
 
 const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase();
 
-// The names of all curves, each leading to its card, and a search through what is written on the cards.
+// The index of all curves, with links to their cards, and a search through the texts of the cards.
 function index(cards) {
   const box = el('input', { type: 'search', id: 'curve-find', autocomplete: 'off', spellcheck: 'false' }),
     told = el('p', { class: 'help', role: 'status' });
@@ -152,5 +151,5 @@ export async function openPhysics() {
   byId('curve-index').replaceChildren(...index(cards));
   byId('curves').replaceChildren(...cards.map(c => c.node));
   entitle('physics', t(`${cards.length} curves`, `${cards.length} curve`));
-  for (const c of cards) await c.draw(); // one after the other: pictures come first
+  for (const c of cards) await c.draw(); // one after the other, so that pictures come first
 }

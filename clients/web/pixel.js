@@ -1,6 +1,6 @@
-// "What is this light?": where the light of one pixel comes from, in sentences, with its ray bending past the hole
-// beside them and the numbers folded below. A tap asks, and so do arrow keys, which move the cross. Opened by its
-// button or key the card follows the pointer, and asks where that rests, until one of the two pins it.
+// "What is this light?": where the light of one pixel comes from, in sentences, with its ray past the hole beside them
+// and the numbers folded below. A tap or the arrow keys choose the pixel. If the card is opened by its button or key,
+// it follows the pointer and asks wherever that rests, until a tap or an arrow key pins it.
 import { byId, el, latest } from './dom.js';
 import { duration, number, said, t, tell } from './i18n.js';
 import { buildInset } from './inset.js';
@@ -8,15 +8,15 @@ import { light_m_s, sun_m } from './scene.js';
 import { ask } from './server.js';
 import { hasNames, nameOf, starsIn } from './stars.js';
 
-const rest_ms = 80; // that a pointer stays before it asks
-const late_ms = 150; // after which words of another place are no longer there
-const change_ms = 400; // that the scene is as it is
+const rest_ms = 80; // a pointer must rest so long before the server is asked
+const late_ms = 150; // after which the old text is replaced by "Following this light back …"
+const change_ms = 400; // the scene must be unchanged so long before the server is asked again
 const star_px = 6;
-const sideways = 0.01; // M, of L/E: light that leaves so is of gas that comes no nearer
+const sideways = 0.01; // M, of L/E: light of less comes from gas that neither approaches nor recedes
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
-// What makes the pixel independent of the rest of the picture, of which none is then rendered: the card shows light as
-// it arrives, before exposure, glare and beam.
+// Values that make the pixel independent of the rest of the picture, so that no other pixel is rendered. The card shows
+// light as it arrives, before exposure, glare and beam.
 const alone = {
   'image.samples': 1,
   'style.exposure': 0,
@@ -29,7 +29,7 @@ const degrees = radians => ((((radians * 180) / Math.PI) % 360) + 360) % 360;
 const angle = radians => number(degrees(radians), 3) + '°';
 const length = r => number(r, 4) + ' M';
 
-// All that sends light to the ray, the brightest first: { seen, kind, name, ...what is known of the place }.
+// The sources of the ray's light, the brightest first: { seen, kind, name, ...what is known of the place }.
 function sources({ crossings, met, along, end }) {
   const all = [
     ...crossings.flatMap(crossing =>
@@ -60,8 +60,7 @@ function sources({ crossings, met, along, end }) {
   return all.map(source => ({ ...source, share: source.seen / whole })).sort((a, b) => b.seen - a.seen);
 }
 
-// An observer at infinity has no moment at which light left, but differences of them: from the hole it would take r + 2
-// ln r.
+// For an observer at infinity only differences of travel time are finite; the time from the hole would be r + 2 ln r.
 const ago = (delay, far) =>
   far
     ? [
@@ -80,7 +79,7 @@ const images = [
 ];
 const orderOf = order => `${images[Math.min(order, 2)]} (${t('order', 'ordine')} ${order})`;
 
-// What the shift does to light. Over all frequencies its brightness goes by g⁴.
+// What the frequency shift does to the light. The brightness over all frequencies goes by g⁴.
 function shifted(g) {
   const per_cent = number(100 * Math.abs(g - 1), 2),
     by = g ** (g > 1 ? 4 : -4),
@@ -97,7 +96,7 @@ function shifted(g) {
       );
 }
 
-// second: M as a time.
+// second: one M of time, in seconds.
 function when(delay, { far, second }) {
   const time = duration(Math.abs(delay) * second);
   if (!far) return t(`It left ${time} ago.`, `È partita ${time} fa.`);
@@ -125,7 +124,7 @@ function round(order) {
       );
 }
 
-// Gas of the plane goes round towards +φ: light along with it, which has a positive L, leaves forwards.
+// Gas in the plane moves towards +φ: light with positive L was emitted forwards.
 function motion({ kind, lambda }) {
   if (kind !== 'crossing' || Math.abs(lambda) < sideways) return '';
   return lambda > 0
@@ -133,7 +132,7 @@ function motion({ kind, lambda }) {
     : t(', going away from you', ', che si allontana da te');
 }
 
-// Sentences for each of them, and facts.
+// The sentences and the numbers for one source.
 function wording(source, place) {
   const { title, far, star, lambda } = place,
     { kind, points, g, delay, r } = source,
@@ -211,7 +210,7 @@ function none({ end }) {
   return t('No light.', 'Nessuna luce.');
 }
 
-// size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), places in the stage, and
+// size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), a place in the stage, and
 // close().
 export function buildPixel(stage, scene, size) {
   const card = byId('pixel'),
@@ -242,7 +241,7 @@ export function buildPixel(stage, scene, size) {
     error,
   );
   card.replaceChildren(close_button, head, inset.node, numbers, fault);
-  // { u, v }: shares of the picture, which stay what they are where the window turns or shrinks; null: closed
+  // { u, v }: shares of the picture's width and height, which hold when the window is resized; null: closed
   let at = null,
     pinned = false,
     timer = 0,
@@ -250,7 +249,7 @@ export function buildPixel(stage, scene, size) {
 
   const placed = () => ({ x: at.u * stage.clientWidth, y: at.v * stage.clientHeight });
 
-  // The name of a star, where the sky has them and one is there.
+  // The star at the pixel, if the sky has named ones.
   async function starAt() {
     if (!hasNames(scene)) return null;
     const { images } = await starsIn(scene, stage).catch(() => ({ images: [] }));
@@ -328,7 +327,7 @@ export function buildPixel(stage, scene, size) {
   function place() {
     cross.style.left = `${100 * at.u}%`;
     cross.style.top = `${100 * at.v}%`;
-    // The card hides nothing that is looked at: beside it in a wide window, above or below it on a telephone.
+    // The card leaves the pixel free: it stands beside it in a wide window, above or below it on a telephone.
     card.dataset.side = at.u < 0.5 ? 'right' : 'left';
     card.dataset.edge = at.v < 0.5 ? 'bottom' : 'top';
   }
@@ -357,7 +356,7 @@ export function buildPixel(stage, scene, size) {
     look({ x: event.clientX - box.left, y: event.clientY - box.top }, false);
   });
   const steps = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
-  // Before the camera's own keys.
+  // Before the camera's handler of the same keys.
   stage.addEventListener(
     'keydown',
     event => {

@@ -1,21 +1,21 @@
-// The plane of the playground from above, or tilted: the hole and its circles, bodies with their trails, debris, and
-// what somebody aims.
+// The plane of the playground, from above or tilted: the hole and its circles, bodies with their trails, debris, and
+// the aim.
 import { aim, bar, circles } from './marks.js';
 import { physics } from './server.js';
 
-// points of a trail; up to how many bodies there are trails of full length, and any
+// past: points of a trail; up to `few` bodies have full trails, beyond `none` no body has one
 const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
-const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, of the table of colours
+const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, range and number of the table of colours
 const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 export class Plane {
   cx = 0;
   cy = 0;
-  scale = 4; // pixels of the page a M
+  scale = 4; // CSS pixels per M
   tilt = 0;
-  follows = null; // what stays in the middle: "all", "chosen"
-  chosen = null; // id of the body that is marked
+  follows = null; // what stays in the middle: "all", "chosen", or null
+  chosen = null; // id of the marked body
   aim = null; // { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
   bodies = null;
   debris = null;
@@ -25,10 +25,10 @@ export class Plane {
   #canvas;
   #asked = false;
   #trails = new Map();
-  #index = new Map(); // of ids, their rows
+  #index = new Map(); // row of each id
   #table = null;
   #colours;
-  #labels = []; // where names stand
+  #labels = []; // places of names
 
   constructor(canvas) {
     this.#canvas = canvas;
@@ -45,7 +45,7 @@ export class Plane {
         this.redraw();
       },
       () => {},
-    ); // grey, then
+    ); // without the table bodies stay grey
   }
 
   get size() {
@@ -60,13 +60,13 @@ export class Plane {
     ];
   }
 
-  // The place of the plane z = 0 under a pixel.
+  // The point of the plane z = 0 under a pixel.
   place(px, py) {
     const [w, h] = this.size;
     return [this.cx + (px - w / 2) / this.scale, this.cy + (h / 2 - py) / (this.scale * Math.cos(this.tilt)), 0];
   }
 
-  // So that `reach` M are seen from the middle to the nearer edge.
+  // Shows `reach` M from the middle to the nearer edge.
   fit([x, y], reach) {
     const [w, h] = this.size;
     [this.cx, this.cy] = [x, y];
@@ -74,8 +74,8 @@ export class Plane {
     this.redraw();
   }
 
-  // What is to be seen of a preset, or else of a snapshot's bodies about the first of them: its middle, and how far it
-  // reaches. Bodies far from the hole are followed.
+  // The middle and the reach of a preset; of a snapshot, those of its bodies about the first one. A middle away from
+  // the hole is followed.
   around(preset) {
     const all = this.all(),
       middle = preset?.centre ?? (!preset && all.length ? all[0].x : [0, 0, 0]);
@@ -87,7 +87,7 @@ export class Plane {
     return { middle, wide: preset?.reach ?? farthest };
   }
 
-  // The path of what is aimed at.
+  // Draws the predicted path of the aim.
   foresee({ points, captured }) {
     Object.assign(this.aim, { path: points, captured });
     this.#canvas.dataset.path = points.length;
@@ -129,14 +129,14 @@ export class Plane {
     return this.bodies ? [...Array(this.bodies.n).keys()].map(i => this.row(i)) : [];
   }
 
-  // This is the centre of mass of all bodies.
+  // The centre of mass of all bodies.
   #middle() {
     const all = this.all(),
       mass = all.reduce((sum, body) => sum + body.mass, 0);
     return mass > 0 && [0, 1, 2].map(k => all.reduce((sum, body) => sum + body.mass * body.x[k], 0) / mass);
   }
 
-  // The body nearest to a pixel, if one is near.
+  // The body nearest to a pixel, or null if none is within reach.
   near(px, py, within) {
     let best = null;
     for (const body of this.all()) {
@@ -231,7 +231,7 @@ export class Plane {
     for (const [id, trail] of this.#trails) {
       const own = this.body(id);
       c.strokeStyle = own ? this.#colour(own.temperature_k) : this.#colours.dim;
-      // Older parts are fainter: four lengths, each with its own strength.
+      // Older parts are fainter: four sections, each of its own strength.
       for (let part = 0; part < 4; part++) {
         const from = Math.floor((trail.length * part) / 4),
           to = Math.min(Math.floor((trail.length * (part + 1)) / 4) + 1, trail.length);
@@ -244,8 +244,8 @@ export class Plane {
     c.globalAlpha = 1;
   }
 
-  // From one place to the next as the velocities at both say (Hermite, as a Bezier curve). Where it has gone round too
-  // far meanwhile nobody knows how.
+  // A section of a trail by the positions and velocities at its ends (Hermite, as a Bezier curve). It is left out if
+  // the body has turned too far in between.
   #stretch(c, before, now, on) {
     const there = this.project(now);
     if (!on) return c.moveTo(...there);
@@ -290,7 +290,7 @@ export class Plane {
     const name = this.names.get(body.id) ?? '',
       wide = c.measureText(name).width,
       [left, low] = [x + size + 6, y + 4];
-    // A name that would lie on another one waits until there is room, but for the chosen body's.
+    // A name that would overlap another one is left out, except that of the chosen body.
     if (
       body.id !== this.chosen &&
       this.#labels.some(one => Math.abs(one.low - low) < 13 && left < one.left + one.wide && one.left < left + wide)

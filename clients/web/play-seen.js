@@ -1,4 +1,4 @@
-// What one sees of each preset of the playground, in a few words that stand below it.
+// A short text below each preset of the playground on what one sees.
 import { t } from './i18n.js';
 
 const words = {

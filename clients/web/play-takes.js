@@ -1,12 +1,12 @@
-// What can be taken from a playground, numbers, a snapshot and films, and the snapshot that can be brought back.
+// Downloads of a playground: numbers, a snapshot and films; and the upload of a snapshot.
 import { remembered } from './job.js';
 import { take } from './server.js';
 
-// part: of playground-parts.js; running: running.js; act(task) tells what is wrong; begin(snapshot).
+// part: see playground-parts.js; running: see running.js; act(task) shows the error of a task; begin(snapshot).
 export function buildTakes(part, running, act, begin) {
   for (const [button, what, name, type] of part.takes)
     button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
-  // Films, once somebody looks.
+  // The module of films is loaded when its section is opened.
   let films = null;
   const filmed = part.record.closest('details');
   const record = () =>
@@ -25,6 +25,6 @@ export function buildTakes(part, running, act, begin) {
     const [file] = part.load.files;
     if (!file) return;
     await act(async () => begin({ rate: running.state?.rate, ...JSON.parse(await file.text()) }));
-    part.load.value = ''; // the same file may be chosen once more
+    part.load.value = ''; // so that choosing the same file again is an event
   });
 }

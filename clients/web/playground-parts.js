@@ -1,8 +1,8 @@
-// The parts of the playground's view: its elements, made when it is opened.
+// The elements of the playground's view, made when it is opened.
 import { el } from './dom.js';
 import { number, preset as titled, t } from './i18n.js';
 
-// Names of the presets in English; it-playground.js has them in Italian.
+// English names of the presets; it-playground.js has the Italian ones.
 const english = {
   disruption: 'Torn star',
   'white-dwarf': 'White dwarf',
@@ -23,7 +23,7 @@ const keys = () =>
     'Premi dove non c’è nulla e trascina: la freccia è la velocità, e lasciando si lancia. Trascina un corpo per rilanciarlo, toccalo per sceglierlo. Rotella o due dita: più vicino; Maiusc e trascina, o due dita: sposta la vista. Da tastiera: le frecce muovono il punto di lancio, I e K allungano e accorciano la freccia, J e L la girano, Invio lancia, N e P scelgono un corpo, Canc lo toglie, spazio ferma il tempo, il punto fa un passo, + − 0 e Maiusc con le frecce muovono la vista, Esc lascia.',
   );
 
-// In the server's own words of what it could do.
+// The clock: time, and the rate that the server reaches.
 function clock(node) {
   return tick => {
     const { rate, rate_reached: reached, slowed, paused, resting } = tick,

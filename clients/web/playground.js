@@ -1,4 +1,4 @@
-// The playground: bodies thrown round the hole, computed by the server, seen from above and as light shows them.
+// The playground: bodies thrown round the hole, computed by the server, shown from above and as light shows them.
 import { persistent } from './again.js';
 import { chirp } from './chirp.js';
 import { course } from './course.js';
@@ -22,14 +22,14 @@ import { scale } from './slider.js';
 import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
-const arrow_px = 90; // of the reference speed, as in hands.js
-const first = 'system'; // planets: they fill both pictures and go round for ever, and their answer is short
-const roomy = matchMedia('(min-width: 75rem)'); // room for both pictures
+const arrow_px = 90; // length of an arrow of the reference speed, as in hands.js
+const first = 'system'; // planets: they fill both pictures, go round for ever, and their answers are short
+const roomy = matchMedia('(min-width: 75rem)'); // wide enough for both pictures
 
 export async function openPlayground() {
   if (lang === 'it') learn(await import('./it-playground.js'));
   const known = await getJson('v1/playground');
-  // What is fitted into the window needs its size.
+  // The stylesheet comes first: fitting the view needs the sizes of its elements.
   await new Promise((done, fail) =>
     document.head.append(
       el('link', {
@@ -50,10 +50,10 @@ export async function openPlayground() {
     events = eventList(part.events, say),
     picture = lensed(part.lensed, running);
   let chosen = null,
-    awaited = false, // the server has what is chosen, and no picture of the bodies has it yet
-    flying = null, // a throw that is on its way to the server
-    halts = null, // { paused } that is on its way
-    hurries = null, // a rate that is on its way
+    awaited = false, // the server has the chosen body, but no picture of the bodies has it yet
+    flying = null, // a throw that the server has not answered yet
+    halts = null, // { paused }, not answered yet
+    hurries = null, // a rate, not answered yet
     given = null; // a snapshot that was loaded
 
   const preset = () => known.presets.find(({ name }) => name === part.preset.value);
@@ -69,7 +69,7 @@ export async function openPlayground() {
   };
   const patch = change => act(() => running.change(change));
 
-  // What is aimed at, drawn and foretold.
+  // Draws the aim and its prediction.
   const { speed, foretell } = foretold(
     running,
     plane,
@@ -92,13 +92,13 @@ export async function openPlayground() {
     foretell();
   }
 
-  // Whoever aims makes new numbers; where a body is that is thrown anew changes by itself.
+  // Whether two aims are the same. Aiming makes new arrays; the place of a body that is thrown again changes by itself.
   const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
 
   async function release() {
     const mine = { ...hand.aims },
       { from, velocity, body } = mine;
-    if (same(flying, mine)) return; // once is enough, however long the answer takes
+    if (same(flying, mine)) return; // sent already, and not answered yet
     flying = mine;
     const fields = form.fields(),
       v = velocity.map(x => Number(x.toPrecision(9)));
@@ -111,7 +111,7 @@ export async function openPlayground() {
     if (same(hand.aims, mine)) {
       hand.aim({ armed: false, body: null });
       choose(id ?? null);
-    } // else another one is aimed at by now
+    } // else somebody has aimed again meanwhile
     const name = plane.names.get(id) ?? '';
     say(t(`${name} goes at ${number(Math.hypot(...v), 3)} c.`, `${name} va a ${number(Math.hypot(...v), 3)} c.`));
   }
@@ -135,7 +135,7 @@ export async function openPlayground() {
     await patch(mine);
     if (halts === mine) halts = null;
   }
-  // One at a time, and one more: a key that is held asks for many.
+  // One step at a time, and at most one waiting: a key that is held down repeats.
   const step = latest(async () => {
     if (!paused()) return;
     const rate = part.rate.validity.valid ? part.rate.valueAsNumber : running.state.rate;
@@ -167,7 +167,7 @@ export async function openPlayground() {
       paused = link.get('play.paused') === '1';
     return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
   });
-  let hole = {}; // gravity and spin, where somebody has chosen them
+  let hole = {}; // gravity and spin, if somebody has chosen them
   const showRules = rules(
     part.rules,
     known.settings,
@@ -175,8 +175,7 @@ export async function openPlayground() {
     (name, value) => ((hole = { ...hole, [name]: value }), (given = null), begin()),
   );
 
-  // What is shown.
-  // Whoever comes by no link sees the bodies from above and, where there is room, as light shows them.
+  // By default the plan is shown and, for the first preset in a wide window, the lensed view too.
   const usual = () => (part.preset.value === first && roomy.matches ? 'both' : 'plan');
   const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
   function show(name) {
@@ -191,7 +190,7 @@ export async function openPlayground() {
   }
   for (const button of part.views) button.addEventListener('click', () => show(button.value));
 
-  // Time.
+  // The rate of time.
   const pace = scale(paces),
     setRate = latest(async rate => {
       link.set('play.rate', rate);
@@ -215,7 +214,7 @@ export async function openPlayground() {
     hole = {};
     link.set('play.rate', null);
     link.set('play.preset', part.preset.value === first ? null : part.preset.value);
-    // what is usual is another thing now
+    // the default view depends on the preset
     show([...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value ?? usual());
     begin();
   });
@@ -248,10 +247,10 @@ export async function openPlayground() {
     else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
   });
   running.addEventListener('state', ({ detail: state }) => {
-    // an answer to what was asked before would take back for a moment what somebody has just set
+    // while changes are unanswered, an older state must not reset the controls
     const newest = !running.waits();
     if (newest) showRules(state.settings);
-    part.views[0].parentNode.hidden = !state.scene; // there are no pictures where the server has no scene for it
+    part.views[0].parentNode.hidden = !state.scene; // without a scene the server renders no pictures
     plane.names = new Map(state.bodies.map(({ id, name }) => [id, said(name).text]));
     form.bodies(state.bodies.map(({ id, name }) => ({ id, name: said(name).text })));
     if (newest) part.paused(state.paused);

@@ -1,11 +1,11 @@
-// uPlot draws the charts. What is added here: curves that do not share their x, marks, a legend that hides curves and
-// says their values, reading by keyboard, and the numbers as a table beside each.
+// Charts by uPlot. This module adds curves with x columns of their own, marks, a legend that hides curves and shows
+// their values, reading by keyboard, and the numbers as a table beside each chart.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
 import { numbers, shared } from './numbers.js';
 
 document.head.append(el('link', { rel: 'stylesheet', href: new URL('vendor/uplot/uPlot.min.css', import.meta.url) }));
-// The shorter of uPlot's two builds is a script, not a module: it leaves its name in the window.
+// The smaller of uPlot's two builds is a script, not a module: it sets a global variable.
 const uPlot = await new Promise((done, fail) =>
   document.head.append(
     el('script', {
@@ -38,7 +38,7 @@ function extent(given, values) {
   return [given.min ?? low - room, given.max ?? high + room];
 }
 
-// Ticks far from 1 are written without their common power of ten, which goes to the label.
+// The power of ten that ticks far from 1 are divided by; the label has it.
 function power([low, high], log) {
   const p = Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high))));
   return log || (p > -3 && p < 6) ? 0 : p;
@@ -46,7 +46,7 @@ function power([low, high], log) {
 
 const shown = (value, given) => (finite(value) && !(given.log && value <= 0) ? value : null);
 
-// One column of x and one of y for each curve, as uPlot takes them.
+// One column of x and one of y for each curve, the form that uPlot takes.
 function columns(spec) {
   const tables = spec.series.map(({ x, y }) => {
     const rows = x.map((value, i) => [value, shown(y[i], spec.y)]).filter(([value]) => shown(value, spec.x) != null);
@@ -101,7 +101,7 @@ function axis(label, values, more) {
   };
 }
 
-// As wide as the longest number beside it.
+// Width of the axis for its longest number.
 const room = (u, values) => 12 + 7 * Math.max(2, ...(values ?? []).map(text => text.length));
 
 function key(style) {
@@ -113,7 +113,7 @@ function key(style) {
 }
 
 // spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{
-// x or y, label, low, left }] }. Returns the figure, with a method draw(spec) that puts other numbers into it.
+// x or y, label, low, left }] }. Returns the figure, with a method draw(spec) that shows other numbers.
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
@@ -129,7 +129,7 @@ export function plot(first) {
     made = '',
     u = null,
     limits = null;
-  const hidden = new Set(); // names of curves that somebody switched off
+  const hidden = new Set(); // names of curves that were switched off
 
   const shift = axis => power(limits[axis], spec[axis].log),
     label = axis => spec[axis].label + (shift(axis) ? ` / ${number(10 ** shift(axis))}` : '');
@@ -138,7 +138,7 @@ export function plot(first) {
     height: Math.round(Math.min(Math.max(chart.clientWidth * 0.6, 200), 340)),
   });
 
-  // The values at the cursor: in the legend, and as what the slider that the chart is stands at.
+  // Shows the values at the cursor in the legend, and as the value of the chart, which is a slider for screen readers.
   function read() {
     const at = u.cursor.idx ?? 0,
       on = u.cursor.idx != null;
@@ -214,7 +214,7 @@ export function plot(first) {
     return button;
   }
 
-  // What stays the same from one draw to the next keeps its chart; a window without width gets one when it has it.
+  // The chart is rebuilt only if curves or scales have changed. Without a width it waits for one.
   function render() {
     if (!spec || !chart.clientWidth) return;
     const now = JSON.stringify([spec.series.map(s => s.style), spec.x.log, spec.y.log]);

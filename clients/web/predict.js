@@ -1,25 +1,25 @@
-// Where something thrown will go. In the potential of Paczynski and Wiita this is reckoned here, by the law and the
-// steps that the server has (playground/step.c): kick, drift, kick, h <= C (r - 2), softened pulls of the other bodies,
-// speeds held at c. Waves, tides and mergers are left out, and the pulls of light bodies. With gravity "kerr" the
-// server is asked (POST /v1/orbits).
+// Predicts the path of a thrown body. In the Paczyński–Wiita potential the page integrates it with the server's law and
+// steps (playground/step.c): kick, drift, kick, h <= C (r - 2), softened forces between bodies, speeds limited to c.
+// Waves, tides, mergers and the forces of light bodies are left out. With gravity "kerr" the server is asked (POST
+// /v1/orbits).
 import { postJson } from './server.js';
 
 const light = 1e-5, // masses of the hole
   several = 16,
-  pairs = 1e6, // as many as a moment has room for
+  pairs = 1e6, // what a prediction has time for
   clearance = 1.25,
   captured = 2.05;
 
 const radius = x => Math.hypot(x[0], x[1], x[2]);
 
-// Those whose pulls are reckoned with.
+// The bodies whose forces are included.
 export const heavy = bodies =>
   bodies
     .filter(({ mass }) => mass >= light)
     .sort((a, b) => b.mass - a.mass)
     .slice(0, several);
 
-// The speed that what is there is measured by: of a circle round the hole, and round the bodies next to it.
+// The reference speed at a place: that of a circle round the hole and the bodies near it.
 export function reference(place, bodies, softening) {
   const r = Math.max(radius(place), 2.5);
   let square = r / (r - 2) ** 2;
@@ -28,7 +28,7 @@ export function reference(place, bodies, softening) {
   return Math.min(Math.sqrt(square), 0.9);
 }
 
-// a: accelerations of all at x, 3 numbers each. Returns the fastest rate that their steps must follow, times C.
+// a: accelerations at x, 3 numbers for each body. Returns the fastest rate of change, which with C gives the step.
 function pulls(x, mass, n, softening, a) {
   let fastest = 0;
   for (let i = 0; i < 3 * n; i += 3) {
@@ -61,8 +61,8 @@ function kick(v, a, n, time) {
   }
 }
 
-// thrown: { x, v, mass }; bodies: likewise, without it. Returns { points, captured }, up to one and a half turns or
-// `far` from the hole.
+// thrown: { x, v, mass }; bodies: all others. Returns { points, captured }, for up to one and a half turns or to a
+// distance `far` from the hole.
 export function predict(thrown, bodies, { softening, safety, h_max }, far) {
   const all = [thrown, ...heavy(bodies)],
     x = Float64Array.from(all.flatMap(body => body.x)),
@@ -72,7 +72,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
     r = radius(thrown.x),
     end = 3 * Math.PI * Math.sqrt(r) * Math.abs(r - 2),
     points = [[...thrown.x]],
-    apart = r / 300; // between two points, at least
+    apart = r / 300; // least distance of two points
   if (r <= captured) return { points, captured: true };
   let n = all.length,
     t = 0,

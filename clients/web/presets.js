@@ -1,5 +1,5 @@
-// The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers
-// the name.
+// The list of presets. It shows the one that the scene matches, at any time and from any azimuth; the link keeps its
+// name.
 import { firstDocument, first_view } from './ahead.js';
 import { byId, el } from './dom.js';
 import { label, t, tell } from './i18n.js';
@@ -8,18 +8,18 @@ import { left_out } from './known.js';
 import { told, valueAt } from './scene.js';
 import { getJson } from './server.js';
 
-const plain = 'default'; // what a link then calls the default scene
+const plain = 'default'; // the default scene's name in a link
 
-const renamed = { 'm87-eht': 'm87' }; // in links from before
+const renamed = { 'm87-eht': 'm87' }; // older names in links
 const document_of = name => getJson('v1/presets/' + encodeURIComponent(renamed[name] ?? name));
 
-// All as it was at first.
+// Shows the first view again.
 export async function startAgain(scene) {
   scene.replace(first_view ? await document_of(first_view) : {}, {}, scene.fits);
 }
 
-// What a link says of the scene goes over the preset that it names, and without one over the default scene. One that
-// says nothing is of the first view.
+// The fields of a link override those of the preset that it names, or of the default scene. A link without fields shows
+// the first view.
 export async function openPreset(scene) {
   const chosen =
       link.get('preset') ??
@@ -34,7 +34,7 @@ export async function openPreset(scene) {
           if (error.status !== 404) throw error;
           scene.unknown.push('preset');
         }));
-  // The width that the preset has anyhow nobody has chosen.
+  // A width that equals the preset's was not chosen by anybody.
   const given = Object.fromEntries(
     Object.entries(linked).filter(([path, value]) => value !== valueAt(document ?? {}, path)),
   );
@@ -42,10 +42,11 @@ export async function openPreset(scene) {
   if (held) scene.hold(true);
 }
 
-// It is the same scene with other values of these: a picture of it at another time or from another side.
+// Fields that do not change which preset a scene matches: the picture, the time and the azimuth.
 const besides = path => ['image', 'time'].includes(path.split('.')[0]) || path === 'camera.azimuth_deg';
 
-// What makes a scene another one, in the order of the fields; fitted: whose width is the window's.
+// A scene's other fields as a text, to compare scenes by. fitted: its width is set by the window, so the scene's own
+// counts.
 function essence(scene, document, fitted = null) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {
@@ -55,8 +56,8 @@ function essence(scene, document, fitted = null) {
   return JSON.stringify(own);
 }
 
-// A link with a preset says what differs from it, so the default too, where the preset has another value. The width
-// that the window asks for is not said.
+// A link with a preset holds what differs from the preset, even a default value. A width that the window set is left
+// out.
 function linkBeside(scene, document, fitted) {
   for (const [path, { default: usual }] of scene.fields) {
     const theirs = told(valueAt(document, path)) ?? usual;
@@ -70,7 +71,7 @@ export async function buildPresets(scene) {
   const [{ presets }, { buildGallery, caption }] = await Promise.all([getJson('v1/presets'), import('./gallery.js')]),
     select = byId('preset'),
     help = byId('preset-help'),
-    known = new Map([['', { text: '{}', document: {} }]]); // essences by name
+    known = new Map([['', { text: '{}', document: {} }]]); // texts and documents of presets, by name
   const own = el('option', { value: 'own', disabled: true }, t('a scene of your own', 'una scena tua'));
   select.append(
     el('option', { value: '' }, t('default', 'predefinita')),
@@ -96,7 +97,7 @@ export async function buildPresets(scene) {
     help.textContent = chosen ? caption(chosen.name, chosen.title) : '';
   }
 
-  let newest = 0; // of the choices: an answer may come after that to a later one
+  let newest = 0; // number of the newest choice; an older one may be answered later
   select.addEventListener('change', async () => {
     const mine = ++newest;
     try {

@@ -1,5 +1,5 @@
-// Films of five seconds, made by a job on the server while the page goes on: the pictures come first, and what they
-// look like is shown as they come; then the server has them encoded, or gives them as they are, numbered.
+// Films of five seconds, made by a job on the server. Its pictures are shown as they come; then the server encodes the
+// film, or returns the pictures, numbered.
 import { el, latest } from './dom.js';
 import { duration, t, tell } from './i18n.js';
 import { fileName, jobOf, offer } from './job.js';
@@ -8,7 +8,7 @@ import { ask, getJson, postJson } from './server.js';
 import { samples } from './source.js';
 
 export const seconds = 5;
-const plan_ms = 600; // after the last change until what it would take is asked for
+const plan_ms = 600; // after the last change, before the cost is requested
 const even = x => Math.max(2, 2 * Math.round(x / 2));
 
 const choose = (id, label, options) =>
@@ -24,10 +24,10 @@ const choose = (id, label, options) =>
   );
 const button = (id, text, attributes) => el('button', { type: 'button', id, ...attributes }, text);
 
-// kinds: [{ name, text, lacks(): why it would show nothing, request(n, width, height): a document of a job, plan(n,
-// width, height): one of /v1/plan }]; size(): of what is seen, in pixels; key: of the tab's memory, and of ids; preset:
-// what a link calls the preset's name, by which files are named. Returns renew(), to be called when what would be
-// filmed has changed.
+// kinds: [{ name, text, lacks(): why the film would show nothing, request(n, width, height): the document of a job,
+// plan(n, width, height): the document of /v1/plan }]; size(): of the view, in pixels; key: prefix of sessionStorage
+// and of ids; preset: key of the preset's name in the link, from which files are named. Returns renew(), to be called
+// when what would be filmed has changed.
 export function buildFilms(box, { key, kinds, size, preset }) {
   const starts = kinds.map(({ name, text }) =>
       button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` }),
@@ -91,7 +91,7 @@ export function buildFilms(box, { key, kinds, size, preset }) {
     fault,
   );
 
-  let looks = null, // at a picture that is on its way
+  let looks = null, // the preview that is being loaded
     shown = -1;
   async function show(id) {
     const answer = await ask(`v1/jobs/${id}/preview.png`).catch(() => null);
@@ -102,13 +102,13 @@ export function buildFilms(box, { key, kinds, size, preset }) {
     preview.hidden = false;
   }
 
-  // The newest picture, if another one has come.
+  // Loads the newest picture, if there is one.
   function look({ finished }, { id }) {
     if (finished && finished !== shown && !looks) (shown = finished), (looks = show(id));
     return looks;
   }
 
-  // Where there is no ffmpeg the pictures are given as they are, and that is said.
+  // Without ffmpeg the server has no films: the pictures are returned instead, and the page says so.
   async function fetchFilm({ id, form: as, rate }) {
     const at = `v1/jobs/${id}/result?format=`;
     if (as === 'zip') return { film: await ask(at + 'zip'), as };
@@ -170,7 +170,7 @@ export function buildFilms(box, { key, kinds, size, preset }) {
     }),
   );
 
-  // What each would take, and why one would show nothing.
+  // Shows the cost of each film, or why it would show nothing.
   const estimate = latest(async () => {
     for (const [i, kind] of kinds.entries()) {
       if (blank[i]) tell(takes[i], blank[i]);
@@ -204,7 +204,7 @@ export function buildFilms(box, { key, kinds, size, preset }) {
 
 const steps = (from, to, n) => Array.from({ length: n }, (_, k) => from + ((to - from) * k) / (n - 1));
 
-// One field goes from a value to another one.
+// A film in which one field goes from one value to another.
 function glide(scene, path, range) {
   const over = (width, height) => ({ 'image.width': width, 'image.height': height, 'image.samples': samples(scene) });
   const at = value => path.split('.').reduceRight((inner, name) => ({ [name]: inner }), value);
@@ -223,13 +223,12 @@ function glide(scene, path, range) {
   };
 }
 
-// Films of the scene.
 export function recordScene(box, scene, size) {
   const still = words => !scene.varies.some(word => words.includes(word)),
     rate = () => scene.get('motion.time_rate') || 20,
     falls = () => scene.get('motion.proper_time_rate') > 0,
     now = () => scene.get('time');
-  // The way round begins where the camera is, in numbers that the field takes.
+  // One turn that begins at the camera's azimuth, in numbers within the range of the field.
   const round = n => {
     const from = ((scene.get('camera.azimuth_deg') % 360) + 360) % 360;
     return [from - 360, from - 360 / n];
@@ -269,7 +268,7 @@ export function recordScene(box, scene, size) {
   box.closest('details').addEventListener('toggle', renew);
 }
 
-// Films of a playground, from where it is now on, at its pace.
+// Films of a playground from now on, at its rate.
 export function recordPlay(box, running, size) {
   const kind = {
     name: 'play',

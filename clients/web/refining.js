@@ -1,10 +1,10 @@
-// A picture that takes the server long, the first one or a finer one: how much of it is done, and how many seconds are
-// left, in words and as a bar at the picture’s edge.
+// Progress of a picture that takes long, the first one or a finer one: the share done and the seconds left, in words
+// and as a bar at the picture's edge.
 import { byId, seen } from './dom.js';
 import { number, t } from './i18n.js';
 import { getJson } from './server.js';
 
-// after the picture that is shown, or the change that asks for another one, before anything is said
+// waiting time after a picture, or after a change, before progress is shown
 const patience_ms = 1500;
 const every_ms = 700;
 
@@ -25,8 +25,8 @@ function sentence(name, { fraction, remaining_s: left }) {
         );
 }
 
-// address(): of the session; say(words): of what is on its way. Returns follow(waits): a picture other than the one
-// that is shown is to come.
+// address(): of the session; say(words): shows progress. Returns follow(waits), where waits is whether another picture
+// is to come.
 export function buildRefining(address, say) {
   const bar = byId('refined'),
     first = byId('first');
@@ -37,7 +37,7 @@ export function buildRefining(address, say) {
     await seen('lensing');
     if (mine !== timer) return;
     const { frame, rendering, refining } = (address() && (await getJson(address()).catch(() => null))) || {};
-    if (mine !== timer) return; // it has come, or another one is made
+    if (mine !== timer) return; // it has come, or another one has been begun
     const made = rendering ?? refining;
     bar.hidden = !made;
     if (made) {

@@ -1,11 +1,11 @@
-// How long the rest takes, from what has been done so far: the time since the start over the share that is done.
-const least_ms = 3000; // and
-const least_share = 0.02; // are a basis; before there is none
-const smoothing = 0.2; // of the time of the end, a look
+// Estimates the remaining time: the time since the start over the share done since then.
+const least_ms = 3000; // an estimate needs this time
+const least_share = 0.02; // and this share
+const smoothing = 0.2; // weight of the newest estimate
 
-// Returns left(share): seconds, or null. share: of the whole, 0 to 1; null: it has not begun, for others are before it.
+// Returns left(share): seconds, or null without an estimate. share: 0 to 1, or null before it begins.
 export function remaining(clock = () => performance.now()) {
-  let first = null, // look at it
+  let first = null, // first call with a share
     end = null;
   return share => {
     const now = clock();

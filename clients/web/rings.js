@@ -1,6 +1,6 @@
-// The axes of the projection "ring" (src/render/view/ring.c): across, the angle round the critical curve; upwards, the
-// distance to it, in decades on both sides of the curve, outside it above; and the image orders by name, where light of
-// the disk's edges puts them.
+// Axes of the projection "ring" (src/render/view/ring.c): across, the angle round the critical curve; upwards, the
+// distance to it in decades, outside the curve above and inside below; and the image orders, placed by where the disk's
+// edges are seen.
 import { svg } from './dom.js';
 import { drawn, physics } from './server.js';
 
@@ -36,7 +36,7 @@ export async function ringAxes(scene, width, height) {
     lines.push(`M${x} ${height}v-8`);
     nodes.push(text(x, height - 12, `${degrees}°`, { 'text-anchor': 'middle' }));
   }
-  // In the middle of each band that has a width on the screen, a third of the way across.
+  // A third of the way across, in the middle of each band that is tall enough on the screen.
   const x = width / 3,
     [inner, outer] = [scene.get('disk.inner'), scene.get('disk.outer')];
   const { values } = await physics('photon-rings', {

@@ -1,4 +1,4 @@
-// The settings of a playground: a control for each that the server lists. Those that everybody turns stand in front.
+// The settings of a playground: a control for each setting that the server lists. The common ones stand in front.
 import { badge } from './badge.js';
 import { el, typing } from './dom.js';
 import { helpOf, t, word } from './i18n.js';
@@ -26,7 +26,7 @@ const names = {
   seed: t('Seed', 'Seme'),
 };
 
-// All are numbers of a model but these.
+// All other settings are parameters of a model.
 const natures = { spin: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
 
 function control(row, id, changed) {
@@ -87,7 +87,7 @@ function control(row, id, changed) {
   };
 }
 
-// rows: of GET /v1/playground; changed(name, value); anew(name, value): of what is chosen when a playground begins.
+// rows: of GET /v1/playground; changed(name, value); anew(name, value): for settings that need a new playground.
 export function rules(root, rows, changed, anew) {
   const made = new Map(
       rows.map(row => [row.name, control(row, 'play-' + row.name, fixed.includes(row.name) ? anew : changed)]),

@@ -1,19 +1,19 @@
-// A playground of the server's: told what to do, and followed as it goes. Where bodies are comes packed, as often as
-// somebody draws; what happens comes as events. One that has ended, with the server or for want of anybody who watched,
-// is begun anew.
+// A playground on the server: sends changes, and follows its state. Positions of bodies come in binary form, as often
+// as they are drawn; events come by a stream. A playground that the server has ended, when it stopped or when nobody
+// watched, is begun again.
 import { again_ms } from './again.js';
 import { seen } from './dom.js';
 import { t } from './i18n.js';
 import { ask, passes } from './server.js';
 
 const view = 'playground';
-const pieces = 12000; // as many as a window's pixels can show apart
-const debris_ms = 120; // between two asks for them
+const pieces = 12000; // as many as a window's pixels can show
+const debris_ms = 120; // between two requests for them
 const names_ms = 400;
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const seenNow = () => !document.hidden && document.body.dataset.view === view;
 
-// Rows of numbers behind a header of eight words: 32 bits each, the first byte the least.
+// Rows of 32-bit numbers after a header of eight words, little-endian.
 function unpack(buffer) {
   const head = new DataView(buffer);
   return {
@@ -27,18 +27,18 @@ function unpack(buffer) {
   };
 }
 
-// Tells of: begun (state), state, moved (bodies), debris, tick, happened (event), lost (numbers of events), ended
+// Events: begun (state), state, moved (bodies), debris, tick, happened (event), lost (numbers of events), ended
 // (sentence), fault (error or null).
 export class Running extends EventTarget {
   #session = null;
   #document = {};
-  #kept = null; // a snapshot of when the page was hidden: a playground that nobody watches ends
+  #kept = null; // snapshot from when the page was hidden: the server ends a playground that nobody watches
   #polls = new AbortController();
   #events = null;
-  #last = 0; // number of the newest event that came
+  #last = 0; // number of the newest event received
   #named = 0;
   #tries = 0;
-  // of the newest change: each goes when the one before has been answered, or they might arrive the other way round
+  // The newest change. Each is sent after the answer to the one before, so that they cannot overtake each other.
   #turn = Promise.resolve();
 
   state = null;
@@ -91,7 +91,7 @@ export class Running extends EventTarget {
     this.#events = null;
   }
 
-  // A document of docs/playground.md. What the server refuses is thrown.
+  // given: a document as docs/playground.md describes it. Throws what the server refuses.
   async begin(given) {
     const answer = await ask('v1/playground', {
         method: 'POST',
@@ -123,7 +123,7 @@ export class Running extends EventTarget {
     return this.#session && `${this.#session.url}/${part}`;
   }
 
-  // The state, with names: asked for where bodies have come or gone.
+  // Requests the state, with names, when bodies have come or gone.
   async #name(session) {
     if (performance.now() < this.#named) return;
     this.#named = performance.now() + names_ms;
@@ -155,7 +155,7 @@ export class Running extends EventTarget {
     return session === this.#session ? this.#take(state) : null;
   }
 
-  // How many changes have not been answered.
+  // Number of unanswered changes.
   waits() {
     return this.#session?.waits ?? 0;
   }
@@ -168,7 +168,8 @@ export class Running extends EventTarget {
     return this.#inTurn(this.#session, 'POST', '/step', { by });
   }
 
-  // It is no more: on from where it was when the page was hidden, else the same document once again.
+  // Begins again after the server has ended the playground: from the snapshot if there is one, else from the same
+  // document.
   async #anew() {
     const { document: kept } = this.#kept ?? {};
     this.#hush();
@@ -234,7 +235,7 @@ export class Running extends EventTarget {
 
   #listen() {
     if (!this.#session || this.#events || !seenNow()) return;
-    this.#kept = this.#kept && { ...this.#kept, session: null }; // the next time it is taken anew
+    this.#kept = this.#kept && { ...this.#kept, session: null }; // the next time the page is hidden a new one is taken
     const events = (this.#events = new EventSource(`${this.#session.url}/events?since=${this.#last}`)),
       told = message => JSON.parse(message.data);
     events.addEventListener('tick', message => this.#tell('tick', (this.tick = told(message))));
@@ -244,6 +245,6 @@ export class Running extends EventTarget {
       this.#tell('happened', happened);
     });
     events.addEventListener('lost', message => this.#tell('lost', told(message)));
-    events.addEventListener('end', () => events.close()); // who asks for its bodies learns that it is no more
+    events.addEventListener('end', () => events.close()); // the next request for bodies then learns that it has ended
   }
 }

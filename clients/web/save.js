@@ -1,5 +1,4 @@
-// "Save picture": a job on the server renders it at any size, while the page goes on. The PNG holds the scene that it
-// shows.
+// "Save picture": a job on the server renders it at any size, while the page stays usable. The PNG holds its scene.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import { fileName, jobOf, offer, remembered } from './job.js';
@@ -7,8 +6,7 @@ import * as link from './link.js';
 import { samples } from './source.js';
 import { ask } from './server.js';
 
-// What the picture is to be, as values that go over those of the scene. Of the window's shape it shows what the window
-// shows.
+// The values to render with, over those of the scene. With the window's shape the picture shows what the window shows.
 export function picked(scene, size) {
   const choice = byId('save-size').value,
     here = size(),
@@ -37,7 +35,7 @@ export function buildSave(scene, size, changed) {
     'take',
   ].map(byId);
 
-  // A size of one's own begins with the window's.
+  // A custom size begins with the window's.
   function showSize() {
     const here = size(),
       before = own.hidden;
@@ -86,7 +84,7 @@ export function buildSave(scene, size, changed) {
   if (job.resume() || remembered('film')) group.open = true;
   showSize();
 
-  // Films, once somebody looks.
+  // The module of films is loaded when its section is opened.
   let films = null;
   const record = () =>
     group.open &&

@@ -1,4 +1,4 @@
-// A hole in kilometres, seconds and on the sky, beside what the Event Horizon Telescope measured.
+// A hole in kilometres, seconds and microarcseconds, beside what the Event Horizon Telescope measured.
 import { persistent } from './again.js';
 import { entitle } from './describe.js';
 import { byId, el } from './dom.js';
@@ -63,7 +63,7 @@ const specs = [
       'Between the axis of the hole and the line of sight; empty: that of the hole',
       'Tra l’asse del buco e la linea di vista; vuoto: quella del buco',
     ),
-  }, // that of the hole
+  },
 ];
 
 const shown = [
@@ -87,7 +87,7 @@ const shown = [
   ['fall_longest_s', 'the longest there is, a = 0', 'il massimo possibile, a = 0'],
 ];
 
-// What is seen, for the title.
+// The title's words on what is shown.
 const name = (hole, v) =>
   entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : specs[0].words[hole]);
 

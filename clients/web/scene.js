@@ -1,6 +1,6 @@
-// The scene of the page is what differs from the defaults of the server's schema, by dotted path. While time goes on
-// the server knows how late it is; what it says of that is told as 'tick', what else it changes as 'settle', what
-// anybody here changes as 'change', and while a hand moves the camera as 'move'.
+// The scene of the page: the values that differ from the defaults of the server's schema, by dotted path. Events:
+// 'change' after a change on the page, 'move' while the camera is dragged, 'settle' when the server has changed values,
+// and 'tick' when it has sent a new time.
 import { still } from './dom.js';
 import { getJson } from './server.js';
 import * as link from './link.js';
@@ -8,11 +8,11 @@ import * as link from './link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
-const hand_ms = 200; // without a move, after which a hand rests
-const aside = ['tile']; // sections that the page has no use for: it shows whole pictures
-const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace']; // what a link has without a dot
+const hand_ms = 200; // without a move for so long, a drag has come to rest
+const aside = ['tile']; // sections that the page does not use: it shows whole pictures
+const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace']; // keys of a link without a dot
 
-// Elements of a list have paths of their own: spots.0.r.
+// Elements of a list have their own paths: spots.0.r.
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.deprecated || aside.includes(name)) continue;
@@ -33,14 +33,14 @@ function* flatten(schema, prefix = '') {
   }
 }
 
-// What its control needs to know (src/scene/control.h).
+// Hints for the control of a field (src/scene/control.h).
 const control = spec =>
   Object.fromEntries(['span', 'first', 'switch', 'with', 'varies', 'button'].map(key => [key, spec['x-' + key]]));
 
-// The section or the element that a field stands in, as a path.
+// The path of a field's section or element.
 const home = path => path.slice(0, Math.max(0, path.lastIndexOf('.')));
 
-// Those of a member of the document, each with its path; a section may stand in another one: disk.gas.
+// The sections of a member of the document, each with its path; sections may be nested: disk.gas.
 function sections([path, spec]) {
   if (spec.deprecated || !(spec.properties || spec.items)) return [];
   return [
@@ -52,19 +52,24 @@ function sections([path, spec]) {
 // One M of one solar mass, in metres: G m_sun/c^2 (nominal, IAU 2015 resolution B3).
 export const light_m_s = 299792458;
 export const sun_m = 1.3271244e20 / light_m_s ** 2;
-// Microarcseconds that it is wide on the sky at one parsec (B2).
+// Its width on the sky at a distance of one parsec (IAU 2015 resolution B2), in microarcseconds.
 const m_uas = (sun_m / 3.085677581491367e16) * ((180 * 3.6e9) / Math.PI);
 
-// As a link has it: nobody sees the seventh digit.
+// The time as a link has it: a seventh digit would not be seen.
 export const linkedTime = time => Number(time?.toPrecision(6)) || null;
 
-// What stands there in a document; undefined where nothing does.
+// The value at a path of a document, or undefined.
 export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
-// Words are a list in a document and a text elsewhere, as in a link.
+// Words are a list in a document, and a text with commas elsewhere, as in a link.
 export const told = value => (Array.isArray(value) ? value.join(',') : value);
 
-// { type: 'number' | 'integer' | 'choice' | 'switch' | 'words' | 'asset', minimum, maximum, word, choices }
+// { type: 'number'
+// 'integer'
+// 'choice'
+// 'switch'
+// 'words'
+// 'asset', minimum, maximum, word, choices }
 function kind(spec) {
   if (spec.items)
     return {
@@ -76,7 +81,7 @@ function kind(spec) {
   if (spec.type === 'boolean') return { type: 'switch' };
   const asset = spec.anyOf?.find(part => part.pattern);
   if (asset) return { type: 'asset', word: new RegExp(asset.pattern) };
-  // beside a word, which has a type too
+  // the numeric type, if the field takes a word as well
   const range = spec.anyOf?.find(part => part.type && !('const' in part)) ?? spec;
   return {
     type: range.type,
@@ -96,21 +101,21 @@ function parse(field, text) {
 
 export class Scene extends EventTarget {
   #values = new Map();
-  #styles = {}; // what each style sets, by path
-  #now = null; // of the newest picture while time goes on
-  #moved = new Map(); // likewise, by path, what else the server moves: the place of an observer that falls
+  #styles = {}; // the fields that each style sets, by path
+  #now = null; // time of the newest picture while time runs
+  #moved = new Map(); // other values that the server moves, by path, such as the place of a falling observer
   #timer = 0;
-  #hand = 0; // until it rests
-  #clock = null; // that goes without pictures
-  #linked = 0; // when the address last kept up
-  held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
-  varies = []; // what another time or azimuth would show, as the server says of the scene (docs/live.md)
-  emitters = []; // what shines in it, likewise
-  unknown = []; // what of the link means nothing here
-  linked = []; // paths of what the link says of the scene
-  jumps = 0; // how often somebody set the time
-  jumped = new Set(); // paths of what was moved, and has been set by somebody since
-  drift = 0; // degrees a second that the camera goes round until somebody touches anything (drift.js)
+  #hand = 0; // timer of a drag, until it comes to rest
+  #clock = null; // timer of the clock without pictures
+  #linked = 0; // when the address was last updated
+  held = link.get('pause') === '1' || still.matches; // nothing moves until somebody presses Play
+  varies = []; // what another time or azimuth would change, by the server (docs/live.md)
+  emitters = []; // the scene's emitters, by the server
+  unknown = []; // keys of the link that mean nothing here
+  linked = []; // paths of scene fields that the link set
+  jumps = 0; // how often somebody has set the time
+  jumped = new Set(); // paths of moved values that somebody has set since
+  drift = 0; // degrees a second by which the camera turns until somebody touches anything (drift.js)
 
   static async load() {
     const schema = await getJson('v1/schema'),
@@ -149,7 +154,7 @@ export class Scene extends EventTarget {
     return scene;
   }
 
-  // A link from before: what it calls by an old name is called by the new one.
+  // Renames the old names of fields in a link.
   #renew(schema) {
     for (const [old, spec] of Object.entries(schema.properties).filter(([, spec]) => spec['x-now']))
       for (const [key, value] of link.entries(old + '.')) {
@@ -158,7 +163,7 @@ export class Scene extends EventTarget {
       }
   }
 
-  // Elements of a list, as paths; and how many there are up to the last that is not all at its defaults.
+  // Paths of all elements of a list; count() is the number up to the last one that differs from its defaults.
   elements(list) {
     const { most } = this.sections.find(({ name }) => name === list);
     return Array.from({ length: most }, (_, i) => `${list}.${i}`);
@@ -177,7 +182,7 @@ export class Scene extends EventTarget {
     return [...values].sort(([a], [b]) => (b === 'style.name') - (a === 'style.name'));
   }
 
-  // What a style sets is said even where it is the default: else the style would say it.
+  // Sets a value. A field that the style sets is kept even at its default, else the style's value would apply.
   #put(path, given) {
     let value = told(given);
     const styled = path in (this.#styles[this.#values.get('style.name')] ?? {});
@@ -193,18 +198,18 @@ export class Scene extends EventTarget {
     return this.#values.get(path) ?? this.fields.get(path)?.default;
   }
 
-  // Where the server began to move it from.
+  // The value from which the server began to move a field.
   begun = path => this.#values.get(path) ?? this.fields.get(path).default;
 
-  // Of all that the server moves, by path.
+  // These values of all fields that the server moves, by path.
   origins = () => Object.fromEntries([...this.#moved.keys()].map(path => [path, this.begun(path)]));
 
-  // What was moved stays where it is seen.
+  // Fixes moved values where they are.
   land() {
     if (this.#moved.size) this.settle(Object.fromEntries(this.#moved));
   }
 
-  // Where the camera has drifted to it stays when it stops.
+  // Sets the drift. When it ends, the camera stays where it has drifted to.
   drifts(rate) {
     if (rate === this.drift) return;
     this.drift = rate;
@@ -217,20 +222,20 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('drift'));
   }
 
-  // Degrees a second that the camera goes round.
+  // Degrees a second that the camera turns.
   turns() {
     return this.held ? 0 : this.drift || this.get('motion.azimuth_rate_deg');
   }
 
-  // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the
-  // changes.
+  // Sets values, such as { 'camera.r': 30 }; null is the default. A style sets its fields, except those among the
+  // values.
   change(values) {
     this.#set(values);
     this.#changed();
   }
 
-  // What a hand moves is a 'move' each time, and a 'change' only where it rests: what stands beside the picture follows
-  // then.
+  // Sets values during a drag: 'move' each time, and 'change' only when the drag rests, since what stands beside the
+  // picture follows 'change'.
   move(values) {
     this.#set(values);
     this.#stop();
@@ -250,8 +255,8 @@ export class Scene extends EventTarget {
     this.#field(all);
   }
 
-  // The width of the image plane is one number in two units, as the server has it (src/scene/sky_scale.h): the one that
-  // is given last holds, of both that on the sky.
+  // The width of the image plane is one number in two units, as on the server (src/scene/sky_scale.h): the one that is
+  // set last holds; if both are set, the one on the sky.
   #field(given) {
     if ('camera.field_m' in given && given['camera.field_uas'] == null) this.#put('camera.field_uas', null);
     const uas = this.get('camera.field_uas');
@@ -272,10 +277,10 @@ export class Scene extends EventTarget {
     this.#clock = null;
   }
 
-  // Time goes on, but nothing that is seen moves with it: there are no pictures to tell the time by.
+  // Whether time runs but nothing visible moves with it, so that no pictures tell the time.
   resting = () => this.#clock != null;
 
-  // Whether what moves by itself moves.
+  // Stops, or lets go on, all that moves by itself.
   hold(held) {
     this.drifts(0);
     this.held = held;
@@ -291,7 +296,7 @@ export class Scene extends EventTarget {
     );
   }
 
-  // What the server says of values that it changed.
+  // Takes values that the server has changed.
   settle(values) {
     this.#stop();
     if ('time' in values) this.#now = null;
@@ -300,14 +305,14 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('settle'));
   }
 
-  // What the server says of the scene as it is.
+  // Takes the server's statements on the scene.
   tellSeen({ varies, emitters }) {
     const changed = JSON.stringify([varies, emitters]) !== JSON.stringify([this.varies, this.emitters]);
     Object.assign(this, { varies, emitters });
     if (changed) this.dispatchEvent(new Event('settle'));
   }
 
-  // After a picture of full quality the next one comes soon, or nothing that is seen moves.
+  // Takes the time of a picture. After one of full quality either the next one comes soon, or nothing visible moves.
   tick(time, fine, moved = {}) {
     this.#stop();
     for (const [path, value] of Object.entries(moved)) this.jumped.has(path) || this.#moved.set(path, value);
@@ -318,7 +323,7 @@ export class Scene extends EventTarget {
     this.#tell(time);
   }
 
-  // The address keeps up, so that a link from it shows what is seen now.
+  // Keeps the address up to date, so that a link shows what is seen now.
   #tell(time) {
     this.#now = time;
     if (performance.now() > this.#linked + link_ms) {
@@ -329,8 +334,8 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('tick'));
   }
 
-  // All of a document, whatever was there before; the picture's size is the page's affair. over: values by path that go
-  // over it, a style's among them before its fields; fitted: what of it the window changes (fit.js).
+  // Replaces the whole scene by a document; the picture's size is left to the page. over: values by path that go over
+  // it, a style's among them before its fields; fitted: adapts values to the window (fit.js).
   replace(document, over = {}, fitted = values => values) {
     this.held = still.matches;
     link.set('pause', null);
@@ -349,8 +354,8 @@ export class Scene extends EventTarget {
     ]);
   }
 
-  // As JSON, with what differs only; other: values that go over those of the page; begun: with what is moved where it
-  // began. Elements at their defaults before others are {}.
+  // The scene as JSON, only with what differs. other: values that go over the page's; begun: moved values are given as
+  // they began. Elements at their defaults are {} if others follow.
   document(other = {}, begun = false) {
     const out = {};
     for (const [path, value] of this.#with(other, begun ? [] : this.#moved)) {
@@ -364,7 +369,7 @@ export class Scene extends EventTarget {
     return out;
   }
 
-  // A query makes elements one after the other: of those that are {} it says one default.
+  // A query makes elements one after the other, so an element {} is given by one default value.
   #pairs(document, before = '') {
     return Object.entries(document).flatMap(([name, value]) => {
       const path = before + name;

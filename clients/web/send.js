@@ -1,4 +1,4 @@
-// "Share": the address of the scene to send on, with what others see of it before they open it, and a poster.
+// "Share": the address of the scene, with the preview that others see before they open it, and a poster.
 import { byId, el } from './dom.js';
 import { describe } from './describe.js';
 import { t, tell } from './i18n.js';
@@ -9,17 +9,17 @@ const asked = 'v1/share'; // addresses in its answers are relative to it
 const preview = { width: 600, height: 315 };
 const poster = '3840x2160';
 
-// As it is seen now, but for the width that only this window asks for.
+// The scene as it is seen now, but without a width that the window set.
 function documentOf(scene) {
   const fitted = scene.fitted(),
     time = linkedTime(scene.get('time'));
   return scene.document({ ...(time && { time }), ...(fitted && { [fitted.path]: fitted.base }) });
 }
 
-// field: where it stands, if it does.
+// field: the input that shows the text, if there is one.
 async function copy(text, done, field) {
   try {
-    await navigator.clipboard.writeText(text); // only where the page came over HTTPS or from this machine
+    await navigator.clipboard.writeText(text); // only if the page came over HTTPS or from this machine
     done.textContent = t('Copied.', 'Copiato.');
   } catch {
     field.value = text;
@@ -30,11 +30,11 @@ async function copy(text, done, field) {
 
 const absolute = address => new URL(address, new URL(asked, location.href)).href;
 
-// For pages that the server lists.
+// An iframe, for pages that the server lists.
 const frameOf = ({ embed, title }) =>
   `<iframe src="${absolute(embed)}" title="${title}" style="border:0;width:100%;aspect-ratio:16/9" loading="lazy" allowfullscreen></iframe>`;
 
-// What the panel does, it tells there: how far it is, and a button that ends it.
+// Opens the panel that shows a job's progress, and its button to cancel.
 function inPanel(card, told, cancel) {
   card.close();
   byId('take').open = true;
@@ -42,7 +42,7 @@ function inPanel(card, told, cancel) {
   byId(cancel).focus();
 }
 
-// "Save picture" does it, with a line below the picture.
+// Makes a poster by "Save picture", with a line of text.
 function makePoster(card, scene, url) {
   const size = byId('save-size');
   size.value = poster;
@@ -52,10 +52,10 @@ function makePoster(card, scene, url) {
   inPanel(card, 'save-told', 'save-cancel');
 }
 
-// Of what moves by itself, else once round the hole, else with another spin: the first film that would show something.
+// Begins the first of these films that would show something: of what moves by itself, once round the hole, other spins.
 async function makeFilm(card) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
-  byId('take').open = true; // that builds them
+  byId('take').open = true; // opening it builds the films' buttons
   while (!document.querySelector(films[0])) await new Promise(resolve => setTimeout(resolve, 50));
   films
     .map(id => document.querySelector(id))
@@ -64,13 +64,13 @@ async function makeFilm(card) {
   inPanel(card, 'film-told', 'film-cancel');
 }
 
-// What others see in the place of the link.
+// The preview that others see with the link.
 function previewOf({ code, title, about }) {
   const picture = el('img', {
     src: `v1/share/${code}/picture.png?width=${preview.width}`,
     alt: '',
     ...preview,
-    onerror: () => (picture.hidden = true), // the server is busy: the link is good all the same
+    onerror: () => (picture.hidden = true), // the server is busy; the link works all the same
   });
   return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
 }

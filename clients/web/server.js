@@ -1,4 +1,4 @@
-// What the server is asked for besides pictures. An answer that is no success becomes a Problem (RFC 9457).
+// Requests to the server besides pictures. An unsuccessful answer is thrown as a Problem (RFC 9457).
 import { t } from './i18n.js';
 
 export class Problem extends Error {
@@ -12,7 +12,7 @@ export class Problem extends Error {
 
 export const too_large = 'urn:kerrd:problem:too-large';
 
-// Whether another try may go better: nobody answered, or the server had trouble of its own.
+// Whether another try may succeed: no answer came, or the server had a temporary error.
 export const passes = error => !(error instanceof Problem) || error.status >= 500 || error.status === 429;
 
 export async function ask(url, options) {
@@ -24,7 +24,7 @@ export async function ask(url, options) {
   return answer;
 }
 
-// What is there goes into a file.
+// Downloads an address as a file.
 export async function take(address, name, type) {
   const url = URL.createObjectURL(await (await ask(address, type ? { headers: { Accept: type } } : {})).blob());
   Object.assign(document.createElement('a'), { href: url, download: name }).click();
@@ -42,7 +42,7 @@ export const postJson = async (url, body) =>
     })
   ).json();
 
-// The lines of a streamed answer, each as a document, as they come.
+// The lines of a streamed answer, each parsed, as they come.
 export async function* lines(url, body, signal) {
   const { body: stream } = await ask(url, {
     method: 'POST',
@@ -60,14 +60,14 @@ export async function* lines(url, body, signal) {
   }
 }
 
-// Numbers of /v1/physics are asked for once: most of what is drawn asks again for what it had.
+// Answers of /v1/physics are cached: most drawings request the same values again.
 const kept = new Map();
 
 export function physicsUrl(name, parameters) {
   return `v1/physics/${name}?` + new URLSearchParams(parameters).toString().replaceAll('%3A', ':');
 }
 
-// No chart shows more digits of a curve's numbers, and all would be three times the bytes.
+// Charts show no more digits than these; all digits would be three times the bytes.
 export const drawn = { digits: 6 };
 
 export function physics(name, parameters) {

@@ -1,4 +1,4 @@
-// A session as the page knows it, and scenes as it has them.
+// The page's state of a session, and forms of the scene for it.
 import { take } from './ahead.js';
 
 export const fresh = ({ id, token, flight = [] }) => ({
@@ -16,15 +16,15 @@ export const fresh = ({ id, token, flight = [] }) => ({
   plain: false,
 });
 
-// What decides how long a pixel takes, and the window.
+// The parts of a scene that decide its cost: the size of the picture, and all that decides how long a pixel takes.
 export const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 
 export const asleep = document => ({ ...document, motion: { ...document.motion, azimuth_rate_deg: 0 } });
 
-// The session that was opened ahead of everything else, of the scene as it is now. Returns a function that is called
-// once; its promise is of null where there is none.
+// Adopts the session that was opened ahead of everything else, for the current scene. Returns a function to be called
+// once; its promise is null if there is no session.
 export function adopter(scene) {
-  const fitted = scene.fitted(), // the window's width nobody has told the server
+  const fitted = scene.fitted(), // the server does not know the width that the window set
     document = scene.document(fitted && fitted.value !== fitted.base ? { [fitted.path]: fitted.base } : {}, true),
     { jumps } = scene;
   return async () => {

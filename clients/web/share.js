@@ -1,4 +1,4 @@
-// What can be taken away: the link, the picture as a file, the scene as JSON and as a command.
+// The panel of what can be taken away: the link, the picture as a file, the scene as JSON and as a command.
 import { byId, paced } from './dom.js';
 import { t, tell } from './i18n.js';
 import * as link from './link.js';
@@ -22,7 +22,7 @@ export function share(scene, size) {
   async function copy(text, from) {
     const done = byId('copied');
     try {
-      await navigator.clipboard.writeText(text); // only where the page came over HTTPS or from this machine
+      await navigator.clipboard.writeText(text); // only if the page came over HTTPS or from this machine
       done.textContent = t('Copied.', 'Copiato.');
     } catch {
       from?.select();

@@ -1,2 +1,2 @@
-// The page of a shared scene leads to the page with that scene, which takes its place in the browser's history.
+// Replaces the page of a shared scene by the main page with that scene, in the same entry of the browser's history.
 location.replace(document.getElementById('open').href);

@@ -1,6 +1,6 @@
-// The controls of a view lie in a sheet over the lower edge of a narrow, upright window, while its picture stays where
-// it is. A handle has three heights: by a drag, a tap, or arrow keys. In any other window the controls stand beside the
-// picture, and there is no handle (style.css).
+// In a narrow, upright window, the controls of a view lie in a sheet over its lower edge, while the picture stays in
+// place. A handle switches between three heights by a drag, a tap or arrow keys. In any other window the controls stand
+// beside the picture, and the handle is hidden (style.css).
 import { el } from './dom.js';
 import { t } from './i18n.js';
 
@@ -10,11 +10,11 @@ const heights = [
   ['whole', t('all of the window', 'tutta la finestra')],
 ];
 const tap_px = 6;
-const flick_px_ms = 0.5; // faster than this a sheet goes on to the next height
+const flick_px_ms = 0.5; // a faster drag moves the sheet to the next height
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
-// What is steered comes into sight where the sheet leaves room for it.
+// The picture of each panel, which is scrolled to where the sheet leaves it visible.
 const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-pictures', 'play-panel': '#play-pictures' };
 
 export function sheet(node) {
@@ -37,7 +37,7 @@ export function sheet(node) {
     drag = null,
     placed = false;
 
-  // Where the page is still too short to be scrolled so far, the picture is not in its place yet.
+  // If the page is still too short to scroll that far, the picture is not placed yet.
   function show() {
     if (!at || !picture?.offsetHeight || !handle.offsetParent) return;
     picture.scrollIntoView();
@@ -56,7 +56,7 @@ export function sheet(node) {
     handle.setAttribute('aria-valuetext', words);
   }
 
-  // What height of the three is nearest to where it was let go.
+  // The nearest of the three heights; after a flick, the next one in its direction.
   function nearest(height, speed) {
     const sizes = [handle.offsetHeight, innerHeight / 2, innerHeight],
       near = sizes.reduce((best, size, i) => (Math.abs(size - height) < Math.abs(sizes[best] - height) ? i : best), 0);
@@ -82,7 +82,7 @@ export function sheet(node) {
     if (!drag) return;
     const up = drag.y - event.clientY,
       took = event.timeStamp - drag.time;
-    // sideways it is no tap, but another preset (swipe.js)
+    // a sideways movement changes the preset (swipe.js)
     drag.moved ||= Math.hypot(up, event.clientX - drag.x) > tap_px;
     if (took > 0) drag.speed = (drag.last - event.clientY) / took;
     Object.assign(drag, { time: event.timeStamp, last: event.clientY });
@@ -112,9 +112,9 @@ export function sheet(node) {
     else if (keys[event.key]) rest(keys[event.key]());
     else return;
     event.preventDefault();
-    event.stopPropagation(); // a space is not the clock's
+    event.stopPropagation(); // so that the space key does not pause the clock
   });
-  // Who goes by the keyboard sees what has the focus.
+  // Raises the sheet when the keyboard moves the focus into it.
   node.addEventListener(
     'focusin',
     event => event.target !== handle && at === 0 && event.target.matches(':focus-visible') && rest(1),
@@ -123,10 +123,10 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // A sheet that came up before its picture did, or before what makes the page long enough, makes room when there is
-    // something to see.
+    // If the sheet was raised before its picture, or the content that makes the page long enough, was there, the
+    // picture is placed when they come.
     const grows = new ResizeObserver(() => {
-      placed &&= picture.offsetHeight > 0; // a view that comes again is placed again
+      placed &&= picture.offsetHeight > 0; // a view that is opened again is placed again
       if (!placed) show();
     });
     grows.observe(picture);

@@ -1,17 +1,16 @@
-// How large things are: an element, the window in device pixels, and how much of that width a picture keeps at least
-// while something moves.
+// Sizes: of elements, of the window in device pixels, and the least share of its width that a picture keeps in motion.
 import { byId } from './dom.js';
 import * as link from './link.js';
 
-const most = { width: 3840, height: 2160 }; // pixels at rest; a larger window's picture is drawn larger than it is
-const drag_px = 1600; // of a wider window a part of so many pixels is kept, not of all
-const least_part = 0.25; // that the server knows
-const patience_ms = 100; // a frame; where half the width takes longer, Auto has less of it
-// The least share of the window's width; null: of the picture at rest all.
+const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
+const drag_px = 1600; // a wider window keeps in motion a share of this width
+const least_part = 0.25; // the server's limit
+const patience_ms = 100; // for a frame; where half the width takes longer, Auto keeps less
+// The least share of the window's width that is kept in motion; null: the whole picture at rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
-// To ask an element for its size lays the page out, as often as something in it has changed: what has a size tells when
-// that changes.
+// Reading an element's size forces a layout when the page has changed. The sizes are therefore cached and updated by a
+// ResizeObserver.
 const sizes = new WeakMap();
 const told =
   globalThis.ResizeObserver &&
@@ -23,7 +22,7 @@ export function sizeOf(node) {
   return sizes.get(node).width ? sizes.get(node) : { width: node.clientWidth, height: node.clientHeight };
 }
 
-// Device pixels for each of the window's.
+// Device pixels per CSS pixel, limited so that the picture has at most 3840 × 2160 pixels.
 const ratio = ({ width, height }) =>
   Math.min(
     devicePixelRatio || 1,
@@ -38,11 +37,10 @@ export function windowSize(stage) {
   return { width: even(width), height: even(height) };
 }
 
-// Auto, Sharp or Fast; the address remembers which.
+// Auto, Sharp or Fast, kept in the address.
 export const pace = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('pace') : 'auto');
 
-// What the session is asked to keep of a picture's width at rest while something moves, as its query. Auto gives that
-// up where frames take too long.
+// The query that asks the session to keep a share of the width in motion. Auto gives it up when frames take too long.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));

@@ -1,10 +1,9 @@
-// Sliders and arrow keys for a number of which its range, unit and usual value are known: { minimum, maximum, unit,
-// default, type }.
-const decades = 30; // from this ratio on a range is one of magnitudes
+// Sliders and arrow keys for a number with known range, unit and default: { minimum, maximum, unit, default, type }.
+const decades = 30; // ratio of a range's ends from which on its slider is logarithmic
 const positions = 1000;
 
-// A magnitude goes by factors. Where 0 means that a thing is off, the slider is linear below a hundredth of the usual
-// value.
+// The scale of a range, and its inverse; null: linear. A wide range is logarithmic; if it begins at 0, it is linear
+// below a hundredth of the default.
 function spread({ minimum: low, maximum: high, unit, type, default: usual }) {
   if (unit === 'degrees' || low < 0) return null;
   if (low > 0) return high / low > decades ? [x => Math.log(x / low), u => low * Math.exp(u)] : null;
@@ -29,13 +28,13 @@ export function scale(range) {
 
 const power = x => 10 ** Math.floor(Math.log10(x));
 
-// One step of an arrow key: about a hundredth of the range, or a tenth of the leading digit where it goes by factors.
-// Where such a range begins at 0, ten steps lead from there to about the usual value; below a tenth of that a step is a
-// unit of the leading digit.
+// The step of an arrow key: about a hundredth of a linear range, a tenth of the leading digit on a logarithmic one. If
+// such a range begins at 0, ten steps lead to about the default; below a tenth of the default, a step is one unit of
+// the leading digit.
 function step(range, value) {
   const size = Math.abs(value);
   if (!spread(range)) return power(range.maximum - range.minimum) / 100;
-  // of 0 there may be a button, which puts it on
+  // a value of 0 is switched on by the value of its button, if there is one
   if (range.minimum > 0) return size ? power(size) / 10 : (range.button?.value ?? range.minimum);
   const usual = power(Number(range.default) || 1) / 10;
   return size === 0 ? usual : size < usual ? power(size) : Math.max(power(size) / 10, usual);
@@ -44,8 +43,8 @@ function step(range, value) {
 const across = { ArrowRight: 1, ArrowLeft: -1 };
 const steps = { ArrowUp: 1, ArrowDown: -1 };
 
-// In a box whose numbers have no step of their own a browser goes by ones, from 0.9 to 1.9; and a slider by a
-// thousandth of its length, which is less than a number may change by, or too little to be seen. range.step: of numbers
+// By default, arrow keys change a number box by 1, from 0.9 to 1.9, and a slider by a thousandth of its length, which
+// may be too little to be seen or less than the field's step. These handlers use step() instead. range.step: of numbers
 // that have a step. node: the box, or the slider beside it.
 export function stepByArrows(node, range, give, box = node) {
   const way = node.type === 'range' ? { ...steps, ...across } : steps;

@@ -1,15 +1,15 @@
-// A ringdown is made for ears. What rings too low or too high for them is shifted by whole octaves, which makes all of
-// it as much faster or slower; and as it makes a swing or two before it is gone, its fading is stretched at the same
-// pitch. Both are said.
+// Makes a ringdown audible. A pitch outside the range of hearing is shifted by whole octaves, which makes all of it
+// faster or slower. As it has only a swing or two before it fades, its fading is stretched at the same pitch. The page
+// states both.
 import { el } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
 import { physicsUrl } from './server.js';
 
 const heard = { least: 20, most: 20000, best: 300 }; // Hz
-const fading_s = 0.5; // by e: long enough for a pitch to be heard
+const fading_s = 0.5; // time in which it fades by a factor e: long enough to hear a pitch
 const repeated_ms = 2000;
 
-// v: values of the quantity qnm for `asked`; octaves: undefined for what suits ears.
+// v: values of the quantity qnm for `asked`; octaves: a shift, or undefined for one that makes it audible.
 export function ringing(v, asked, octaves) {
   const [hertz] = [v.frequency_hz].flat(),
     [damping] = [v.damping_s].flat(),
@@ -30,7 +30,7 @@ export function ringing(v, asked, octaves) {
   };
 }
 
-// In words: what was done to it.
+// In words: how the sound was changed.
 export function told({ octaves, pitch, short, stretch, swings, audible }) {
   if (!audible)
     return (
@@ -59,7 +59,7 @@ function shifted(octaves) {
   );
 }
 
-const speaker = new Audio(); // one, so that nothing is heard twice
+const speaker = new Audio(); // one for all, so that no two sounds overlap
 let timer = 0;
 
 export function play(url, repeated) {
@@ -68,7 +68,7 @@ export function play(url, repeated) {
   speaker.loop = Boolean(repeated);
   if (repeated) timer = setTimeout(() => (speaker.loop = false), repeated_ms);
   return speaker.play().catch(error => {
-    if (error.name !== 'AbortError') throw error; // another sound goes over this one
+    if (error.name !== 'AbortError') throw error; // another sound has replaced this one
   });
 }
 

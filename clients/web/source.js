@@ -1,7 +1,7 @@
-// Pictures of the scene come from a live session. The scene goes to the session as it changes, one patch at a time and
-// the latest wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or
-// a slow line never falls behind. How fine each picture is while the scene changes is the server’s affair; at rest it
-// has all pixels of the window and several rays for each.
+// Pictures of the scene from a live session. Changes of the scene are sent one patch at a time, and the latest state
+// wins. Pictures are requested one after the other, each newer than the one shown, so a slow device or line never
+// builds up a backlog. The server decides how fine each picture is in motion; at rest it has all pixels of the window
+// and several rays for each.
 import { again_ms } from './again.js';
 import { latest, seen } from './dom.js';
 import { approximations, figures, fits, passes } from './frame.js';
@@ -13,33 +13,33 @@ import { adopter, asleep, fresh, load } from './session.js';
 import { kept } from './sizes.js';
 
 const least_samples = 2;
-const least_part = 1 / 8; // of the window’s width, of a picture at rest
+const least_part = 1 / 8; // of the window's width: the least size of a picture at rest
 
-// A picture at rest has so many; what is saved has as many.
+// image.samples of a picture at rest, and of one that is saved.
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// scene; size() → { width, height } of the window in device pixels; told are shown(frame), failed(error), and
-// rests(whether), which is true as soon as the picture that is shown is the last one of the scene as it now is: until
-// the server has answered a change, its pictures are of the scene before. Returns
+// scene; size() → { width, height } of the window in device pixels. Callbacks: shown(frame), failed(error), and
+// rests(whether), where whether is true when the picture that is shown is the last one of the current scene: until the
+// server has answered a change, its pictures are of the scene before. Returns
 //   refresh()      to be called whenever the scene or the window has changed
 //   address()      of the session, or null
-//   strike(wrong)  the hole, once the server knows the scene as it is; wrong(sentence) is told of a refusal
+//   strike(wrong)  strikes the hole, once the server has the current scene; wrong(sentence) is called on a refusal
 export function openSource(scene, size, shown, failed, rests) {
   let session = null,
     timer = 0,
     pulling = false,
     striking = null,
     dozes = 0,
-    asked = 0, // changes
-    told = 0, // the last of them that the server knows
+    asked = 0, // number of changes
+    told = 0, // number of the last change that the server has
     last = null, // the picture that is shown
-    stirred_ms = -Infinity, // the latest change, or picture that is not the last
+    stirred_ms = -Infinity, // time of the latest change or unfinished picture
     line = buildLine(),
-    part = 1, // of the window’s size that the server takes a picture of
-    laden = '', // with this
+    part = 1, // share of the window's size for which the server accepts a picture
+    laden = '', // load() of the scene that this share was found for
     polls = new AbortController(),
     recent = [];
 
@@ -57,8 +57,8 @@ export function openSource(scene, size, shown, failed, rests) {
     return scene.document(over, true);
   }
 
-  // What differs from what the session has. It knows best how late it is and where an observer that falls has come to,
-  // unless somebody has set that.
+  // The patch from the session's document. Time and the place of a falling observer are left to the server, unless
+  // somebody has set them.
   function difference(document) {
     const { time: then, ...before } = session.document,
       { time, ...after } = document;
@@ -69,7 +69,7 @@ export function openSource(scene, size, shown, failed, rests) {
     return patch;
   }
 
-  // Where time stands still, what it moved is where the server left it.
+  // When motion has stopped, takes the values where the server left them.
   function follow(document, now) {
     if (scene.goesOn()) return;
     const { time, camera } = now,
@@ -112,8 +112,8 @@ export function openSource(scene, size, shown, failed, rests) {
     scene.tellSeen(seen_of_it);
   }
 
-  // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not
-  // seen has no size.
+  // Opens a session that has ended again: the server keeps it for a minute without viewers. A hidden window has no
+  // size.
   async function send() {
     await seen('lensing');
     if (!session) scene.land();
@@ -142,7 +142,7 @@ export function openSource(scene, size, shown, failed, rests) {
       }
       const little = patch && same && moves(patch) && !striking;
       if (little && pulling && line.far() && !session.plain) return carry(patch, document, now_asked, jumps);
-      // what it holds is in this one as well, and none goes before this one is answered
+      // the patch holds what was pending, and nothing is sent before its answer
       if (session) session.pending = null;
       const begun = performance.now(),
         order = session ? ++session.order : 0,
@@ -154,7 +154,7 @@ export function openSource(scene, size, shown, failed, rests) {
       });
       line.answered(performance.now() - begun);
       const { id, token, revision, scene: now, order: known, ...seen_of_it } = await answer.json();
-      if (!session) last &&= { final: false }; // its revisions are counted anew
+      if (!session) last &&= { final: false }; // a new session counts its revisions from the start
       session ??= fresh({ id, token });
       session.cameras.set(revision, document.camera ?? {});
       Object.assign(session, {
@@ -188,9 +188,9 @@ export function openSource(scene, size, shown, failed, rests) {
   }
   const put = latest(send);
 
-  // Over a long line a change of the camera goes with a request for a picture, of which several are under way: it costs
-  // no round trip of its own. Each holds all that has changed since the latest one that was answered, for one that is
-  // overtaken does not count.
+  // Over a line of high latency, a change of the camera is sent with one of the requests for pictures, which saves a
+  // round trip. Each holds all changes since the latest answered one, since the server ignores a request that was
+  // overtaken.
   function carry(patch, document, asked, jumps) {
     for (const name of Object.keys(patch.camera)) session.touched.add(name);
     Object.assign(session, { jumps, pending: { patch, document, asked } });
@@ -198,7 +198,7 @@ export function openSource(scene, size, shown, failed, rests) {
   }
 
   function arrived(from, { order, carries }, answer) {
-    if (order < from.known) return; // a later one counts
+    if (order < from.known) return; // a later one has been answered
     const revision = Number(answer.headers.get('Kerrd-Patched'));
     Object.assign(from, { known: order, document: carries.document, revision: Math.max(from.revision, revision) });
     from.cameras.set(revision, carries.document.camera ?? {});
@@ -215,7 +215,7 @@ export function openSource(scene, size, shown, failed, rests) {
       signal: polls.signal,
     }),
     arrived,
-    // The server knows what is wrong with it, and says so of the same change by itself.
+    // The change is sent once more by itself, whose answer has the error.
     refused(from) {
       from.plain = true;
       if (session === from) put();
@@ -243,7 +243,7 @@ export function openSource(scene, size, shown, failed, rests) {
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
     if (quality.final !== 1) stirred_ms = now;
-    // a slow server's last three, too
+    // or the last three of a slow server
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
     const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
     line.read(quality.lossy, performance.now() - now);
@@ -255,10 +255,10 @@ export function openSource(scene, size, shown, failed, rests) {
       part: from.part,
       ...fits(quality, size(), from),
       camera: falls ? null : from.cameras.get(revision),
-      shows: current ? from.document : null, // as far as is known
+      shows: current ? from.document : null, // if it is known
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       accuracy: figures(get('Kerrd-Accuracy')),
-      flux: figures(get('Kerrd-Flux')), // of a radio frequency
+      flux: figures(get('Kerrd-Flux')), // at a radio frequency
       approximations: left,
       passes: passes(get('Server-Timing')),
       clock,
@@ -278,7 +278,7 @@ export function openSource(scene, size, shown, failed, rests) {
         await next(from);
       } catch (error) {
         from.flight.length = 0; // the others have failed as well, or come too late
-        if (session !== from) continue; // nobody asks for that one any more
+        if (session !== from) continue; // another session has taken its place
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
         else (session = null), put();
         await pause(error.status === 404 ? 0 : again_ms);
@@ -287,7 +287,7 @@ export function openSource(scene, size, shown, failed, rests) {
     pulling = false;
   }
 
-  // A camera that drifts stands where it was last seen while nobody looks.
+  // While the page or the view is hidden, a drifting camera stands where it was last seen.
   function doze() {
     if (!session || !scene.drift || (!document.hidden && document.body.dataset.view === 'lensing')) return;
     dozes++;
@@ -304,7 +304,7 @@ export function openSource(scene, size, shown, failed, rests) {
     const left = session,
       owner = headers();
     session = null;
-    polls.abort(); // else it would be told that the session is gone
+    polls.abort(); // else they would report that the session is gone
     polls = new AbortController();
     if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
   });

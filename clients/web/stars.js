@@ -1,14 +1,14 @@
-// Names of stars: of a sky that has real ones, the server says which images of which bright stars are where in the
-// picture. The one that a pointer is at is named, with all others of the same star.
+// Names of stars in a sky of real stars. The server lists the images of bright stars in the picture. The star under the
+// pointer is named, and all its other images are marked.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t } from './i18n.js';
 import { ask } from './server.js';
 
 const near_px = 16;
-const rest_ms = 250; // that a camera has been still
-const hidden = 0.3; // less than this part of a star’s light, through gas that shines itself, nobody sees
-const stale_px = 6; // places go on by so much before a new list is asked for,
-const again_ms = 1500; // and no sooner: it is a picture's work on the device that makes these
+const rest_ms = 250; // time for which the camera must be at rest
+const hidden = 0.3; // share of a star's light below which it is not seen through shining gas
+const stale_px = 6; // places are extrapolated over so many pixels before a new list is requested,
+const again_ms = 1500; // and for at least so long: a list costs the device as much as a picture
 
 export const hasNames = scene =>
   scene.get('sky.model') === 'catalogue' &&
@@ -16,7 +16,7 @@ export const hasNames = scene =>
   scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
 
-// What decides where they are, as a key; the clock does not. moved: fields that the server has moved on.
+// The values that decide where stars are, as a key; the clock does not. moved: fields that the server has moved.
 function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
   const { time, motion, style, ...document } = scene.document({
     'image.width': width,
@@ -30,7 +30,7 @@ function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
 let kept = { key: '', answer: null };
 
 // { width, height, azimuth_deg, images: [{ name, designation, magnitude, x, y, x_by_azimuth, y_by_azimuth,
-// magnification, g, through, seen_magnitude, mirrored }] } of the stage as it is, the brightest first.
+// magnification, g, through, seen_magnitude, mirrored }] } of the current stage, the brightest first.
 export function starsIn(scene, stage, moved) {
   const key = sceneOf(scene, stage, moved);
   if (kept.key !== key) {
@@ -49,7 +49,7 @@ export function starsIn(scene, stage, moved) {
   return kept.answer;
 }
 
-// The brightest, each once, with their places: of several images of a star that of most light.
+// The places of the brightest stars: of each star, its brightest image.
 export async function brightest(scene, stage, most) {
   const { images } = await starsIn(scene, stage),
     seen = new Set();
@@ -73,8 +73,8 @@ export function buildStars(stage, scene) {
   let timer = 0,
     pointer = null,
     azimuth = null, // of the latest picture
-    last = null, // the list of one that turns
-    pace = 0, // of the star that is named, pixels a degree
+    last = null, // the list for a turning picture
+    pace = 0, // pixels a degree, of the named star
     asked = 0;
 
   const turns = () => azimuth != null && scene.turns() !== 0;
@@ -90,7 +90,7 @@ export function buildStars(stage, scene) {
       by = gone(list),
       images = list.images.map(one => ({ ...one, x: one.x + by * one.x_by_azimuth, y: one.y + by * one.y_by_azimuth })),
       image = images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
-    pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px; // else a degree
+    pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px; // else stale after a degree
     clear();
     if (!image) return;
     const all = images.filter(one => one.name === image.name && one.designation === image.designation);
@@ -110,7 +110,7 @@ export function buildStars(stage, scene) {
   const look = latest(async () => {
     if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.proper_time_rate'))) return clear();
     asked = performance.now();
-    // without them the picture is as good
+    // a failure leaves the picture as it is
     const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null);
     last = turns() ? list : null;
     if (list && pointer) name(list);
@@ -138,7 +138,7 @@ export function buildStars(stage, scene) {
   });
 
   return {
-    // Names go with a picture that turns; a new list is asked for now and then.
+    // Names move with a turning picture; a new list is requested now and then.
     shown(frame) {
       azimuth = frame.azimuth;
       if (!last || !pointer || !turns()) return;

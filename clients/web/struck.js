@@ -1,12 +1,12 @@
-// A struck hole is heard at once, unless somebody has muted it: its ringdown for ears (sound.js), and its curve in the
-// view of physics.
+// A struck hole is heard at once, unless it is muted: its ringdown made audible (sound.js), and its curve in the view
+// of physics.
 import { byId } from './dom.js';
 import { t, tell } from './i18n.js';
 import { physics } from './server.js';
 
 const key = 'kerrd.sound';
 
-// What a browser keeps; one that keeps nothing is not muted.
+// The setting in localStorage; if storage is blocked, it is not muted.
 function muted(to) {
   try {
     if (to !== undefined) localStorage.setItem(key, to ? 'off' : 'on');
@@ -17,7 +17,7 @@ function muted(to) {
 }
 
 export function buildStruck(scene, goTo) {
-  // It is the hole that rings, about its own axis, whichever way the disk turns.
+  // The hole itself rings, about its own axis, whichever way the disk turns.
   const hole = () => ({
       spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)),
       mass_msun: scene.get('spacetime.mass_msun'),

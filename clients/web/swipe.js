@@ -1,7 +1,7 @@
-// A finger that goes sideways over the line below the picture, or over the handle of a sheet, turns over to the next
-// preset. The picture itself is for the camera, and its edges are where telephones take a finger for Back.
+// A sideways swipe over the line below the picture, or over the handle of a sheet, chooses the next preset. A drag of
+// the picture turns the camera, and telephones use the screen's edges for Back.
 const turn_px = 48;
-const steeper = 2; // times as far across as along
+const steeper = 2; // least ratio of the movement across to that along
 
 export function swipe(node, turn) {
   let begun = null;

@@ -1,4 +1,4 @@
-// The numbers of a body: of one that is to be thrown, or of one that is there. What a drag does these fields do too.
+// The fields of a body: of one to be thrown, or of an existing one. They do the same as dragging.
 import { badge } from './badge.js';
 import { el, typing } from './dom.js';
 import { helpOf, number, t } from './i18n.js';

@@ -1,14 +1,14 @@
-// Ticks over the picture show how its light is polarised: along the electric field, as long as the part of the light
-// that is. Stokes I, Q and U come from the server as numbers, of a small picture of the same view.
+// Ticks over the picture show polarisation: each points along the electric field, and its length is the polarised
+// fraction. Stokes I, Q and U are numbers of a small picture of the same view.
 import { number, t } from './i18n.js';
 import { ask } from './server.js';
 
-const across = 32; // ticks in the width of the picture
-const faint = 0.02; // of the brightest, below which there is none
-const long = 0.42; // half of the longest, by how far they are apart
+const across = 32; // ticks across the picture
+const faint = 0.02; // share of the brightest below which no tick is drawn
+const long = 0.42; // half of the longest tick, in distances between ticks
 const layers = 'intensity,stokes_q,stokes_u';
 
-// Records of three floats, row by row, behind the header of an NPY file, whose length its bytes 8 and 9 have.
+// Records of three floats, row by row, after the header of an NPY file; its bytes 8 and 9 give the header's length.
 export function stokesOf(buffer) {
   const view = new DataView(buffer),
     from = 10 + view.getUint16(8, true),
@@ -20,8 +20,8 @@ export function stokesOf(buffer) {
 
 const degrees = (q, u) => (90 / Math.PI) * Math.atan2(u, q);
 
-// Of all light: how much is polarised, where to, and beta 2 (Palumbo, Wong & Prather 2020), the part that turns with
-// the place round the middle, from north to east.
+// Sums over the picture: the polarised fraction, its angle, and beta 2 (Palumbo, Wong & Prather 2020), the part that
+// turns with the azimuth round the middle, from north to east.
 function sums(pixels, columns, rows) {
   const all = { i: 0, q: 0, u: 0, re: 0, im: 0 };
   for (const [k, [i, q, u]] of pixels.entries()) {

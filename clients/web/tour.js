@@ -1,19 +1,19 @@
-// "Look around": five things to see on a black hole, each with a view of its own, a ring round its place in the picture
-// and a few sentences. What was seen before comes back.
+// "Look around": five things to see on a black hole, each with its own view, a ring round its place in the picture, and
+// a few sentences. At the end the view from before is restored.
 import { byId, el, latest, still } from './dom.js';
 import { t } from './i18n.js';
 import { startAgain } from './presets.js';
 import { physics } from './server.js';
 
 const flight_ms = 1400;
-const least_ms = 60; // between two places on the way
+const least_ms = 60; // between two steps of a flight
 
-// Places: a direction of the critical curve, from the right over the top; of a ring of gas its radius and its azimuth
-// less the observer's, 180 behind the hole and 270 where gas comes towards us.
+// Places: a direction of the critical curve, counted from the right through the top; of a ring of gas, its radius and
+// its azimuth less the observer's: 180 is behind the hole, and at 270 the gas approaches.
 const edge = angle_deg => ['shadow', { angle_deg }];
 const gas = (r, phi_deg) => ['redshift', { r, phi_deg }];
 
-// name, view, overlays, words, place. Numbers of the view are flown through.
+// Name, values of the view, overlays, text, place. Numbers of the view are animated.
 const stops = [
   [
     t('The shadow', 'L’ombra'),
@@ -82,7 +82,7 @@ export function buildTour(stage, scene) {
   const ring = el('div', { id: 'tour-ring', 'aria-hidden': 'true', hidden: true });
   stage.append(ring);
   let here = 0,
-    before = null, // the scene, and the lines over it
+    before = null, // the scene and its overlays
     flight = 0;
 
   const lines = () => [...document.querySelectorAll('#overlays input:checked')].map(input => input.id.slice(5));
@@ -91,7 +91,7 @@ export function buildTour(stage, scene) {
       if (input.checked !== wanted.includes(input.id.slice(5))) input.click();
   }
 
-  // Through what lies between, by factors for lengths; the rest of the view changes at once.
+  // Animates the numbers of a view, lengths by equal factors; the rest of the view changes at once.
   function fly(view) {
     const now = ++flight,
       ways = Object.entries(view).map(([path, to]) => ({
@@ -120,7 +120,8 @@ export function buildTour(stage, scene) {
     step();
   }
 
-  // Round the pixel that shows what the words are of. Only an observer at infinity has a plane to point into.
+  // Puts the ring round the pixel that the text is about. This needs the image plane, which only an observer at
+  // infinity has.
   const point = latest(async () => {
     const now = flight,
       [name, place] = stops[here][4],
@@ -163,7 +164,7 @@ export function buildTour(stage, scene) {
   async function begin() {
     if (before) return;
     before = { document: scene.document({}, true), held: scene.held, lines: lines() };
-    // From where the camera is, if that is a place on the way.
+    // The tour begins at the camera's place, if the camera is at infinity.
     const from =
       scene.get('camera.r') === 'infinity'
         ? Object.fromEntries(['camera.inclination_deg', 'camera.field_m', round].map(path => [path, scene.get(path)]))
@@ -194,7 +195,7 @@ export function buildTour(stage, scene) {
   scene.addEventListener('move', () => (ring.hidden = true));
   scene.addEventListener('change', () => before && box.dataset.arrived && point());
   new ResizeObserver(() => before && box.dataset.arrived && point()).observe(stage);
-  // Wherever the focus is; but first Esc closes what lies over the tour.
+  // Wherever the focus is; but Esc closes what lies over the tour first.
   document.addEventListener(
     'keydown',
     event =>

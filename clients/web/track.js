@@ -1,13 +1,13 @@
-// Places in a plane, drawn to scale as they come: the axes through 0, a bar for the scale, and what is older fainter.
+// Points in a plane, drawn to scale as they come: the axes through 0, a scale bar, and older parts fainter.
 import { el, svg } from './dom.js';
 import { number } from './i18n.js';
 import { numbers } from './numbers.js';
 
-const parts = 5; // of a track, each with its own strength
+const parts = 5; // of a track, each of its own strength
 const edge = 94; // of 100 from the middle
 
-// A cubic a stretch, at each place along the chord of its neighbours (E. Catmull & R. Rom 1974), by a third of the
-// stretch: places come at uneven times.
+// One cubic for each section, at each point along the chord of its neighbours (E. Catmull & R. Rom 1974), by a third of
+// the section, since points come at uneven times.
 function curve(track, from, to) {
   const at = i => track[Math.min(Math.max(i, 0), track.length - 1)],
     text = ([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`,
@@ -24,8 +24,8 @@ function curve(track, from, to) {
   return path;
 }
 
-// names: of the axes, where they are to be told; field: the angle of a direction that is drawn through the last place,
-// from upwards to the left, radians.
+// names: of the axes, if they are to be labelled; field: the angle of a direction that is drawn through the last point,
+// counted from upwards to the left, radians.
 export function drawTrack(picture, points, unit, names = [], field = null) {
   const seen = points.filter(([x, y]) => x != null && y != null),
     reach = 1.25 * Math.max(...seen.flat().map(Math.abs), 1e-6),
@@ -58,7 +58,7 @@ export function drawTrack(picture, points, unit, names = [], field = null) {
   );
 }
 
-// A figure of such a drawing, with what there is to be said of it and its numbers.
+// A figure of such a drawing, with a note and its numbers.
 export function drawing(id, note) {
   const picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': id }),
     list = numbers(id);

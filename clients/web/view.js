@@ -1,5 +1,5 @@
-// The camera is moved by hand: drag to go round the hole, or near it to look around; wheel or pinch to come nearer, or
-// to see less; keys for all.
+// The camera is moved by hand: a drag goes round the hole, or looks around when the camera is near it; the wheel or a
+// pinch comes nearer or narrows the field; keys do all of it.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
@@ -9,11 +9,11 @@ const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
-const tap_px = 4; // a tap may move by so much
-const pace_ms = 30; // from one place of a hand that the scene is told of to the next: pictures follow no faster
-const near_r = 10; // M, within which a camera looks around unless somebody chose
+const tap_px = 4; // a tap may move by up to this
+const pace_ms = 30; // least time between two updates of the scene during a drag: pictures follow no faster
+const near_r = 10; // M, within which a drag looks around by default
 
-// Whether a drag turns the camera instead of the place from which it looks. What was chosen by hand is in the address.
+// Whether a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
 function looker(scene) {
   const button = byId('look'),
     how = byId('how'),
@@ -55,8 +55,8 @@ export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
   let begin = null,
-    tapped = null, // where the one finger that is down came down, while it has not moved
-    since = -Infinity, // when they were last followed
+    tapped = null, // where the only finger went down, as long as it has not moved
+    since = -Infinity, // when the fingers were last followed
     timer = 0;
 
   const get = name => scene.get('camera.' + name),
@@ -65,8 +65,8 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // What wheel and fingers change: at infinity and where one looks around the field narrows, elsewhere the camera comes
-  // nearer; it stops outside every static limit (r = 2), unless it is within already.
+  // What wheel and pinch change. At infinity, and where a drag looks around, it is the field of view; elsewhere the
+  // distance, which stays outside every static limit (r = 2) unless the camera is within already.
   function reach() {
     if (get('projection') === 'ring')
       return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
@@ -94,7 +94,7 @@ export function handle(stage, scene) {
     });
   }
 
-  // Degrees that a pixel in the middle of the picture is wide.
+  // Degrees per pixel in the middle of the picture.
   function pixel() {
     const { width, height } = sizeOf(stage);
     if (get('projection') === 'equirectangular') return 360 / width;
@@ -102,7 +102,7 @@ export function handle(stage, scene) {
     return (2 * Math.tan((get('fov_deg') / 2) * radians)) / (get('stereo') === 'pair' ? width / 2 : width) / radians;
   }
 
-  // What lies under the pointer comes along.
+  // The picture follows the pointer.
   function drag(right, down) {
     const { width, height } = sizeOf(stage);
     if (!looks()) return go((-right * 180) / width, (down * 180) / height, move, begin);
@@ -143,7 +143,7 @@ export function handle(stage, scene) {
     timer ||= setTimeout(follow, since + pace_ms - performance.now());
   });
 
-  // Where the fingers are now.
+  // Updates the scene by the places of the fingers.
   function follow() {
     clearTimeout(timer);
     timer = 0;
@@ -160,7 +160,7 @@ export function handle(stage, scene) {
       if (!pointers.size) scene.rest();
       note();
     });
-  // A finger or a button that goes down and up at one place.
+  // A tap: a finger or a button that goes down and up at one place.
   stage.addEventListener('pointerup', event => {
     if (!tapped || event.target.closest('button, a, input')) return;
     const box = stage.getBoundingClientRect();

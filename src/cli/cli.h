@@ -19,7 +19,7 @@ enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2, KD_EXIT_DEVICE = 
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
 extern const struct argp_child kd_cli_device_children[]; /* both, the device first */
 #define KD_CLI_LOG_LEVELS "error|warn|info|debug"
-#define KD_CLI_LOG_LEVEL_DOC "what is told on standard error (default: warn)"
+#define KD_CLI_LOG_LEVEL_DOC "what is written to standard error (default: warn)"
 #define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)"
 /* Sets the log level by name. Returns false if there is no such level. */
 bool kd_cli_set_log_level(const char *word);

@@ -63,7 +63,7 @@
     GROUP("Log and configuration:") \
     S(LOG_LEVEL, "log-level", 'l', KD_CLI_LOG_LEVELS, WORDS, 0, 0, "warn", ANYWHERE, KD_CLI_LOG_LEVEL_DOC) \
     S(LOG_FORMAT, "log-format", 'L', "text|json", WORDS, 0, 0, "text", ANYWHERE, \
-      "how that is told: lines for people, or an object of JSON a line (default: text)") \
+      "its format: lines for people, or one JSON object a line (default: text)") \
     S(CONFIG, "config", 'c', "FILE", TEXT, 0, 0, NULL, NOT_IN_FILE, \
       "read options from this file, a JSON object of them, like {\"port\": 9090}; -FILE: if it is there") \
     S(SHOW_CONFIG, "show-config", 'w', NULL, SWITCH, 0, 0, NULL, FLAG, \

@@ -52,7 +52,7 @@ static const char *const visibility_sources[] = {
 };
 static const char *const visibility_approximations[] = {
     "nothing lies beyond the map's border: edge_share tells how bright it is there",
-    "each pixel is a point in its middle: baselines beyond nyquist_gl are told as shorter ones",
+    "each pixel is a point in its middle: baselines beyond nyquist_gl are aliased to shorter ones",
     "no telescope: no beam, no noise, no gaps, and no averaging over time or bandwidth",
     NULL,
 };
@@ -66,7 +66,7 @@ static const char *const compare_sources[] = {
 };
 static const char *const compare_approximations[] = {
     "nothing lies beyond the map's border: edge_share tells how bright it is there",
-    "each pixel is light of the shape of pulse: baselines beyond nyquist_gl are told too little of",
+    "each pixel has the shape of pulse: amplitudes of baselines beyond nyquist_gl are too small",
     "errors of closures that have a baseline in common are taken as independent, and as Gaussian",
     "the model is of one time and frequency, those of the scene; no interstellar scattering",
     NULL,

@@ -94,7 +94,7 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
             : NULL,
         kd_orbit_is_seen(run->params) ? "one image of each point, followed from that of the point before: the direct "
                                         "one, but next to a hole that spins and is seen nearly edge on it may pass "
-                                        "onto one that has gone round it; none is told from within 1.2 horizons"
+                                        "onto one that has gone round it; none is given from within 1.2 horizons"
                                       : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)

@@ -124,7 +124,8 @@ enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playgr
 {
     enum kd_status status;
     if (p->n >= KD_PLAYGROUND_BODIES_MAX)
-        return kd_error_set(error, KD_ETOOBIG, "there are %zu bodies, as many as may be", p->n);
+        return kd_error_set(error, KD_ETOOBIG, "there are already %zu bodies, the most that a playground may have",
+                            p->n);
     disturb(p);
     KD_TRY(reserve(p, error));
     KD_TRY(put(p, p->n, body, p->last_id + 1, error));

@@ -31,34 +31,40 @@
 
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M", \
-         "spin parameter a; a < 0 is a disk retrograde to its hole") \
+         "spin parameter a; a < 0: the disk is retrograde to its hole") \
     REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses", \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"") \
     REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc", \
-         "(angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a " \
-         "beam and a scale")
+         "angular diameter distance of the hole; with the mass it gives the width of a picture on the sky, " \
+         "which a beam and a scale bar need")
 
 #define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     WORD(camera, r, PHYSICS, FRONT, INFINITY, 0.01, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity") \
     REAL(camera, inclination_deg, PHYSICS, FRONT, 82.0, 0.0, 180.0, "degrees", \
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane") \
     REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees", \
-         "Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away") \
+         "Boyer-Lindquist azimuth of the observer; for a falling observer the ingoing Kerr-Schild azimuth, " \
+         "which is the same far away") \
     ENUM(camera, observer, PHYSICS, FRONT, KD_OBSERVER_STATIC, "state of motion at a finite radius" KD_OBSERVER_HELP, \
          KD_OBSERVER_WORDS) \
     REAL(camera, velocity_r, PHYSICS, REST, 0.0, -1.0, 1.0, "c", \
-         "velocity outwards, past one of zero angular momentum (observer: velocity)") \
+         "outward velocity in the frame of the local observer of zero angular momentum (observer: velocity)") \
     REAL(camera, velocity_theta, PHYSICS, REST, 0.0, -1.0, 1.0, "c", \
-         "velocity away from the north pole, likewise (observer: velocity)") \
+         "velocity away from the north pole, in the frame of the local observer of zero angular momentum " \
+         "(observer: velocity)") \
     REAL(camera, velocity_phi, PHYSICS, REST, 0.0, -1.0, 1.0, "c", \
-         "velocity along the disk's rotation, likewise (observer: velocity)") \
+         "velocity along the disk's rotation, in the frame of the local observer of zero angular momentum " \
+         "(observer: velocity)") \
     WORD(camera, infall_from, PHYSICS, REST, INFINITY, 1.0, 1e7, "M", \
-         "radius from which the observer falls, at rest there but for its angular momentum (observer: infall)", \
+         "radius at which the observer's fall begins, at rest except for its angular momentum (observer: " \
+         "infall)", \
          "infinity") \
     WORD(camera, infall_energy, PHYSICS, REST, INFINITY, -100.0, 1e3, "1", \
-         "energy per mass of the falling observer; rest: as infall_from has it (observer: infall)", "rest") \
+         "energy per mass of the falling observer; rest: the energy that follows from infall_from (observer: " \
+         "infall)", \
+         "rest") \
     REAL(camera, infall_momentum, PHYSICS, REST, 0.0, -1e4, 1e4, "M", \
-         "angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude " \
+         "angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude " \
          "(observer: infall)") \
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO, \
          "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; " \
@@ -71,8 +77,8 @@
          "auto|plane|pinhole|ring|equirectangular|fulldome") \
     REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)") \
     WORD(camera, field_uas, LOOK, REST, INFINITY, 1e-12, 1e12, "microarcseconds", \
-         "the same width on the sky, at spacetime.mass_msun and spacetime.distance_pc: camera.field_m is what it " \
-         "comes to; none: camera.field_m says it", \
+         "width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets " \
+         "camera.field_m; none: camera.field_m is used", \
          "none") \
     REAL(camera, fov_deg, LOOK, FRONT, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)") \
     REAL(camera, centre_alpha, LOOK, REST, 0.0, -1e7, 1e7, "M", \
@@ -90,113 +96,122 @@
          "projection; none: one eye", \
          "none|pair") \
     REAL(camera, eye_distance, LOOK, REST, 0.5, 1e-6, 1e6, "M", \
-         "distance of the eyes, across the way the camera looks (stereo: pair)") \
+         "distance between the eyes, perpendicular to the viewing direction (stereo: pair)") \
     REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades", \
-         "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)") \
+         "log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge " \
+         "(ring)") \
     REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades", \
-         "the same at the middle line, above which rays pass outside the curve and below which inside (ring)")
+         "log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it " \
+         "inside (ring)")
 
 #define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(disk, model, MODEL, FRONT, KD_DISK_NOVIKOV_THORNE, \
-         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; " \
-         "particles: the exact one, made of orbiting particles", \
+         "radial flux: none; the exact Page-Thorne integral; the Newtonian thin disk cut at the ISCO; or " \
+         "particles: the exact flux, as orbiting particles", \
          "none|novikov-thorne|shakura-sunyaev|particles") \
     WORD(disk, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco") \
     REAL(disk, outer, MODEL, FRONT, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one") \
     REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1", \
-         "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply") \
+         "outer fraction of the radius over which the disk fades out; 0: a sharp edge") \
     REAL(disk, opacity, MODEL, REST, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick") \
     REAL(disk, emission_opacity, MODEL, REST, 10.0, 0.0, 1e6, "1", \
-         "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - " \
-         "exp(-depth/cos) of " \
-         "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere") \
+         "optical depth along the normal where the disk is brightest; elsewhere it is proportional to the " \
+         "flux. A crossing has the opacity 1 - exp(-depth/cos) times disk.opacity, with the angle of emission " \
+         "in the gas's frame; 0: the same opacity everywhere") \
     REAL(disk, height, MODEL, REST, 0.0, 0.0, 0.5, "1", \
-         "height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it " \
-         "has the thin disk's optical depth from " \
-         "top to bottom; 0: a thin disk") \
-    REAL(disk, flare, MODEL, REST, 0.0, -0.5, 0.5, "1", "power of the distance from the axis that the ratio grows as") \
+         "height of the gas over its distance from the axis, at 10 M, where height is that at which the " \
+         "density has fallen to exp(-1/2); the optical depth from top to bottom is that of the thin disk; 0: a " \
+         "thin disk") \
+    REAL(disk, flare, MODEL, REST, 0.0, -0.5, 0.5, "1", \
+         "exponent: height over distance grows as the distance from the axis to this power") \
     ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK, \
          "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd", \
          "peak|accretion") \
     REAL(disk, peak_temperature_k, MODEL, FRONT, 3600.0, 300.0, 1e9, "K", \
          "largest effective temperature of the disk, in its own frame (colour: peak)") \
     REAL(disk, mdot_edd, MODEL, REST, 0.1, 1e-12, 1e3, "Eddington rates", \
-         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin") \
+         "accretion rate: luminosity over the Eddington luminosity, with the efficiency for this spin") \
     REAL(disk, hardening, MODEL, REST, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature") \
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
-         "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it", \
+         "brightness: bolometric, g^4 F; or visible, the luminance that the eye perceives of the Planck " \
+         "spectrum", \
          "bolometric|visible") \
-    BOOL(disk, doppler, PHYSICS, REST, true, "the Doppler shift and beaming of the orbiting gas") \
-    BOOL(disk, redshift, PHYSICS, REST, true, "gravitational redshift and time dilation of the orbiting gas") \
+    BOOL(disk, doppler, PHYSICS, REST, true, "include the Doppler shift and beaming of the orbiting gas") \
+    BOOL(disk, redshift, PHYSICS, REST, true, \
+         "include the gravitational redshift and time dilation of the orbiting gas") \
     INT(disk, particles, MODEL, REST, 300000, 1000, 10000000, "1", "number of particles (model: particles)") \
-    INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other particles (model: particles)") \
+    INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", \
+        "seed of the random numbers: another seed gives other particles (model: particles)") \
     REAL(disk, density_index, MODEL, REST, 2.0, 0.0, 4.0, "1", \
-         "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)") \
+         "the number of particles per area falls as r to minus this power; with 2 each octave of r has as many " \
+         "(model: particles)") \
     REAL(disk, plunging, MODEL, REST, 0.02, 0.0, 0.5, "1", \
-         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where " \
-         "disk.inner is not " \
-         "\"isco\" (model: particles)") \
+         "share of the particles that fall from the ISCO, with its energy and angular momentum; none fall " \
+         "unless disk.inner is \"isco\" (model: particles)") \
     REAL(disk, plunging_temperature, MODEL, REST, 0.7, 0.0, 1.0, "1", \
-         "temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles)") \
+         "temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: " \
+         "particles)") \
     REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1", \
-         "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which " \
-         "vanishes at " \
-         "the ISCO (model: particles)") \
+         "largest amplitude of oscillations: in latitude, in radians; in r over r, times (kappa/Omega)^2, " \
+         "which vanishes at the ISCO (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
-         "each ray shows particles, gas and spots where they were when its light left them, instead of all at " \
-         "one coordinate time")
+         "show particles, gas and spots where they were when each ray's light left them, instead of all at one " \
+         "coordinate time")
 
 #define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(gas, amplitude, MODEL, FRONT, 0.8, 0.0, 3.0, "1", \
          "turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk") \
-    INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", "scales of the turbulence, each about half the one before") \
+    INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", \
+        "number of scales of the turbulence; each scale is about half the one before") \
     REAL(gas, scale, MODEL, REST, 0.4, 0.02, 2.0, "1", \
-         "size of the largest eddies, over r, before they are drawn out") \
+         "size of the largest eddies over r, before shear stretches them") \
     REAL(gas, shear, MODEL, REST, 5.0, -20.0, 20.0, "1", \
-         "azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide; " \
-         "below 0 they lead") \
-    INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other gas")
+         "azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as " \
+         "long as wide; below 0 they lead") \
+    INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "seed of the random numbers: another seed gives other gas")
 
 #define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1", \
-         "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no " \
-         "such spot") \
+         "surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no " \
+         "spot") \
     REAL(spots, r, MODEL, FRONT, 9.0, 1.0, 1e6, "M", \
-         "radius of the circular orbit that the centre goes round on; never inside the ISCO") \
-    REAL(spots, phase_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0") \
+         "radius of the circular orbit of the spot's centre; never inside the ISCO") \
+    REAL(spots, phase_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "azimuth of the spot's centre at time 0") \
     REAL(spots, size, MODEL, FRONT, 1.0, 1e-3, 1e5, "M", \
-         "distance from the centre at which the Gaussian has fallen to exp(-1/2)") \
+         "distance from the spot's centre at which the brightness has fallen to exp(-1/2)") \
     REAL(spots, index, MODEL, REST, 1.0, -4.0, 6.0, "1", \
-         "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen") \
+         "spectral index: I_nu falls as nu to this power, so that the observed brightness is multiplied by " \
+         "g^(3 + index)") \
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", \
          "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* maximum; the kernels have room for this many */
 
 #define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
-    REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", \
-         "radius of the sphere, in its own frame; 0: there is no such body") \
+    REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", "radius of the sphere in its own frame; 0: no body") \
     REAL(bodies, r, MODEL, FRONT, 15.0, 1.0, 1e7, "M", \
-         "Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's") \
+         "Boyer-Lindquist radius of the body's centre, at least 1.05 times that of the horizon") \
     REAL(bodies, inclination_deg, MODEL, REST, 90.0, 0.0, 180.0, "degrees", \
-         "polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane") \
+         "polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane") \
     REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", \
-         "azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0") \
+         "azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0") \
     ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN, \
          "state of motion, which shifts its light; static, zamo, " KD_OBSERVER_CIRCULAR \
          " take it round with time, the last two in the disk's plane alone" KD_OBSERVER_HELP, \
          KD_OBSERVER_WORDS) \
     REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", \
-         "velocity outwards, past one of zero angular momentum (motion: velocity)") \
+         "outward velocity in the frame of the local observer of zero angular momentum (motion: velocity)") \
     REAL(bodies, velocity_theta, MODEL, REST, 0.0, -1.0, 1.0, "c", \
-         "velocity away from the north pole, likewise (motion: velocity)") \
+         "velocity away from the north pole, in the frame of the local observer of zero angular momentum " \
+         "(motion: velocity)") \
     REAL(bodies, velocity_phi, MODEL, REST, 0.0, -1.0, 1.0, "c", \
-         "velocity along the disk's rotation, likewise (motion: velocity)") \
+         "velocity along the disk's rotation, in the frame of the local observer of zero angular momentum " \
+         "(motion: velocity)") \
     REAL(bodies, temperature_k, MODEL, FRONT, 6000.0, 300.0, 1e9, "K", \
-         "it shines as a black body of this temperature, shifted by g") \
+         "temperature of the body, which shines as a black body shifted by g") \
     REAL(bodies, brightness, MODEL, REST, 1.0, 0.0, 1e9, "1", \
-         "light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark") \
+         "surface brightness over that of a black body, on the scale of the disk's temperatures; 0: dark") \
     REAL(bodies, limb_darkening, MODEL, REST, 0.6, 0.0, 1.0, "1", \
-         "light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none")
+         "fraction by which the rim is darker than the middle, linear in the cosine of the angle; 0: none")
 #define KD_SCENE_BODIES 8 /* maximum */
 
 #define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
@@ -211,24 +226,24 @@
          "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is " \
          "seen at a radio frequency; of a torus half of the radius of its largest pressure", \
          "horizon") \
-    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one") \
+    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge of the matter; larger than the inner edge") \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
-         "light of a length of M, in its own frame, in units of the disk's brightest (model: uniform)") \
+         "light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform)") \
     REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
-         "optical depth of a length of M, in its own frame (model: uniform)") \
+         "optical depth of 1 M in the matter's frame (model: uniform)") \
     REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", \
          "colour: that of a black body of this temperature, shifted by g (model: uniform)") \
-    BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)") \
+    BOOL(volume, redshift, PHYSICS, REST, true, "include the frequency shift of the matter (model: uniform)") \
     REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", \
-         "frequency that is observed (models: gold, riaf, torus, grid)") \
+         "observed frequency (models: gold, riaf, torus, grid)") \
     ASSET(volume, grid, MODEL, FRONT, \
-          "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file " \
-          "(model: grid); without one there is no matter") \
+          "NPZ file with density, temperature, velocity and magnetic field of the electrons on a grid of r, " \
+          "theta and phi (model: grid); without it there is no matter") \
     REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", \
-         "factor on the density of the file; its magnetic field is multiplied by the square root of this (model: " \
+         "factor on the file's density; the magnetic field is multiplied by the square root of it (model: " \
          "grid)") \
     REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", \
-         "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
+         "C n0: emissivity at 230 GHz at the largest density (model: gold)") \
     REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", \
          "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
     REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", \
@@ -239,21 +254,21 @@
     REAL(volume, gold_absorption, MODEL, REST, 0.0, 0.0, 1e30, "1", \
          "A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold)") \
     REAL(volume, density_cm3, MODEL, FRONT, 3e7, 0.0, 1e30, "1/cm^3", \
-         "electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them " \
+         "electron density: at r = 1 M in the equatorial plane, by its power law (model: riaf); its maximum " \
          "(model: torus)") \
     REAL(volume, density_index, MODEL, REST, 1.1, -10.0, 10.0, "1", \
-         "density goes as r^-p, p being this number (model: riaf)") \
+         "p: density is proportional to r^-p (model: riaf)") \
     REAL(volume, electron_temperature_k, MODEL, FRONT, 3e11, 1.0, 1e30, "K", \
-         "temperature of the electrons at 1 M (model: riaf)") \
+         "electron temperature at r = 1 M (model: riaf)") \
     REAL(volume, temperature_index, MODEL, REST, 0.84, -10.0, 10.0, "1", \
-         "temperature goes as r^-p, p being this number (model: riaf)") \
+         "p: electron temperature is proportional to r^-p (model: riaf)") \
     REAL(volume, height, MODEL, REST, 0.1, 0.0, 10.0, "1", \
-         "height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at " \
-         "all heights (model: riaf)") \
+         "height over the distance from the axis at which the density has fallen to exp(-1/2); 0: the density " \
+         "does not depend on height (model: riaf)") \
     REAL(volume, magnetisation, MODEL, REST, 0.016666666666666666, 0.0, 1e12, "1", \
-         "magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf)") \
+         "magnetic pressure over the rest energy of a proton per electron, at r = 1 M (model: riaf)") \
     REAL(volume, magnetisation_index, MODEL, REST, 1.0, -10.0, 10.0, "1", \
-         "magnetisation goes as r^-p, p being this number (model: riaf)") \
+         "p: magnetisation is proportional to r^-p (model: riaf)") \
     ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, \
          "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: " \
          "riaf, torus)", \
@@ -263,47 +278,49 @@
          "observers of zero angular momentum (model: riaf)", \
          "orbits|rest") \
     ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, \
-         "energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law", \
+         "energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law " \
+         "tail", \
          "thermal|power-law|kappa") \
     REAL(volume, electrons_index, MODEL, REST, 3.5, 1.1, 10.0, "1", \
-         "p: electrons of energy gamma go as gamma to minus this (electrons: power-law)") \
+         "p: the number of electrons is proportional to gamma^-p (electrons: power-law)") \
     REAL(volume, kappa, MODEL, REST, 4.0, 3.1, 7.5, "1", \
-         "kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa)") \
+         "kappa: at high energies the number of electrons is proportional to gamma^(1 - kappa) (electrons: " \
+         "kappa)") \
     REAL(volume, torus_radius, MODEL, FRONT, 12.0, 1.0, 1e3, "M", \
-         "where the pressure is largest; the inner edge is volume.inner (model: torus)") \
-    REAL(volume, adiabatic_index, MODEL, REST, 1.4444444444444444, 1.1, 2.0, "1", "of the gas (model: torus)") \
+         "radius of the largest pressure; the inner edge is volume.inner (model: torus)") \
+    REAL(volume, adiabatic_index, MODEL, REST, 1.4444444444444444, 1.1, 2.0, "1", \
+         "adiabatic index of the gas (model: torus)") \
     REAL(volume, temperature_ratio, MODEL, REST, 3.0, 0.0, 1e6, "1", \
-         "temperature of the ions over that of the electrons (model: torus)") \
-    REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", \
-         "pressure of the gas over that of the magnetic field (model: torus)") \
+         "ion temperature over electron temperature (model: torus)") \
+    REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", "gas pressure over magnetic pressure (model: torus)") \
     REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", \
-         "least energy of the electrons over that at rest (electrons: power-law)") \
+         "smallest Lorentz factor of the electrons (electrons: power-law)") \
     REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", \
-         "largest energy of the electrons, more than the least (electrons: power-law)") \
+         "largest Lorentz factor of the electrons; above gamma_min (electrons: power-law)") \
     REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", \
-         "flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied " \
-         "by what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, " \
+         "flux that the picture must have: kerrd multiplies the density (gold: the emissivity; grid: the " \
+         "factor) by a number that it finds with small pictures, and reports it; 0: no change (models: gold, " \
          "riaf, torus, grid)") \
     WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", \
-         "frequency of that flux; observed: the one that the picture shows", "observed")
+         "frequency of that flux; observed: volume.frequency_ghz", "observed")
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", \
-         "light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in " \
-         "units of the disk's brightest; 0: there are none") \
-    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the angle of the cone") \
-    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", \
-         "Lorentz factor: how fast the light's source flies outwards") \
+         "light emitted along 1 M in the jet's frame, extrapolated to the inner edge, where it begins " \
+         "smoothly, in units of the disk's brightest; 0: no jets") \
+    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the cone's opening angle") \
+    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", "Lorentz factor of the outflow") \
     REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", \
-         "where the light begins, at least a twentieth outside the horizon") \
-    REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "where it ends; larger than the inner edge") \
-    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "light along the jet goes as r to minus this") \
-    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", "from a bright spine, 0, to bright edges, 1") \
+         "radius at which the light begins, at least 1.05 times that of the horizon") \
+    REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "radius at which the light ends; larger than the inner edge") \
+    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "p: light along the jet is proportional to r^-p") \
+    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", \
+         "brightness across the jet: 0, a bright spine; 1, bright edges") \
     REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "1", \
-         "brightness goes as the frequency shift to 2 plus this") \
+         "brightness is proportional to the frequency shift to the power of 2 plus this") \
     REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", \
-         "colour: that of a black body of this temperature, not shifted") \
-    BOOL(jets, counterjet, MODEL, REST, true, "the jet below the disk, too")
+         "colour of a black body of this temperature, not shifted") \
+    BOOL(jets, counterjet, MODEL, REST, true, "include the jet below the disk")
 
 #define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE, \
@@ -317,16 +334,16 @@
          "synchrotron)", \
          "toroidal|radial|vertical") \
     REAL(polarization, electron_index, MODEL, REST, 3.0, 1.0, 10.0, "1", \
-         "electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p " \
-         "+ 1)/(p + 7/3) (model: synchrotron)") \
+         "p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + " \
+         "1)/(p + 7/3) (model: synchrotron)") \
     REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", \
-         "part of that polarisation which disorder within a pixel leaves") \
+         "share of that polarisation which remains when the field is disordered within a pixel") \
     BOOL(polarization, faraday, PHYSICS, REST, true, \
-         "electrons turn the direction of light that passes (Faraday rotation), and make linear of circular " \
-         "polarisation and back (model: transfer)") \
+         "include Faraday rotation, and conversion between linear and circular polarisation, by the electrons " \
+         "(model: transfer)") \
     ENUM(polarization, rotation, PHYSICS, REST, KD_ROTATION_SHCHERBAKOV, \
-         "fit of the Faraday rotation by thermal electrons: of Shcherbakov 2008, or of Dexter 2016, as Huang and " \
-         "Shcherbakov 2011 have it (model: transfer)", \
+         "fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of " \
+         "Huang and Shcherbakov 2011 (model: transfer)", \
          "shcherbakov|dexter")
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
@@ -343,23 +360,24 @@
          "auto") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
     REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
-         "brightness of the Milky Way, or of sky.image, over its own; 0: stars alone") \
+         "brightness of the Milky Way, or of sky.image, over its natural one; 0: stars alone") \
     ASSET(sky, image, MODEL, FRONT, \
           "picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image): " \
           "twice as wide as high, galactic " \
           "longitude across, growing to the left from 0 in the middle, latitude upwards; its white is 21 magnitudes " \
           "a square arcsecond") \
     REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "stars fainter than this are left out") \
-    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, another sky that is made up") \
+    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", \
+        "seed of the random numbers: another seed gives another generated sky") \
     ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
          "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, " \
          "m87: from azimuth 0 the hole " \
          "stands before that one, as seen from the Earth, with the galactic or the celestial pole above", \
          "galactic|equatorial|sgra|m87") \
     REAL(sky, turn_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", \
-         "the sky is turned about the hole's axis by so much, as by camera.azimuth_deg") \
+         "rotation of the sky about the hole's axis, in the sense of camera.azimuth_deg") \
     REAL(sky, tilt_deg, MODEL, REST, 0.0, -180.0, 180.0, "degrees", \
-         "and, after that, about the horizontal axis of the picture from azimuth 0")
+         "then, rotation of the sky about the horizontal axis of the picture from azimuth 0")
 
 #define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture") \
@@ -369,11 +387,11 @@
         "that one was not enough", \
         "auto") \
     REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1", \
-         "by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto)") \
+         "apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays " \
+         "(samples: auto)") \
     INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1", \
-        "so many times as many along each side of the pixels that the critical curve passes, where the photon ring " \
-        "is thinner " \
-        "than they are; at most 16 in all") \
+        "factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner " \
+        "than a pixel; at most 16 rays a side in all") \
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16") \
     WORDS(image, layers, LOOK, REST, \
           "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the " \
@@ -383,20 +401,22 @@
           "footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_" \
           "temperature|specific_intensity|stokes_v|jy_per_pixel") \
     WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1", \
-         "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto") \
-    WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto") \
-    BOOL(image, legend, LOOK, REST, true, "a colour bar in the lower left corner of a layer in false colour")
+         "value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer", "auto") \
+    WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", \
+         "value at the upper end of a layer's colour scale; auto: docs/layers.md gives it for each layer", "auto") \
+    BOOL(image, legend, LOOK, REST, true, "draw a colour bar in the lower left corner of a layer in false colour")
 
 #define KD_TILE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
-    INT(tile, left, LOOK, REST, 0, 0, 32767, "pixels", "columns of the picture to its left") \
-    INT(tile, top, LOOK, REST, 0, 0, 32767, "pixels", "rows of the picture above it") \
-    INT(tile, width, LOOK, REST, 0, 0, 32768, "pixels", "its width; 0: the whole picture is made, and no tile") \
-    INT(tile, height, LOOK, REST, 0, 0, 32768, "pixels", "its height, likewise")
+    INT(tile, left, LOOK, REST, 0, 0, 32767, "pixels", "columns of the picture to the left of the tile") \
+    INT(tile, top, LOOK, REST, 0, 0, 32767, "pixels", "rows of the picture above the tile") \
+    INT(tile, width, LOOK, REST, 0, 0, 32768, "pixels", \
+        "width of the tile; 0: no tile, the whole picture is rendered") \
+    INT(tile, height, LOOK, REST, 0, 0, 32768, "pixels", \
+        "height of the tile; 0: no tile, the whole picture is rendered")
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM, \
-         "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets " \
-         "itself; none: nothing", \
+         "style that sets all fields of the look, except those that the document sets itself; none: no style", \
          "none|film|raw|dngr|eht|starless") \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops", \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, " \
@@ -407,25 +427,24 @@
          "near white", \
          "aces|srgb|neutral") \
     REAL(style, bloom, LOOK, FRONT, 0.4, 0.0, 1.0, "1", \
-         "share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even " \
-         "knee from 0.2 on; 0: none") \
+         "share of bright light that the lens spreads around its place: all light over 0.6 of white, with a " \
+         "smooth transition from 0.2 on; 0: none") \
     REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds", \
          "full width at half maximum of the round Gaussian beam of a telescope that sees the picture from " \
          "spacetime.distance_pc; 0: none") \
     ENUM(style, palette, LOOK, REST, KD_PALETTE_COLOUR, \
-         "colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is " \
-         "proportional to it", \
+         "colour: that of the light; heat: brightness in false colour (black, red, orange, white), with " \
+         "lightness proportional to it", \
          "colour|heat") \
     BOOL(style, colour_bar, LOOK, REST, false, \
-         "a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the " \
-         "beam in the upper right one") \
-    BOOL(style, dither, LOOK, REST, true, "half a step of ordered noise before rounding, against banding") \
+         "draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper " \
+         "right corner an angular scale and the shape of the beam") \
+    BOOL(style, dither, LOOK, REST, true, "add half a step of ordered noise before rounding, against banding") \
     REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1", \
-         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) " \
-         "cos(w t), the " \
-         "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none") \
+         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * " \
+         "e^(-t/tau) cos(w t), with the hole's quasi-normal mode l = m = 2, n = 0; 0: none") \
     REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", \
-         "time at which it was struck; before that nothing rings")
+         "time at which the hole was struck; before it nothing rings")
 
 #define KD_SOURCE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(source, name, MODEL, FRONT, KD_SOURCE_NONE, "the source on the sky that the hole stands for", \
@@ -436,29 +455,29 @@
 
 #define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", \
-         "the observer goes round the axis") \
-    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on") \
+         "rate at which the observer goes round the axis") \
+    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "rate at which coordinate time goes on") \
     REAL(motion, proper_time_rate, LOOK, REST, 0.0, 0.0, 1e6, "M per second", \
-         "the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and " \
-         "coordinate time goes on as " \
-         "it does on its way")
+         "rate of the observer's own clock: it falls, to the last place a camera can be at, or goes round; " \
+         "coordinate time goes on accordingly")
 
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED, \
-         "how closely rays are followed, coarse to fine; reference is double precision", \
+         "accuracy with which rays are traced, from coarse to fine; reference: double precision", \
          "draft|interactive|balanced|high|reference") \
     WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1", \
-         "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the " \
-         "profile", \
+         "largest relative error of the crossing radii, by the accuracy table of the device; profile: what the " \
+         "profile means", \
          "profile") \
     ENUM(accuracy, engine, PHYSICS, REST, KD_ENGINE_WORD_AUTO, \
-         "what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6", \
+         "method that traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6", \
          "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6") \
     ENUM(accuracy, precision, PHYSICS, REST, KD_PRECISION_WORD_AUTO, \
-         "of the arithmetic; auto: what the profile means", "auto|f32|f64") \
+         "precision of the arithmetic; auto: what the profile means", "auto|f32|f64") \
     INT(accuracy, steps, PHYSICS, REST, 0, 0, 2048, "1", \
-        "steps of the integrator a half turn, a multiple of 4; 0: what the profile means") \
-    INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
+        "integrator steps for a half turn, a multiple of 4; 0: what the profile means") \
+    INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", \
+        "equatorial crossings kept for each ray: image orders 0 to n - 1")
 
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(top, time, PHYSICS, FRONT, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")

@@ -26,7 +26,7 @@
 #include <string.h>
 
 #define BODIES_TOO_MANY "too many bodies are being received"
-#define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
+#define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
 /* bytes of a body for which the basic deadline is enough: 32 kB/s for the default of 30 s */
 #define PACE ((size_t)960000)
 

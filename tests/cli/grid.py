@@ -258,7 +258,7 @@ class Grid(Case):
                 self.path("a.png"),
             ).stderr
         )
-        self.assertIn("volume: no file of a grid is named: there is no matter", told["approximations"])
+        self.assertIn("volume: volume.grid is not set: there is no matter", told["approximations"])
         self.assertEqual(told["flux_jy"], 0)
 
     def test_what_is_refused(self):

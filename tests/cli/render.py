@@ -117,7 +117,7 @@ class Pictures(Case):
         self.assertEqual(json.loads(text(self.read("a.png"))[b"kerrd:scene"])["sky"]["image"], one)
         self.assertEqual(text(self.read("a.png"))[b"Copyright"], b"sky: A. Body")
         self.assertIn(
-            b"sky: the light between the stars is a picture", text(self.read("a.png"))[b"kerrd:approximations"]
+            b"sky: the light between the stars is a photograph", text(self.read("a.png"))[b"kerrd:approximations"]
         )
         again = self.good(
             "render", "--from", self.path("a.png"), "--asset", "whatever=" + self.path("one.png"), "-o", "-"
@@ -169,7 +169,7 @@ class Pictures(Case):
         self.bad(
             2, "image.width is null where a number is wanted", "render", *SMALL, "--set", "image.width=null", "-o", "-"
         )
-        self.assertIn(b"the Milky Way that is made up stands in for it", text(alone)[b"kerrd:approximations"])
+        self.assertIn(b"the generated Milky Way takes its place", text(alone)[b"kerrd:approximations"])
         self.assertNotIn(b"Copyright", text(alone))
 
     def test_pipes_give_the_bytes_of_a_file(self):

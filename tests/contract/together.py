@@ -103,7 +103,7 @@ SCENE = (
     'image.samples is "auto"; in a tile it must be 1 to 8: rays are chosen by what the whole picture shows',
     "camera is where a ray next to the critical curve does not escape: no stars can be sought there",
     'accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; it must be "profile"',
-    "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; it must be 0, or what this matter shines with at some density",
+    "volume.normalise_to_jy is %.9g Jy, but %s %.4g Jy; it must be 0, or a flux that this matter has at some density",
     'volume.grid is "%s", and the bytes of this asset are not here; it must be %s',
     'sky.image is "%s", and the bytes of this asset are not here; it must be %s',
 )
@@ -253,7 +253,7 @@ TOGETHER = [
             "solve has flux, and products has no amplitude, which tells it",
             "nothing is left to compare of %zu visibilities, %zu of which are too short: uv_min_gl and snr_cut must leave some",
             "%zu visibilities and %zu rows are left to compare; it must be at most %u of each: average_s averages them",
-            "the observation has more than %d amplitudes and closures; it must have at most as many: average them for longer, or take a minimal set",
+            "the observation has more than %d amplitudes and closures, the limit: average over longer times, or use a minimal set",
             'camera sees no flat map from far away, which visibilities are of; it must be camera.r "infinity" and the projections auto and plane',
             "nothing shines in the picture of %u x %u pixels, whose visibility was asked for",
         ),

@@ -175,8 +175,7 @@ class Disk(state.Case):
         with self.assertRaises(OSError), open(ballast, "wb", buffering=0) as f:
             while True:
                 self.assertGreater(f.write(bytes(4096)), 0)
-        self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server)), self.status(job, server))
-        self.assertIn("No space left", self.status(job, server)["delayed"])
+        self.assertIn("No space left", self.delayed(job, server)["delayed"])
         for answer in (
             server.post("/v1/jobs", {"scene": SCENE}),
             server.request("PUT", "/v1/assets", assets.png(), {"Content-Type": "image/png"}),

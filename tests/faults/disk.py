@@ -238,10 +238,7 @@ class Scarce(Case):
                 job = self.make({"scenes": [{**SCENE, "time": 100}] * 6}, server=server)
                 self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
                 self.faults.files(mask, number)
-                self.assertTrue(
-                    daemon.eventually(lambda: "delayed" in self.status(job, server)), self.status(job, server)
-                )
-                told = self.status(job, server)
+                told = self.delayed(job, server)
                 self.assertEqual((told["state"], told["remaining_s"]), ("waiting", None))
                 self.assertIn(os.strerror(number), told["delayed"])
                 self.assertNotIn(self.folder, told["delayed"])
@@ -265,7 +262,9 @@ class Scarce(Case):
         self.assertEqual(self.delete(jobs[1], server).status, 204)
         failed = self.faults.files_failed
         self.assertTrue(daemon.eventually(lambda: self.faults.files_failed > failed + 2))
-        self.assertEqual([self.status(job, server)["state"] for job in jobs[::2]], ["waiting"] * 2)
+        self.assertTrue(
+            daemon.eventually(lambda: all(self.status(job, server)["state"] == "waiting" for job in jobs[::2]))
+        )
         self.faults.mend()
         for job in jobs[::2]:
             self.until(job, "done", server)
@@ -281,7 +280,7 @@ class Scarce(Case):
             server = self.start(by=self.faults.start)
             job = self.make({"scenes": [{**SCENE, "time": 20}] * 4}, server=server)
             self.faults.files(CHANGES, errno.ENOSPC)
-            self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server)))
+            self.delayed(job, server)
             if end == "stop":
                 self.assertEqual(server.stop(), 0)
             else:
@@ -301,8 +300,7 @@ class Scarce(Case):
         scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
         self.faults.files(faults.RENAME, errno.ENOSPC, 4)  # three for the job that is accepted, one for its strike
         job = self.make({"scene": scene, "keyframes": [{"frame": 5, "scene": {"time": 25}}]}, server=server)
-        self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server), 20), self.status(job, server))
-        told = self.status(job, server)
+        told = self.delayed(job, server)
         self.assertEqual((told["finished"], told.get("exposure"), self.faults.files_failed), (0, None, 1))
         self.faults.mend()
         self.until(job, "done", server)

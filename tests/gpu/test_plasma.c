@@ -546,9 +546,10 @@ static void test_not_normalised(void **state)
         const char *preset, *json, *says;
     } refused[] = {
         { "gold-1", "{\"volume\":{\"gold_emission\":0,\"normalise_to_jy\":1}}",
-          "volume.normalise_to_jy is 1 Jy, at which no density was found: there is no matter" },
-        { "gold-5", "{\"volume\":{\"normalise_to_jy\":1e6}}", "as dense as may be it has" },
-        { "riaf", "{\"volume\":{\"magnetisation\":0,\"normalise_to_jy\":1}}", "as dense as may be it has 0 Jy" },
+          "volume.normalise_to_jy is 1 Jy, but there is no matter" },
+        { "gold-5", "{\"volume\":{\"normalise_to_jy\":1e6}}", "at its largest density this matter has" },
+        { "riaf", "{\"volume\":{\"magnetisation\":0,\"normalise_to_jy\":1}}",
+          "at its largest density this matter has 0 Jy" },
     };
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         const struct kd_scene scene = scene_of(refused[i].preset, refused[i].json);

@@ -331,7 +331,7 @@ class Limits(Case):
     def test_number_and_bytes(self):
         kept = [self.made(png(seed=i)) for i in range(3)]
         problem = self.assertProblem(self.put(png(seed=3)), 429, "quota")
-        self.assertIn("as many assets of yours", problem["detail"])
+        self.assertIn("you have stored too many assets", problem["detail"])
         self.assertEqual(self.put(png(seed=1)).status, 200, "what is there is told")
         self.delete(kept.pop())
         self.assertProblem(self.put(png(200, 100)), 429, "quota")  # 60 kB

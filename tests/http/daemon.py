@@ -237,6 +237,12 @@ class Owned(Case):
     def status(self, one, server=None):
         return (server or self.daemon).get(self.at(one)).json()
 
+    def delayed(self, job, server=None):
+        """The first status that says why the job waits. One answer: a second later the job may run again."""
+        seen = []
+        self.assertTrue(eventually(lambda: seen.append(self.status(job, server)) or "delayed" in seen[-1]), seen[-3:])
+        return seen[-1]
+
     def stream(self, one, rest, accept="*/*", timeout=20):
         s = self.daemon.connect(timeout)
         s.sendall(

@@ -108,7 +108,10 @@ class Device(Case):
             self.begin(LONG % (60000 + waiting))
             self.daemon.reaches("renders_unfinished", waiting + 1)
         problem = self.ask("127.0.0.1", "GET", RENDER)
-        self.assertIn("8 of your renders", self.assertProblem(problem, 429, "quota")["detail"])
+        self.assertIn(
+            "you have too many waiting renders (limit 8 for one client)",
+            self.assertProblem(problem, 429, "quota")["detail"],
+        )
         self.assertTrue(problem.header("Retry-After"))
         self.assertEqual(self.ask("127.0.0.2", "GET", RENDER).status, 200)
 
@@ -248,9 +251,7 @@ class Allowance(Case):
         answer = self.ask(source, method, target, body)
         detail = self.assertProblem(answer, 429, "quota")["detail"]
         seconds = int(answer.header("Retry-After"))
-        self.assertIn(
-            f"as much of the device's time as one client may use, 1 s a minute; in {seconds} s more is taken", detail
-        )
+        self.assertIn(f"device time of one client (1 s a minute); the next one will be accepted in {seconds} s", detail)
         return seconds
 
     def test_what_it_has_used(self):
@@ -352,7 +353,10 @@ class Tasks(Case):
         """A client that has used its share of four is told so, and another one is served."""
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_" + unfinished] == 4))
         problem = self.ask("127.0.0.1", method, target, body)
-        self.assertIn("4 such requests of yours", self.assertProblem(problem, 429, "quota")["detail"])
+        self.assertIn(
+            "you have too many such requests under way (limit 4 for one client)",
+            self.assertProblem(problem, 429, "quota")["detail"],
+        )
         self.assertTrue(problem.header("Retry-After"))
         self.assertEqual(self.ask("127.0.0.2", method, target, body).status, 200)
 

@@ -321,9 +321,9 @@ class Scarce(Case):
     def test_device_memory_runs_out(self):
         server = self.start()
         job = self.make({"scene": {**SCENE, "time": -2}}, server=server)
-        self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server)))
+        self.delayed(job, server)
         self.until(self.make({"scene": SCENE}, server=server), "done", server)
-        self.assertEqual(self.status(job, server)["state"], "waiting")
+        self.assertEqual(self.delayed(job, server)["state"], "waiting")
         server.stop()
 
 

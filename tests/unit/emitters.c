@@ -223,7 +223,7 @@ static void gas_replaces_the_disk(void **state)
     kd_emit_traits(&scene, traits);
     assert_true(!traits[KD_EMITTER_disk] && traits[KD_EMITTER_gas] && kd_emit_at_crossings(&scene));
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W);
-    assert_true(says(&scene, "gas: the optical depth") && says(&scene, "disk: geometrically thin") &&
+    assert_true(says(&scene, "gas: the disk's optical depth") && says(&scene, "disk: geometrically thin") &&
                 !says(&scene, "gas: turbulence"));
     scene.motion.time_rate = 1;
     assert_false(kd_emit_moves(&scene));
@@ -307,8 +307,9 @@ static void skies(void **state)
                 !says(&scene, "sky: the light between"));
     scene.sky.model = KD_SKY_STARS;
     assert_true(kd_emit_points(&scene) && kd_emit_needs(&scene) == (KD_LENS_W | KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT));
-    assert_true(says(&scene, "sky: stars are made up") &&
-                says(&scene, "sky: the light between the stars is a Milky Way") && !says(&scene, "sky: a drawn"));
+    assert_true(says(&scene, "sky: stars are generated") &&
+                says(&scene, "sky: the light between the stars is a generated Milky Way") &&
+                !says(&scene, "sky: a drawn"));
     assert_false(says(&scene, "sky: the light between the stars is shifted"));
     scene.camera.r = 40;
     assert_true(says(&scene, "sky: the light between the stars is shifted"));
@@ -357,13 +358,13 @@ static void pictures_of_the_sky(void **state)
     scene.sky.model = KD_SKY_IMAGE;
     scene.camera.r = 40;
     assert_true(!kd_emit_points(&scene) && kd_emit_needs(&scene) == (KD_LENS_W | KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT));
-    assert_true(says(&scene, "sky: sky.model is \"image\" and sky.image names none") &&
-                says(&scene, "sky: the light between the stars is a Milky Way"));
+    assert_true(says(&scene, "sky: sky.model is \"image\" but sky.image is not set") &&
+                says(&scene, "sky: the light between the stars is a generated Milky Way"));
     uint64_t stands_in = kd_emit_device_bytes(&scene);
     strcpy(scene.sky.image, hash);
     assert_true(!says(&scene, "sky: sky.model is \"image\"") &&
-                !says(&scene, "sky: the light between the stars is a Milky Way"));
-    assert_true(says(&scene, "sky: the light between the stars is a picture") &&
+                !says(&scene, "sky: the light between the stars is a generated Milky Way"));
+    assert_true(says(&scene, "sky: the light between the stars is a photograph") &&
                 says(&scene, "sky: a picture of three colours has no spectrum"));
     assert_true(kd_emit_device_bytes(&scene) > 3 * stands_in);
     scene.sky.milky_way = 0; /* no light at all */

@@ -14,10 +14,10 @@ class Sessions(Browser):
         full = dict(
             status=503,
             content_type="application/problem+json",
-            body='{"status":503,"detail":"16 sessions are open, as many as may"}',
+            body='{"status":503,"detail":"too many open sessions (limit 16)"}',
         )
         for lang, answer, told in (
-            ("it", lambda r: r.fulfill(**full), "sono aperte 16 sessioni, quante se ne possono aprire – si riprova"),
+            ("it", lambda r: r.fulfill(**full), "troppe sessioni aperte (limite 16) – si riprova"),
             ("en", lambda r: r.abort(), "The server does not answer – trying again"),
         ):
             context = self.browser.new_context(viewport={"width": 1000, "height": 640})

@@ -75,7 +75,7 @@ const struct kd_variable kd_variables[] = {
       "written, a picture whose kernels are new holds the device while they are compiled" },
     { "MESA_GLSL_CACHE_DIR", "serve", "the older name of MESA_SHADER_CACHE_DIR" },
     { "MESA_SHADER_CACHE_DISABLE", "serve", "1: Mesa's drivers keep no compiled kernels" },
-    { "LP_NUM_THREADS", "bench", "how many threads lavapipe has: its speeds are told per core" },
+    { "LP_NUM_THREADS", "bench", "how many threads lavapipe has: its speeds are reported per core" },
     { "TMUX", "view", "where it is set, tmux stands before the terminal, and a refusal says so" },
     { "PATH", "film serve", "the folders in which the program ffmpeg is sought, which encodes films" },
     { "TMPDIR", "sweep film serve", "the folder of temporary files; /tmp where it is not set" },

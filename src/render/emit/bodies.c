@@ -264,33 +264,33 @@ WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
     { "bodies.flat",
-      "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no "
-      "tides, no own gravity, no shadows",
+      "bodies: opaque spheres in their own frames; near a body space is taken as flat and light as straight: no "
+      "tides, no gravity of its own, no shadows",
       NULL },
     { "bodies.unlit", "bodies: no light of the disk falls on them", dark },
     { "bodies.lit",
-      "bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly "
-      "to all sides; three moments of its direction are kept",
+      "bodies: they scatter, evenly to all sides, the light of an unobscured smooth disk, taken along straight "
+      "lines from 16 rings of 24 places; three moments of its direction are kept",
       lit_ones },
     { "bodies.large",
-      "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its "
-      "centre, where a body has another shape",
+      "bodies: one whose radius exceeds a tenth of its distance from the hole is drawn in the flat space of its "
+      "centre, where its shape is not the true one",
       large },
     { "bodies.black-body",
       "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
-    { "bodies.fast", "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay",
+    { "bodies.fast", "bodies: fast light: shown where they are at one coordinate time; the light's delay is ignored",
       NULL },
     { "bodies.still",
-      "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no "
-      "more",
+      "bodies: those that fall or have a chosen velocity stay where they are placed; the velocity only shifts "
+      "their light",
       stands },
     { "bodies.playground",
-      "bodies: those of a playground are where they are at its time, and move past an observer of zero angular "
-      "momentum",
+      "bodies: those of a playground are shown at its time, with velocities relative to observers of zero "
+      "angular momentum",
       shown },
     { "bodies.potential",
-      "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for "
-      "gamma v",
+      "bodies: those of a playground move in a potential; its r is taken as the Boyer-Lindquist radius, its "
+      "velocity as gamma v",
       by_potential },
     { "bodies.not-shown", "bodies: some of a playground are not shown: they have no radius, or are at the horizon",
       unseen },

@@ -110,24 +110,25 @@ WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
     { "debris.plane",
-      "debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as "
-      "wide as a cell at least",
+      "debris: projected onto the disk's plane at its r and azimuth, as a density of pieces on a grid: a stream "
+      "is at least one cell wide",
       NULL },
     { "debris.no-height",
-      "debris: it moves off that plane, by more than a fiftieth of r in the mean: its height is not shown", thick },
+      "debris: it lies more than a fiftieth of r off that plane in the mean; its height is not shown", thick },
     { "debris.black-body",
-      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column, at any "
-      "angle",
+      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column "
+      "density, at any angle",
       NULL },
     { "debris.mean",
-      "debris: the mean velocity of a place shifts its light, without that across the plane; no heat of shocks, no "
-      "spread of velocities",
+      "debris: its light is shifted by the mean velocity within the plane at each place; no heating by shocks, "
+      "no spread of velocities",
       NULL },
-    { "debris.fast", "debris: fast light: shown where it is at one coordinate time, whatever the light's delay", NULL },
+    { "debris.fast", "debris: fast light: shown where it is at one coordinate time; the light's delay is ignored",
+      NULL },
     { "debris.potential",
-      "debris: it moves in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v",
+      "debris: it moves in a potential; its r is taken as the Boyer-Lindquist radius, its velocity as gamma v",
       by_potential },
-    { "debris.not-shown", "debris: some pieces are beyond the grid, and not shown", hidden },
+    { "debris.not-shown", "debris: some pieces are outside the grid and not shown", hidden },
     { "debris.bolometric", "debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
       bolometric },
 };

@@ -117,7 +117,8 @@ WHEN(seen_through, scene->disk.opacity < 1)
 
 static const struct kd_sentence sentences[] = {
     { "disk.thin",
-      "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge",
+      "disk: geometrically thin, in the equatorial plane; its gas moves on circular Kerr orbits and ends at the "
+      "inner edge",
       thin },
     { "disk.isotropic",
       "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light",
@@ -125,14 +126,15 @@ static const struct kd_sentence sentences[] = {
     { "disk.newtonian", "disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral",
       newtonian },
     { "disk.temperature",
-      "disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate", chosen_peak },
+      "disk: the peak temperature is chosen for visibility, not computed from a mass and an accretion rate",
+      chosen_peak },
     { "disk.bolometric", "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
       bolometric },
     { "disk.no-doppler", "disk: Doppler shift and beaming of the gas are switched off", without_doppler },
     { "disk.no-redshift", "disk: gravitational redshift and time dilation of the gas are switched off",
       without_redshift },
     { "disk.edge", "disk: the outer edge fades out over a chosen range", fades },
-    { "disk.opacity", "disk: opacity is a chosen number a crossing, not computed from the gas", seen_through },
+    { "disk.opacity", "disk: the opacity of a crossing is a chosen number, not computed from the gas", seen_through },
 };
 
 const struct kd_emitter kd_emit_disk = {

@@ -131,24 +131,21 @@ WHEN(fast, stirs(scene) && !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "gas.turbulence",
-      "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it "
-      "temperature and "
-      "colour, and the optical depth where that is in force",
+      "gas: turbulence is procedural noise, not a solution of magnetohydrodynamics; it multiplies the flux, and "
+      "so changes temperature and colour, and the optical depth where one is used",
       turbulent },
     { "gas.rings",
-      "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each "
-      "other; it drifts, and does "
-      "not shear",
+      "gas: the pattern turns as rigid rings that blend into each other, each with the angular velocity of its "
+      "middle; it drifts but does not shear",
       turbulent },
     { "gas.octaves",
-      "gas: an octave finer than what a ray stands for on the disk fades to its mean: in time the light varies by a "
-      "tenth less than that of 64 rays a pixel, at most",
+      "gas: octaves finer than the area that a ray covers on the disk fade to their mean: the light varies in "
+      "time by up to a tenth less than with 64 rays a pixel",
       turbulent },
-    { "gas.fast", "gas: fast light: shown at one coordinate time, whatever the light's delay", fast },
+    { "gas.fast", "gas: fast light: shown at one coordinate time; the light's delay is ignored", fast },
     { "gas.depth",
-      "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each "
-      "crossing absorbs by its "
-      "depth over the cosine of the angle of emission",
+      "gas: the disk's optical depth is grey and proportional to its flux, with a chosen number at the "
+      "brightest radius; a crossing absorbs by its depth over the cosine of the angle of emission",
       deep },
 };
 

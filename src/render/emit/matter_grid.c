@@ -269,9 +269,9 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
                         t * t * sigma * delta / area;
     if (!(radius > edge && s2 > AXIS) || fabs(norm + 1) <= UNIT)
         return KD_OK;
-    return refuse_number(
-        g, "the velocity's u.u at u_con_t", i, norm,
-        "is -1 within a hundredth: it is timelike, of unit length, and in the components that are told", error);
+    return refuse_number(g, "the velocity's u.u at u_con_t", i, norm,
+                         "-1 within a hundredth, as of a velocity of unit length in the components that the grid names",
+                         error);
 }
 
 /* An empty node has no temperature. It gets the mean of its non-empty neighbours, so that interpolation next to it

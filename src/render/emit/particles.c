@@ -344,14 +344,16 @@ static bool slow(const struct kd_scene *scene, const struct kd_setting *rays)
 
 static const struct kd_sentence sentences[] = {
     { "particles.count",
-      "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is",
+      "particles: brightness is that of the smooth disk times the number of particles over its mean; opacity is "
+      "that of the smooth disk",
       NULL },
     { "particles.epicycles",
-      "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions",
+      "particles: epicycles to first order about circular orbits, with a chosen number of particles per radius; "
+      "no pressure, no collisions",
       NULL },
     { "particles.fast",
-      "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay", fast },
-    { "particles.slow", "particles: over the delay of light they go round on their guiding circles", slow },
+      "particles: fast light: the whole disk is shown at one coordinate time, and the light's delay is ignored", fast },
+    { "particles.slow", "particles: during the light's delay they move on their guiding circles", slow },
 };
 
 const struct kd_emitter kd_emit_particles = {

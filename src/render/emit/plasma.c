@@ -236,29 +236,31 @@ static bool is_beside(const struct kd_scene *scene, const struct kd_setting *ray
 static const struct kd_sentence sentences[] = {
     { "plasma.frequency",
       "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
-    { "plasma.unpolarised", "volume: all polarisations of light are absorbed alike: none is told", is_unpolarised },
+    { "plasma.unpolarised",
+      "volume: all polarisations of light are absorbed equally, so that the light is not polarised", is_unpolarised },
     { "plasma.gold",
-      "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
+      "volume: the analytic model of Gold et al. 2020, which was made to compare programs; it ends at its edges",
+      is_gold },
     { "plasma.powers",
-      "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their "
-      "edges, and 7 scale heights from the plane",
+      "volume: electrons and magnetic field follow power laws of r, which solve no equation of motion; they end "
+      "at their edges, and 7 scale heights from the plane",
       is_powers },
     { "plasma.torus",
-      "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by "
-      "its pressure alone; ions and electrons have temperatures of one ratio",
+      "volume: the torus of Fishbone & Moncrief 1976, which is in equilibrium without its magnetic field; the "
+      "field follows from a ratio of pressures; the ratio of ion and electron temperature is constant",
       is_torus },
     { "plasma.grid",
-      "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their "
-      "logarithms; it stands still, as it was at one time, while light passes",
+      "volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; "
+      "it is shown at one time and does not change while light passes",
       is_from_grid },
-    { "plasma.no-grid", "volume: no file of a grid is named: there is no matter", is_missing },
+    { "plasma.no-grid", "volume: volume.grid is not set: there is no matter", is_missing },
     { "plasma.pandya",
-      "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons "
-      "move in all directions alike",
+      "volume: synchrotron light by the fits of Pandya et al. 2016, which are good to a few percent within "
+      "their range; the electrons are isotropic",
       is_hot },
     { "plasma.no-flux",
-      "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture "
-      "has no flux",
+      "volume: light at a radio frequency is shown beside light of other kinds, on different scales of "
+      "brightness; the picture has no flux",
       is_beside },
 };
 

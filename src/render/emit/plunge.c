@@ -67,9 +67,9 @@ static void reach(const struct kd_scene *scene, double radii[2])
 
 static const struct kd_sentence sentences[] = {
     { "plunge.free",
-      "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical "
-      "depth that is "
-      "its surface density over the disk's at the ISCO; no stress, no heating",
+      "particles: inside the ISCO gas falls freely with the energy and angular momentum of the ISCO; it is grey "
+      "and has one chosen temperature; its optical depth is its surface density over the disk's at the ISCO; no "
+      "stress, no heating",
       NULL },
 };
 

@@ -62,12 +62,12 @@ static bool beside(const struct kd_scene *scene, const struct kd_setting *rays)
 
 static const struct kd_sentence sentences[] = {
     { "polarization.plane",
-      "polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way "
-      "changes it: no Faraday rotation",
+      "polarization: all light from the plane is polarised by the field in the frame of the gas; nothing "
+      "changes it on its way: no Faraday rotation",
       NULL },
     { "polarization.field",
-      "polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the "
-      "disk's, whatever the angle to the field",
+      "polarization: synchrotron: only direction and fraction depend on the field; brightness and colour are "
+      "the disk's at any angle to it",
       by_field },
     { "polarization.scatter",
       "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "

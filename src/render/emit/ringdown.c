@@ -39,12 +39,12 @@ static bool along(const struct kd_scene *scene, const struct kd_setting *rays)
 
 static const struct kd_sentence sentences[] = {
     { "ringdown.drawn",
-      "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it "
-      "at the picture's time",
+      "ringdown: an illustration: the metric of a struck hole rings; here only the light of image orders 1 and "
+      "up rings, all at the picture's time",
       NULL },
     { "ringdown.order",
-      "ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where "
-      "cos(theta) turns before it to where it turns behind it",
+      "ringdown: light of volumes is given the image order of the nearest crossing of the plane on its ray, "
+      "between the turning points of cos(theta) before and behind that crossing",
       along },
 };
 

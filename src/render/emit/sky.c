@@ -122,49 +122,48 @@ static bool noise(const struct kd_scene *scene, const struct kd_setting *rays)
 static const struct kd_sentence sentences[] = {
     { "sky.grid", "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift", drawn },
     { "sky.noise",
-      "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the "
-      "ray's constants, leads "
-      "more than 0.1 rad away",
+      "sky: from so near the horizon it is noise: for most pixels a neighbouring pixel, or the last digit of "
+      "the ray's constants, leads more than 0.1 rad away",
       noise },
-    { "sky.made-up", "sky: stars are made up, as many of each magnitude as there are in truth", made_up },
+    { "sky.made-up", "sky: stars are generated; each magnitude has as many as the real sky", made_up },
     { "sky.hipparcos",
-      "sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those "
-      "that it lacks",
+      "sky: stars of the Hipparcos catalogue, all at infinity; the catalogue is nearly complete only to "
+      "magnitude 8",
       listed },
     { "sky.star-colour",
-      "sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over "
-      "some 1.2 pixels",
+      "sky: stars shine as black bodies with the temperature of their colour; each image is spread over some "
+      "1.2 pixels",
       starry },
     { "sky.faint",
       "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out", starry },
     { "sky.rim",
-      "sky: images of stars are left out that are nearer to the critical curve than 3e-5 of its radius; in pixels so "
-      "fine that Sirius would be seen there, "
-      "those nearer than where it would be, or than 1e-7",
+      "sky: images of stars closer to the critical curve than 3e-5 of its radius are left out; in pixels so "
+      "fine that Sirius would be visible there, the limit is where Sirius is no longer visible, and at least "
+      "1e-7",
       rimmed },
     { "sky.few-rays",
-      "sky: next to the critical curve of so fast a hole, in so fine a picture, more rays would be needed than are "
-      "followed (524288): images of stars are left "
-      "out where the sky is so small that only a few of the brightest would be seen",
+      "sky: next to the critical curve of so fast a hole, so fine a picture would need more rays than are "
+      "followed (524288): images of stars are left out where the sky is demagnified so much that only a few of "
+      "the brightest would be visible",
       thinned },
     { "sky.no-rim",
-      "sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad "
-      "of the sky",
+      "sky: next to the critical curve, images of stars are left out in pixels that cover more than 0.15 rad of "
+      "the sky",
       rimless },
     { "sky.milky-way",
-      "sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky", milky },
-    { "sky.no-image",
-      "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it",
+      "sky: the light between the stars is a generated Milky Way, which does not match the real one place by "
+      "place",
+      milky },
+    { "sky.no-image", "sky: sky.model is \"image\" but sky.image is not set: the generated Milky Way takes its place",
       stands_in },
     { "sky.picture",
-      "sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 "
-      "magnitudes a square arcsecond, and "
-      "stars that it shows are spread as light",
+      "sky: the light between the stars is a photograph, which is not calibrated: its white is taken as 21 "
+      "magnitudes a square arcsecond, and stars in it are treated as diffuse light",
       picture },
-    { "sky.shift", "sky: the light between the stars is shifted as that of black bodies of 5600 K", shifted },
+    { "sky.shift", "sky: the light between the stars is shifted like that of black bodies of 5600 K", shifted },
     { "sky.tint",
-      "sky: a picture of three colours has no spectrum: its light is made brighter and tinted as that of black bodies "
-      "of 5600 K is",
+      "sky: a picture of three colours has no spectrum: its light is brightened and tinted like that of black "
+      "bodies of 5600 K",
       picture_shifted },
 };
 

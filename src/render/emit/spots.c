@@ -76,13 +76,14 @@ WHEN(fast, !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "spots.drawn",
-      "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
-      "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place",
+      "spots: prescribed Gaussians in r and phi that move rigidly with the orbit of their centre; they shine only in "
+      "the "
+      "equatorial plane outside the ISCO, with a power-law spectrum and the redshift of the gas at each place",
       NULL },
     { "spots.chosen", "spots: their brightness and colour are chosen, not computed; they absorb nothing", NULL },
     { "spots.no-shift", "spots: the Doppler shift or the gravitational redshift of the gas is switched off",
       without_shift },
-    { "spots.fast", "spots: fast light: shown where they are at one coordinate time, whatever the light's delay",
+    { "spots.fast", "spots: fast light: shown where they are at one coordinate time; the light's delay is ignored",
       fast },
 };
 

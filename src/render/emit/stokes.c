@@ -92,26 +92,28 @@ static bool is_disordered(const struct kd_scene *scene, const struct kd_setting 
 
 static const struct kd_sentence sentences[] = {
     { "stokes.slabs",
-      "polarization: Stokes I, Q, U and V of the volume together, in coefficients that are the same over each short "
-      "stretch; I is not that of unpolarised transfer",
+      "polarization: Stokes I, Q, U and V of the volume are transferred together, with coefficients that are "
+      "constant over each short step; I differs from that of unpolarised transfer",
       NULL },
     { "stokes.thermal",
       "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field "
-      "lies along the ray, and where electrons are not hot, V is held to what leaves 99 % of I polarised",
+      "lies along the ray, and where electrons are not hot, V is limited so that at most 99 % of I is polarised",
       is_thermal },
     { "stokes.power",
-      "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016, held to 99 % of I", is_power },
+      "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016; at most 99 % of I is "
+      "polarised",
+      is_power },
     { "stokes.kappa",
-      "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for electrons that "
-      "are hot; held to 99 % of I",
+      "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for hot "
+      "electrons only; at most 99 % of I is polarised",
       is_kappa },
     { "stokes.faraday",
-      "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & "
-      "O'Dell 1977): none is cold",
+      "polarization: Faraday rotation and conversion by those electrons only (Shcherbakov 2008, Dexter 2016; "
+      "Jones & O'Dell 1977); there are no cold electrons",
       turns_others },
     { "stokes.faraday-dexter",
-      "polarization: Faraday rotation and conversion of those electrons alone (Dexter 2016; rotation below a Theta of "
-      "1/2 by Shcherbakov 2008): none is cold",
+      "polarization: Faraday rotation and conversion by those electrons only (Dexter 2016; rotation below Theta "
+      "= 1/2 by Shcherbakov 2008); there are no cold electrons",
       turns_dexters },
     { "stokes.faraday-kappa",
       "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. "
@@ -120,8 +122,8 @@ static const struct kd_sentence sentences[] = {
       turns_kappa },
     { "stokes.no-faraday", "polarization: Faraday rotation and conversion are left out", turns_not },
     { "stokes.disorder",
-      "polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and "
-      "where it is converted; Faraday rotation is that of a field in order",
+      "polarization: disorder of the field reduces linear polarisation in emission, absorption and conversion; "
+      "Faraday rotation is that of an ordered field",
       is_disordered },
 };
 

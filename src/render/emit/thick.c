@@ -74,8 +74,8 @@ static const struct kd_sentence sentences[] = {
       "ends at 4.5 heights",
       NULL },
     { "thick.rotation",
-      "thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance "
-      "from the axis, at whatever height",
+      "thick disk: at any height its gas has the angular velocity of the circular orbit in the plane at its "
+      "distance from the axis",
       NULL },
     { "thick.black-body",
       "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a "

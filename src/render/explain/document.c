@@ -393,7 +393,7 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     kd_json_end(&json);
     kd_json_end(&json);
     const enum kd_status written = kd_json_finish_line(&json);
-    return status || !written ? status : kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+    return status || !written ? status : kd_error_set(error, KD_ENOMEM, "out of memory for the report on a pixel");
 }
 
 static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,

@@ -172,7 +172,7 @@ enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffe
     enum kd_status status = kd_explain(picture, &x, error);
     if (!status && (put_head(picture, &x, out) || put_crossings(&x, out) || put_light(&x, out) ||
                     put_each(picture, x.pixel, out, error) || put_accuracy(picture, &x, out)))
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the report on a pixel");
     kd_explained_finish(&x);
     return status;
 }

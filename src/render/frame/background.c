@@ -117,7 +117,7 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
         return found;
     struct kd_background_render *a = enter_background_render(renderer, plan);
     if (!a)
-        return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be",
+        return kd_error_set(error, KD_EBUSY, "too many pictures are being rendered beside others (limit %u)",
                             KD_BACKGROUND_RENDERS);
     struct kd_frame_job job = {
         .r = renderer,

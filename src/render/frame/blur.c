@@ -24,10 +24,11 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
                               "image.tile.width is %u; with motion_blur it must be 0: the whole picture",
                               plan->cut.width);
     if (plan->strips)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "the picture does not fit on the device in one, only in %u strips, which motion_blur does "
-                            "not take: lower image.width and image.height",
-                            plan->strips);
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "the picture fits on the device only in %u strips, and motion_blur needs it in one piece: lower "
+            "image.width and image.height",
+            plan->strips);
     if (!plan->picture || plan->n_layers)
         return kd_error_field(
             error, "/image/layers",
@@ -87,7 +88,7 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
                               "begin: motion_blur takes one"));
     if (plan.strips || plan.cut.width)
         KD_TRY(kd_error_set(error, KD_ETOOBIG,
-                            "a picture of the blurred frame does not fit on the device in one any more"));
+                            "a picture of the blurred frame no longer fits on the device in one piece"));
     bring_light(&plan);
     KD_TRY(b->aside ? kd_render_in_background(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
                     : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));

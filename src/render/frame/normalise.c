@@ -67,8 +67,8 @@ done:
 static enum kd_status refuse(const struct search *s, const char *why, double jy)
 {
     return kd_error_field(s->error, "/volume/normalise_to_jy",
-                          "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; it must be "
-                          "0, or what this matter shines with at some density",
+                          "volume.normalise_to_jy is %.9g Jy, but %s %.4g Jy; it must be 0, or a flux that this "
+                          "matter has at some density",
                           s->target, why, jy);
 }
 
@@ -96,7 +96,7 @@ static enum kd_status find(struct search *s, int side, double within, double *x)
         if (jy > 0 && fabs(y) < within)
             return KD_OK;
         if (!isfinite(jy) || (y < 0 && *x >= s->most))
-            return refuse(s, "as dense as may be it has", jy);
+            return refuse(s, "at its largest density this matter has", jy);
         if (isfinite(last) && jy > 0 && *x != before)
             s->slope = fmin(fmax((y - last) / (*x - before), 0.2), 8);
         before = *x;
@@ -108,7 +108,7 @@ static enum kd_status find(struct search *s, int side, double within, double *x)
         stays = end;
         *x = guess(s, *x, y, at, off);
     }
-    status = refuse(s, "after 60 pictures the nearest has", jy);
+    status = refuse(s, "the nearest flux found with 60 pictures is", jy);
 done:
     return status;
 }
@@ -237,7 +237,7 @@ enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene 
     s.progress = progress;
     s.user = user;
     if (!(*density_of(scene) > 0))
-        return refuse(&s, "there is no matter, which has", 0);
+        return refuse(&s, "there is no matter, and the flux is", 0);
     KD_TRY(keys_of(&s, &found));
     found.scale = known(kept, &found, plan->reuse_normalisation);
     if (!(found.scale > 0)) {

@@ -186,7 +186,7 @@ static enum kd_status make_room(struct kd_frame_job *j, uint32_t rays)
     free(told->each);
     told->rays = 0;
     if (!(told->each = malloc(rays * sizeof *told->each)))
-        return kd_error_set(j->error, KD_ENOMEM, "out of memory for what is told of %u rays", rays);
+        return kd_error_set(j->error, KD_ENOMEM, "out of memory for the report on %u rays", rays);
     told->rays = rays;
     return KD_OK;
 }
@@ -234,7 +234,7 @@ enum kd_status kd_frame_probe(struct kd_frame_job *j, uint32_t band)
     };
     enum kd_status status = KD_OK;
     if (!j->frame->told && !(j->frame->told = calloc(1, sizeof *j->frame->told)))
-        return kd_error_set(j->error, KD_ENOMEM, "out of memory for what is told of a pixel");
+        return kd_error_set(j->error, KD_ENOMEM, "out of memory for the report on a pixel");
     j->frame->told->x = p->told.x, j->frame->told->y = p->told.y;
     KD_TRY(kd_vk_buffer_create(j->r->vk, SIZE, KD_VK_READBACK, "light of a ray", &s.records, j->error));
     KD_TRY(follow_grid(j, &s));

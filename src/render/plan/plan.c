@@ -62,32 +62,30 @@ static const struct sentence {
 } sentences[] = {
     { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",
-      "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; "
-      "what accuracy asks for is a target: some 5e-5 are left in any case; "
-      "what is left is measured on a sample of rays, followed twice as closely",
+      "volumes: light is integrated in 32 bits with three points per step; the number of steps follows the "
+      "texture, the optical depth and the ray; the requested accuracy is a target, and an error of some 5e-5 "
+      "always remains; the error is measured on a sample of rays with steps half as long",
       volumes },
     { "volumes.sketch",
-      "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the "
-      "octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not",
+      "volumes: a sketch while the view changes: light to some 5 %, as measured, and turbulence without the "
+      "octaves that a pixel reduces below a seventh of the first, another 7 %, which is not measured",
       sketched },
     { "sky.sketch",
-      "sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are "
-      "left out, "
-      "and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky; the others "
-      "are up to a fifth of a ray off",
+      "sky: while the view changes, images of stars that would brighten their pixel by less than sky.brightness "
+      "are left out, and those next to the critical curve in pixels that cover more than 0.15 rad of the sky; "
+      "the others are up to a fifth of a ray off",
       bright },
     { "colour.gamut", "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance",
       crossings },
     { "image.few-rays",
-      "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as "
-      "dots",
-      few_rays },
+      "image: pixels at the critical curve have few rays; a photon ring thinner than a pixel shows as dots", few_rays },
     { "image.adaptive",
-      "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for "
-      "the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample",
+      "image: pixels that differ from the mean of their neighbours by twice image.pixel_error have 16 rays, the "
+      "others one; where the lens map is smooth these rays are interpolated; the remaining error is measured on "
+      "a sample",
       adapted },
     { "image.one-ray",
-      "image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is \"auto\"",
+      "image: maps, the ring projection and light curves have one ray a pixel if image.samples is \"auto\"",
       not_adapted },
     { "post.film", "post: a film-like tone curve; pixel values are not proportional to radiance", film },
     { "post.neutral",
@@ -95,61 +93,64 @@ static const struct sentence {
       "radiance",
       neutral },
     { "post.bloom",
-      "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave "
-      "the picture stays "
-      "at its edge",
+      "post: a lens's glare; part of the bright light is spread around its place; the total is conserved, and "
+      "light that would leave the picture stays at its edge",
       bloom },
     { "post.beam",
-      "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing "
-      "comes from beyond the picture's edge",
+      "post: a Gaussian beam represents a telescope: no gaps between stations, no noise, no reconstruction; no "
+      "light comes from beyond the picture's edge",
       beam },
     { "post.near-beam",
-      "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc",
+      "post: for a near observer the beam has, at the hole, the width that it has when seen from "
+      "spacetime.distance_pc",
       near_beam },
     { "flux.near",
-      "flux: that of a near camera is its picture's, by the square of its distance from the hole over "
-      "spacetime.distance_pc; where matter lies round the camera no telescope has such a flux",
+      "flux: that of a near camera is scaled by the square of its distance from the hole over "
+      "spacetime.distance_pc; if matter surrounds the camera, no telescope would measure such a flux",
       near_flux },
     { "post.heat",
-      "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency",
+      "post: false colours; brightness is that of the model's band, not a brightness temperature at a radio "
+      "frequency",
       heat },
-    { "sky.cut", "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
+    { "sky.cut", "sky: images of stars are cut at the edges of the bands in which a picture of this size is rendered",
+      cut },
     { "volume.normalised",
-      "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by "
-      "smaller pictures that the estimated time leaves out; answers tell the factor as density_scale",
+      "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy; "
+      "smaller pictures find it, which the estimated time leaves out; answers give the factor as density_scale",
       normalised },
     { "volume.held",
-      "volume: while the view is dragged the density is the last that was found for this matter, from whichever side, "
-      "and the flux is not volume.normalise_to_jy; it is when the view rests",
+      "volume: while the view is dragged the density is the last one found for this matter, from another view, "
+      "so that the flux differs from volume.normalise_to_jy until the view rests",
       held },
-    { "layers.one-ray", "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
+    { "layers.one-ray", "layers: maps of places and angles show one ray a pixel, not a mean over the pixel", maps },
     { "layers.false-colour", "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers",
       coloured },
     { "projection.ring",
-      "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to "
-      "scale",
+      "projection: distances to the critical curve on a logarithmic scale, as no eye sees them; areas are not "
+      "to scale",
       projected },
     { "projection.angles", "projection: angles as distances, over half the sky or all of it; areas are not to scale",
       rounded },
     { "camera.stereo",
-      "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of "
-      "camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space",
+      "camera: each eye of a pair is an observer of the same kind at the same time, displaced from the middle "
+      "to first order in camera.eye_distance in the local frame; the axes are parallel as in flat space",
       paired },
     { "lens.interpolated",
-      "lens map: rays are followed closely where it bends, and where image orders or fates change; between them it is "
-      "interpolated to 1e-5, or to 2e-6 by the profile balanced; answers tell of how many pixels it was",
+      "lens map: rays are followed where it bends and where image orders or fates change; between them it is "
+      "interpolated to 1e-5, or to 2e-6 with the profile balanced; answers give the number of interpolated "
+      "pixels",
       interpolated },
     { "arithmetic.f32",
-      "arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits",
+      "arithmetic: 32-bit; rays whose fate or number of crossings is uncertain in 32 bits are followed again in "
+      "64 bits",
       single },
     { "arithmetic.f32-listed",
-      "arithmetic: 32-bit, by an engine whose rays are not followed again: within about 1e-5 of the critical curve "
-      "they "
-      "are given up, or may have another fate",
+      "arithmetic: 32-bit, by an engine whose rays are not followed again: within about 1e-5 of the critical "
+      "curve they are given up, or their fate may be wrong",
       single_listed },
     { "arithmetic.f64", "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
-    { "rays.kerr-schild",
-      "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
+    { "rays.kerr-schild", "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost",
+      compared },
 };
 enum { SENTENCES = sizeof sentences / sizeof *sentences };
 

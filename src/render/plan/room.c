@@ -78,9 +78,8 @@ enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_cap
     if (!plan->beam.cell || bytes <= buffer_bytes(c))
         return KD_OK;
     return kd_error_set(error, KD_ETOOBIG,
-                        "a beam as narrow as style.beam_uas is in pixels needs %llu bytes at once, this device binds "
-                        "%llu: lower image.width and "
-                        "image.height, or raise style.beam_uas",
+                        "at this picture size a beam of style.beam_uas needs a buffer of %llu bytes; the device allows "
+                        "%llu: lower image.width and image.height, or raise style.beam_uas",
                         (unsigned long long)bytes, (unsigned long long)buffer_bytes(c));
 }
 

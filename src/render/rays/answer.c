@@ -107,9 +107,9 @@ static const struct {
 } approximations[] = {
     { { "rays.vacuum", "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing" },
       NULL },
-    { { "rays.gas", "g is that of gas on circular equatorial orbits outside the ISCO and, inside it, of gas that falls "
-                    "with the energy "
-                    "and angular momentum of the ISCO; neither feels pressure" },
+    { { "rays.gas",
+        "g is that of gas on circular equatorial orbits outside the ISCO, and inside it of gas that falls with "
+        "the energy and angular momentum of the ISCO; pressure is ignored" },
       NULL },
     { { "rays.infinity",
         "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity" },
@@ -117,12 +117,12 @@ static const struct {
     { { "rays.f32", "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong" },
       is_single },
     { { "rays.from-1000",
-        "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
-        "takes the momentum they leave with for their direction of escape, good to 1e-6 rad" },
+        "the engine starts rays from infinity at 1000 M, at the exact place given by their constants, and takes "
+        "their momentum there as their direction of escape, which is good to 1e-6 rad" },
       is_compared },
     { { "rays.again",
-        "rays beyond the tolerance by their own error were followed again in double precision, at last in closed form; "
-        "what is still beyond it says so by its error" },
+        "rays whose error exceeds the tolerance were followed again in double precision and, if needed, in closed "
+        "form; the error of each ray tells which still exceed it" },
       is_held },
 };
 

@@ -81,8 +81,8 @@ static enum kd_status is_full(struct kd_asset_put *put, struct kd_error *error)
 {
     const struct kd_asset_limits *limits = &put->own->store->limits;
     put->full = true;
-    return kd_error_set(error, KD_EFULL, "as many assets are kept as may: %u, of %llu bytes in all", limits->most,
-                        (unsigned long long)limits->bytes);
+    return kd_error_set(error, KD_EFULL, "the store of assets is full (limits: %u assets, %llu bytes in all)",
+                        limits->most, (unsigned long long)limits->bytes);
 }
 
 /* Removes the evicted asset and decides how to continue. Called without the lock. */
@@ -157,7 +157,7 @@ static enum room take_place(struct kd_asset_put *put, struct kd_asset *fresh, st
 static enum kd_status is_beyond_share(const struct kd_asset_store *store, struct kd_error *error)
 {
     return kd_error_set(error, KD_EBUSY,
-                        "as many assets of yours are kept as may of one client: %u, of %llu bytes in all",
+                        "you have stored too many assets (limits for one client: %u assets, %llu bytes in all)",
                         store->limits.client_most, (unsigned long long)store->limits.client_bytes);
 }
 

@@ -60,7 +60,7 @@ static void refuse(struct kd_front *front, struct guest *guest, bool quota)
                             "this server has no descriptor left for another connection", NULL);
     else if (quota)
         kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA,
-                            "as many of your connections are open as one client may have", NULL);
+                            "you have too many open connections (limit for one client)", NULL);
     else
         kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes",
                             NULL);

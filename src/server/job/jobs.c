@@ -207,13 +207,13 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
         gives_way = gives_way || (!kd_job_is_active(job) && job->references == 1);
     }
     if (all->closed || unfinished >= all->params.limit)
-        return kd_error_set(error, KD_EBUSY, "%u jobs are unfinished, as many as may", unfinished);
+        return kd_error_set(error, KD_EBUSY, "too many unfinished jobs (limit %u)", unfinished);
     if (all->params.client_limit && own >= all->params.client_limit) {
         *quota = true;
-        return kd_error_set(error, KD_EBUSY, "%u of your jobs are unfinished, as many as one client may have", own);
+        return kd_error_set(error, KD_EBUSY, "you have too many unfinished jobs (limit %u for one client)", own);
     }
     if (kept >= all->params.kept && !gives_way)
-        return kd_error_set(error, KD_EBUSY, "%u jobs are kept, as many as may, and all are being read", kept);
+        return kd_error_set(error, KD_EBUSY, "too many stored jobs (limit %u), and all are being read", kept);
     return KD_OK;
 }
 

@@ -134,9 +134,9 @@ static enum kd_status admit(struct kd_playground_sessions *all, const char *clie
         own += !strcmp(other->turns.client, client);
     *quota = !all->closed && all->count < all->params.limit && own >= all->params.client_limit;
     if (*quota)
-        return kd_error_set(error, KD_EBUSY, "%u of your playgrounds are open, as many as one client may have", own);
+        return kd_error_set(error, KD_EBUSY, "you have too many open playgrounds (limit %u for one client)", own);
     if (all->closed || all->count >= all->params.limit)
-        return kd_error_set(error, KD_EBUSY, "%u playgrounds are open, as many as may", all->count);
+        return kd_error_set(error, KD_EBUSY, "too many open playgrounds (limit %u)", all->count);
     if (kd_bytes_take(all->bytes, client, bytes, bytes, quota))
         return kd_error_set(error, KD_EBUSY, "this playground's debris takes %zu MiB, more than is left %s",
                             bytes >> 20, *quota ? "of your share" : "on this server");

@@ -224,8 +224,8 @@ enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char 
         return KD_OK;
     const unsigned s = wait_ms < 1e6 * 1e3 ? (unsigned)ceil(wait_ms * 1e-3) : 1000000;
     kd_error_set(error, KD_EBUSY,
-                 "what you have asked for takes as much of the device's time as one client may use, %u s a minute; in "
-                 "%u s more is taken",
+                 "your requests have used up the device time of one client (%u s a minute); the next one will be "
+                 "accepted in %u s",
                  queue->allowance.seconds, s);
     if (error)
         error->retry_s = s;
@@ -257,13 +257,13 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     unsigned next = !queue->holder; /* one job is about to start on an idle device and does not count as waiting */
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
-        return kd_error_set(error, KD_EBUSY, "%u renders are waiting, as many as may", n);
+        return kd_error_set(error, KD_EBUSY, "too many waiting renders (limit %u)", n);
     *quota = true;
     if (own < queue->client_limit + next) {
         *quota = kd_render_queue_afford(queue, client, error) != KD_OK;
         return *quota ? KD_EBUSY : KD_OK;
     }
-    return kd_error_set(error, KD_EBUSY, "%u of your renders are waiting, as many as one client may have", own);
+    return kd_error_set(error, KD_EBUSY, "you have too many waiting renders (limit %u for one client)", own);
 }
 
 /* Whether a job runs in slices. A job's picture always does, because nobody waits for it. A live frame never does: its

@@ -203,8 +203,8 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     /* The size is known only after encoding; it is smaller than that of the pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
-                            quota ? "as many bytes of pictures wait for you to take them as may for one client"
-                                  : "too many pictures wait for their clients to take them"));
+                            quota ? "too many bytes of pictures wait for you to read them (limit for one client)"
+                                  : "too many bytes of pictures wait for their clients to read them"));
 done:
     if (!status)
         return true;

@@ -121,8 +121,8 @@ enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t
 {
     if (kd_bytes_take(server->replies, client, bytes, bytes, quota))
         return kd_error_set(error, KD_EBUSY,
-                            *quota ? "as many bytes of answers wait for you to take them as may for one client"
-                                   : "too many answers wait for their clients to take them");
+                            *quota ? "too many bytes of answers wait for you to read them (limit for one client)"
+                                   : "too many bytes of answers wait for their clients to read them");
     *held = bytes;
     return KD_OK;
 }

@@ -139,13 +139,13 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
         pthread_mutex_unlock(&all->lock);
         free(s);
         *quota = true;
-        return kd_error_set(error, KD_EBUSY, "%u of your sessions are open, as many as one client may have", own);
+        return kd_error_set(error, KD_EBUSY, "you have too many open sessions (limit %u for one client)", own);
     }
     if (full) {
         unsigned n = all->count;
         pthread_mutex_unlock(&all->lock);
         free(s);
-        return kd_error_set(error, KD_EBUSY, "%u sessions are open, as many as may", n);
+        return kd_error_set(error, KD_EBUSY, "too many open sessions (limit %u)", n);
     }
     s->listed = true;
     s->next = all->first;

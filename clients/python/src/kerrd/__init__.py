@@ -1,4 +1,4 @@
-"""Pictures and numbers of black holes, by kerrd: docs/python.md."""
+"""A client of kerrd, the black-hole renderer: pictures and numbers from a server (docs/python.md)."""
 
 from typing import Any
 
@@ -36,14 +36,15 @@ __all__ += scene.__all__
 
 
 def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:
-    """Scenes on a Dask cluster: kerrd.dask.sweep, which needs the package distributed."""
-    from .dask import sweep as on_cluster  # which says so where it is not installed
+    """Renders scenes on a Dask cluster: kerrd.dask.sweep(scenes, client, ...). Needs the package distributed."""
+    from .dask import sweep as on_cluster  # it explains what to install if the package is missing
 
     return on_cluster(scenes, client, **more)
 
 
 def widget(scene: Any = None, client: Any = None, **more: Any) -> Any:
-    """The live hole in a cell of a notebook: kerrd.jupyter.Widget, which needs the package anywidget."""
+    """A live view in a notebook's cell: kerrd.jupyter.Widget(scene, client, ...). ImportError without the package
+    anywidget."""
     try:
         from .jupyter import Widget
     except ModuleNotFoundError as missing:

@@ -1,5 +1,4 @@
-"""What is asked of a server, and how its answers are read; no connection is made here. Client and AsyncClient send
-these."""
+"""Requests to a server, and parsers of the answers. It opens no connection: Client and AsyncClient do."""
 
 from __future__ import annotations
 
@@ -35,7 +34,7 @@ ONCE = "Idempotency-Key"
 
 @dataclass(frozen=True)
 class Answer:
-    """headers: names in lower case."""
+    """An HTTP answer. The names of its headers are in lower case."""
 
     status: int
     headers: Mapping[str, str]
@@ -44,7 +43,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Call(Generic[T_co]):
-    """A request, and what reads its answer."""
+    """A request, and the function that parses its answer."""
 
     method: str
     path: str
@@ -55,21 +54,22 @@ class Call(Generic[T_co]):
 
 
 def retry_after(answer: Answer) -> float | None:
-    """Seconds to wait before a busy server, or one that is still at the same request, is asked again; None: it is not
-    busy, or does not say."""
+    """Seconds to wait before a request is repeated, if the server is busy, or still at work on the same request; None
+    if it is not, or does not say."""
     said = answer.headers.get("retry-after", "")
     return float(said) if answer.status in (409, 429, 503, 507) and said.replace(".", "", 1).isdigit() else None
 
 
 def may_be_sent_again(call: Call[Any], error: httpx.TransportError) -> bool:
-    """Whether a connection that broke may have carried the request, and sending it again makes nothing twice."""
+    """Whether the broken connection may have carried the request, and whether sending it again is safe, since it has an
+    Idempotency-Key."""
     broken = httpx.ReadError, httpx.WriteError, httpx.RemoteProtocolError
     return ONCE in call.headers and isinstance(error, broken)
 
 
 def checked(answer: Answer, url: str) -> Answer:
-    """The answer, or its problem document as an exception. NoKerrd: whoever answers at this address is another
-    program."""
+    """The answer, if it is a success. Otherwise raises its problem document as Problem, or NoKerrd if there is none:
+    then another program answers at this address."""
     if 200 <= answer.status < 300:
         return answer
     try:
@@ -82,7 +82,7 @@ def checked(answer: Answer, url: str) -> Answer:
 
 
 def understood(call: Call[T], answer: Answer, url: str) -> T:
-    """What the call makes of an answer."""
+    """The parsed answer. NoKerrd if it cannot be parsed."""
     try:
         return call.read(answer)
     except (ValueError, KeyError, TypeError, OSError, zipfile.BadZipFile) as error:
@@ -99,7 +99,7 @@ def _nothing(answer: Answer) -> None:
 
 
 def _arrays(node: Any) -> Any:
-    """Lists of numbers as float64 arrays, null as NaN; all else as it is."""
+    """Turns lists of numbers into float64 arrays, null into NaN; anything else stays."""
     if isinstance(node, dict):
         return {name: _arrays(part) for name, part in node.items()}
     if (
@@ -119,7 +119,7 @@ def _table(answer: Answer) -> dict[str, Any]:
 
 
 def _quantity(answer: Answer) -> Any:
-    """Values of several ranges in their shape."""
+    """The values of several ranges as arrays in their shape."""
     told = _table(answer)
     shape = told.get("shape")
     if shape is not None:
@@ -132,7 +132,7 @@ def _quantity(answer: Answer) -> Any:
 
 
 def _orbit(answer: Answer) -> Any:
-    """`series` as columns by name."""
+    """Turns `series` into columns by name."""
     told: dict[str, Any] = _json(answer)
     for one in told.get("orbits", [told]):
         series = one.get("series")
@@ -151,7 +151,7 @@ def _frame(answer: Answer) -> Frame:
 
 
 def shown(frame: Frame, scenes: Mapping[int, Document]) -> Frame:
-    """A session's frame with the scene that it shows: that of its revision, at the frame's own time and azimuth."""
+    """A session's frame with its scene: that of its revision, at the frame's own time and azimuth."""
     if frame.revision not in scenes:
         return frame
     document: Document = copy.deepcopy(scenes[frame.revision])
@@ -187,7 +187,7 @@ def post(
     method: str = "POST",
     once: bool = False,
 ) -> Call[T]:
-    """once: it may be sent again, and makes one thing at most (docs/http.md)."""
+    """A request with a JSON body. once: with an Idempotency-Key, so that it may be sent again (docs/http.md)."""
     key = {ONCE: f'"{uuid.uuid4()}"'} if once else {}
     headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token), **key}
     return Call(
@@ -200,7 +200,7 @@ def bearer(token: str | None) -> dict[str, str]:
 
 
 def admitted(access: str | None) -> dict[str, str]:
-    """The access token in a header of its own: Authorization is for the tokens of sessions, jobs and assets."""
+    """The access token, in its own header: Authorization carries the tokens of sessions, jobs and assets."""
     return {"Kerrd-Access": access} if access else {}
 
 
@@ -228,11 +228,12 @@ TILED: Document = {
     "/image/legend": False,
     "/image/layer_min": 0,
     "/image/layer_max": 1,
-}  # by pointer: what a tile can have of each field of which it cannot have everything
+}  # the values that a tile can have, by the pointers of fields that it cannot have in full
 
 
 def of_a_tile(problem: Problem, document: Document) -> Document | None:
-    """The document with the field that was refused as a tile can have it; None: it was refused for another reason."""
+    """The document with the refused field set to what a tile can have. None if the field is not refused for being in a
+    tile."""
     if problem.pointer not in TILED:
         return None
     _, section, field = problem.pointer.split("/")
@@ -280,7 +281,7 @@ def integral(name: str, document: Document) -> Call[Any]:
 
 
 def _comparison(answer: Answer) -> Any:
-    """Columns of words as arrays too, "" where there is none."""
+    """Turns columns of words into arrays too, with "" for null."""
     told = _table(answer)
     told["columns"] = {
         name: np.array(["" if part is None else part for part in column]) if isinstance(column, list) else column
@@ -298,7 +299,7 @@ def is_hash(text: str) -> bool:
 
 
 def observed(observation: str | bytes | os.PathLike[str]) -> tuple[bytes, str]:
-    """The bytes of an observation, or of its file, and what they are."""
+    """The bytes of an observation, or of its file, and its media type."""
     data = observation if isinstance(observation, bytes) else pathlib.Path(observation).read_bytes()
     return data, "application/x-uvfits" if data.startswith(b"SIMPLE") else "text/csv"
 
@@ -309,7 +310,7 @@ def physics(name: str, parameters: Mapping[str, Any]) -> Call[answers.Quantity]:
 
 
 def _ranged(name: str, value: Any) -> str:
-    """A parameter as a query has it: an array as first:last:count, which numpy.linspace makes."""
+    """A parameter in the form of a query. An array must be what numpy.linspace makes, and becomes first:last:count."""
     if isinstance(value, str) or np.ndim(value) == 0:
         return str(value)
     listed = np.asarray(value, dtype=np.float64)
@@ -376,7 +377,7 @@ def result(name: str, kind: str | None, frame: int | None = None) -> Call[bytes]
 
 
 def read_curve(body: bytes) -> dict[str, NDArray[np.float64]]:
-    """A light curve's columns by name, NaN where a row has none."""
+    """The columns of a light curve by name, with NaN where a row has no value."""
     rows = json.loads(body)["frames"]
     names = list(
         dict.fromkeys(
@@ -398,7 +399,7 @@ def read_cube(body: bytes) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
 
 
 def finished(status: Mapping[str, Any]) -> bool:
-    """Whether a job is done; one that has failed is an exception."""
+    """Whether a job is done. JobFailed if it has failed."""
     if status["state"] == "failed":
         raise JobFailed(dict(status))
     return bool(status["state"] == "done")
@@ -406,7 +407,7 @@ def finished(status: Mapping[str, Any]) -> bool:
 
 @contextmanager
 def bar(wanted: bool) -> Iterator[Callable[[Mapping[str, Any]], None]]:
-    """What tells a job's status as a bar of tqdm, which need not be installed."""
+    """A function that shows a job's status as a bar of tqdm; without the package tqdm it shows nothing."""
     shown = None
     if wanted:
         try:

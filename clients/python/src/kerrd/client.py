@@ -22,15 +22,20 @@ from .result import Sweep
 
 T = TypeVar("T")
 FRAME_WAIT_MS = 25_000
-AGAIN_S = 1  # until what a broken connection carried is sent again
+AGAIN_S = 1  # before a request whose connection broke is sent again
 
 
 class Client:
-    """A server by its address, such as "http://127.0.0.1:8080/".
+    """A client of the server at an address such as "http://127.0.0.1:8080/".
 
-    patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is
-    raised; a job or a session whose connection breaks is asked for again as long, and made once. timeout: seconds without a byte. access: an access token, of a server that has a token file. trust_env:
-    whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
+    timeout: seconds without a byte after which a request fails. patience: seconds for which a request is repeated while
+    the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For as long a
+    job or a session is requested again if its connection breaks; it is created only once. headers: sent with each
+    request. access: the access token for a server with a token file. trust_env: whether the environment sets proxies
+    and certificates.
+
+    Methods raise Problem for a refused request, Unreachable without a connection, and NoKerrd if another program
+    answers.
     """
 
     def __init__(
@@ -88,7 +93,8 @@ class Client:
             time.sleep(wait)
 
     def approximations(self) -> dict[str, str]:
-        """The sentence of each name that Kerrd-Approximations may have; asked for once."""
+        """The sentence of each approximation, by the names in the header Kerrd-Approximations. They are requested
+        once."""
         if not self._sentences:
             told = self._run(calls.get("/v1/approximations"))
             self._sentences = {one["name"]: one["sentence"] for one in told["approximations"]}
@@ -102,7 +108,8 @@ class Client:
         layers: Sequence[str] | Open = (),
         **changes: Any,
     ) -> Frame:
-        """A picture; layers: the numbers that come with it, by a second request for which the lens map is kept."""
+        """Renders a picture. preset: the scene that `scene` and changes are applied to. layers: names of layers to
+        return with it; they take a second request, which reuses the lens map."""
         document = scene_of(scene, changes)
         frame = self._run(calls.render(document, preset))
         frame.sentences.update(self.approximations())
@@ -118,17 +125,18 @@ class Client:
         preset: str | Open | None = None,
         **changes: Any,
     ) -> dict[str, NDArray[np.float32]]:
-        """Numbers alone: float32 of shape (height, width), "rgb" (height, width, 3) as linear light."""
+        """Renders layers without a picture: float32 of shape (height, width), "rgb" of shape (height, width, 3) in
+        linear light."""
         return self._run(calls.layers(scene_of(scene, changes), preset, names))
 
     def stitched(
         self, scene: SceneLike = None, *, tile: int | Open = 2048, preset: str | Open | None = None, **changes: Any
     ) -> NDArray[np.uint8]:
-        """A picture of any size as it is shown, uint8 of shape (height, width, 3), of tiles of tile x tile pixels: the
-        same as in one, without a seam.
+        """Renders a picture of any size from tiles of at most tile x tile pixels: uint8 of shape (height, width, 3),
+        the same pixels as of one picture, without seams.
 
-        A tile cannot have exposure "auto", samples "auto", bloom or a beam: docs/scene.md. On many machines:
-        kerrd.dask.stitched.
+        A tile cannot have exposure "auto", samples "auto", bloom or a beam (docs/scene.md): Problem names all that the
+        scene has of these. kerrd.dask.stitched does the same on many machines.
         """
         document = scene_of(scene, changes)
         width, height = self._size(document, preset)
@@ -150,7 +158,7 @@ class Client:
         preset: str | Open | None = None,
         **changes: Any,
     ) -> dict[str, NDArray[np.float32]]:
-        """The numbers of a picture of any size, as layers() has them, of tiles."""
+        """Renders layers of a picture of any size from tiles, in the shapes of layers()."""
         document = scene_of(scene, changes)
         width, height = self._size(document, preset)
         whole: dict[str, NDArray[np.float32]] = {}
@@ -164,7 +172,7 @@ class Client:
         return whole
 
     def _may_be_tiled(self, document: Document, preset: str | None) -> None:
-        """Problem that names all that a tile of this scene cannot have, not the first of it alone."""
+        """Raises a Problem that names everything that a tile of this scene cannot have."""
         refused: list[Problem] = []
         while True:
             try:
@@ -188,56 +196,61 @@ class Client:
         return int(image["width"]), int(image["height"])
 
     def plan(self, scene: SceneLike = None, *, preset: str | Open | None = None, **changes: Any) -> answers.Plan:
-        """What it would take: passes, rays, bytes, estimate_ms, approximations; nothing is rendered."""
+        """The cost of a picture: passes, rays, bytes, estimate_ms, and its approximations. Nothing is rendered."""
         return self._run(calls.plan(scene_of(scene, changes), preset))
 
     def pixel(
         self, x: float, y: float, scene: SceneLike = None, *, preset: str | Open | None = None, **changes: Any
     ) -> answers.Pixel:
-        """Where the light of a pixel comes from; x to the right, y downwards, from 0."""
+        """Where the light of a pixel comes from. x counts to the right and y downwards, both from 0."""
         return self._run(calls.pixel(scene_of(scene, changes), preset, x, y))
 
     def rays(self, pairs: ArrayLike, **settings: Any) -> NDArray[Any]:
-        """End points of rays, pairs of alpha and beta in M of shape (n, 2); settings: spin, r, inclination_deg, orders,
-        profile, tolerance, engine. With motion ("infall", "velocity", ...: as camera.observer) pairs are directions of
-        that observer, yaw and pitch in degrees.
+        """End points of rays. pairs: alpha and beta of each ray in M, of shape (n, 2). settings: spin, r,
+        inclination_deg, orders, profile, tolerance, engine. With motion ("infall", "velocity", ...: the values of
+        camera.observer) pairs are directions for that observer, yaw and pitch in degrees.
 
-        A record each: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative), sky_theta, sky_phi, and
-        r, phi, delay, g of shape (orders,).
+        Returns one record for each ray: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative),
+        sky_theta, sky_phi, and r, phi, delay, g of shape (orders,). ValueError for pairs of another shape.
         """
         return self._run(calls.rays(pairs, settings))
 
     def orbits(self, orbit: Mapping[str, Any] | None = None, **settings: Any) -> answers.OrbitPath:
-        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000; `series` holds its columns as arrays.
-        Of several, orbits=[…], the answer is an answers.OrbitPaths."""
+        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000. `series` holds its columns as float64
+        arrays. For several bodies, orbits=[...], the answer is an answers.OrbitPaths."""
         return self._run(calls.orbits({**({"orbit": dict(orbit)} if orbit is not None else {}), **settings}))
 
     def physics(self, name: str, **parameters: Any) -> answers.Quantity:
-        """A quantity: physics("kerr", spin="0:0.998:100"); values of ranges are arrays in the shape of the ranges."""
+        """Values of a quantity: physics("kerr", spin="0:0.998:100"). A range is "first:last:count" or an evenly spaced
+        array; values are then arrays in the shape of the ranges."""
         return self._run(calls.physics(name, parameters))
 
     def line(self, **settings: Any) -> answers.LineProfile:
-        """The profile of a line from a thin disk; `columns` are arrays."""
+        """The profile of a spectral line from a thin disk. `columns` are arrays."""
         told: answers.LineProfile = self._run(calls.integral("line", settings))
         return told
 
     def transfer_function(self, **settings: Any) -> answers.TransferFunction:
+        """Cunningham's transfer function f(g*, r) of a thin disk, near and far side. `columns` are arrays."""
         told: answers.TransferFunction = self._run(calls.integral("transfer-function", settings))
         return told
 
     def spectrum(self, **settings: Any) -> answers.DiskSpectrum | answers.VolumeSpectrum:
+        """The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. `columns` are arrays."""
         told: answers.DiskSpectrum | answers.VolumeSpectrum = self._run(calls.integral("spectrum", settings))
         return told
 
     def visibility(self, **settings: Any) -> answers.Visibilities:
+        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` are arrays."""
         told: answers.Visibilities = self._run(calls.integral("visibility", settings))
         return told
 
     def compare(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Comparison:
-        """A scene beside an observation: chi^2, and `columns` as arrays. The observation is a file, uvfits or the EHT's
-        CSV, its bytes, or the hash of an asset of the server: compare("m87.uvfits", preset="m87", average_s=600)."""
+        """Compares a scene with an observation: chi^2, and `columns` as arrays. The observation is a file (uvfits, or
+        the EHT's CSV), its bytes, or the hash of an asset on the server: compare("m87.uvfits", preset="m87",
+        average_s=600)."""
         name = observation if isinstance(observation, str) and calls.is_hash(observation) else None
         if name is None:
             name = self.put_asset(*calls.observed(observation))
@@ -248,25 +261,27 @@ class Client:
         return told
 
     def presets(self) -> list[answers.PresetTold]:
-        """name, label and title of each."""
+        """Name, label and title of each preset."""
         return self._run(calls.presets())
 
     def preset(self, name: str) -> dict[str, Any]:
-        """A preset's whole scene."""
+        """The whole scene of a preset."""
         told: dict[str, Any] = self._run(calls.get(f"/v1/presets/{name}"))
         return told
 
     def device(self) -> answers.Device:
+        """The server's device: name, driver, precision, limits, and nanoseconds for each kind of work."""
         told: answers.Device = self._run(calls.get("/v1/device"))
         return told
 
     def schema(self) -> dict[str, Any]:
+        """The JSON Schema of a scene."""
         told: dict[str, Any] = self._run(calls.get("/v1/schema"))
         return told
 
     def put_asset(self, data: bytes, kind: str = "image/png") -> str:
-        """Keeps a picture, a grid of matter (kind "application/x-npz") or an observation ("application/x-uvfits",
-        "text/csv") at the server; returns the hash that scenes name."""
+        """Uploads an asset and returns its hash, by which scenes name it. kind: the media type: of a picture, of a grid
+        of matter ("application/x-npz") or of an observation ("application/x-uvfits", "text/csv")."""
         return str((self._run(calls.put_asset(data, kind)))["sha256"])
 
     def session(
@@ -278,13 +293,13 @@ class Client:
         quality: int | Open | None = None,
         **changes: Any,
     ) -> Session:
-        """A live view: iterate over its frames. quality: of JPEG while something moves, 1 to 100; None: PNG always.
-        least: see docs/live.md."""
+        """Opens a live view; iterate over it for its frames. quality: of JPEG frames while something moves, 1 to 100;
+        None: PNG frames only. least: see docs/live.md."""
         return Session(self, self._run(calls.open_session(scene_of(scene, changes), preset, least)), quality)
 
     def job(self, document: Mapping[str, Any], *, preset: str | None = None) -> Job:
-        """A job by its document (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]}, {"scene": …, "axes":
-        …}."""
+        """Starts a job from its document (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]} or {"scene": …,
+        "axes": …}."""
         return Job(self, self._run(calls.open_job(scene_of(document, {}), preset)))
 
     def light_curve(
@@ -297,8 +312,8 @@ class Client:
         progress: bool | Open = False,
         **changes: Any,
     ) -> dict[str, NDArray[np.float64]]:
-        """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among
-        them."""
+        """Flux and centroid at evenly spaced times from times[0] to times[1], in M. frames: number of times. progress:
+        shows a bar. Returns columns as float64 arrays, `t` and `flux` among them. ValueError for frames below 2."""
         if frames < 2:
             raise ValueError(f"frames is {frames}; it must be at least 2: the first and the last moment")
         document = {
@@ -319,8 +334,8 @@ class Client:
         progress: bool | Open = False,
         **changes: Any,
     ) -> Sweep:
-        """A scene of every combination of the values of some fields: axes={"spacetime.spin": [0, 0.9],
-        "camera.inclination_deg": "10:80:15"}."""
+        """Renders layers of one scene for each combination of values of some fields: axes={"spacetime.spin": [0, 0.9],
+        "camera.inclination_deg": "10:80:15"}. progress: shows a bar."""
         document = scene_of(scene, changes)
         if isinstance(layers, str):
             raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
@@ -337,12 +352,12 @@ def _close(client: Client, kind: str, name: str, token: str) -> None:
     try:
         client._run(calls.close(kind, name, token))
     except Problem as problem:
-        if problem.status != 404:  # it is gone already
+        if problem.status != 404:  # it has ended already
             raise
 
 
 class Session:
-    """A live view at the server, until close(), the end of `with`, or a minute without anybody who asks."""
+    """A live view on the server. It ends by close(), at the end of `with`, or after a minute without requests."""
 
     def __init__(self, client: Client, opened: Mapping[str, Any], quality: int | None) -> None:
         self.client = client
@@ -350,11 +365,11 @@ class Session:
         self.token: str = opened["token"]
         self.scene: dict[str, Any] = opened["scene"]
         self.revision: int = opened["revision"]
-        self._scenes = {self.revision: self.scene}  # by revision: those that frames may still show
+        self._scenes = {self.revision: self.scene}  # by revision; only those that a coming frame may show
         self.quality = quality
-        self.frame_wait = FRAME_WAIT_MS / 1000  # seconds that an iteration waits for a frame before it asks again
+        self.frame_wait = FRAME_WAIT_MS / 1000  # seconds for which an iteration waits for a frame before it asks again
         self._seen = 0
-        self._final = 0  # the revision whose finest frame has been seen
+        self._final = 0  # the revision whose final frame has been received
 
     def __repr__(self) -> str:
         return f"<kerrd.{type(self).__name__} {self.id} at {self.client.url}, revision {self.revision}>"
@@ -371,13 +386,13 @@ class Session:
         _close(self.client, "sessions", self.id, self.token)
 
     def patch(self, change: SceneLike = None, **changes: Any) -> int:
-        """Changes the scene; returns its revision, which frames of it carry."""
+        """Changes the scene. Returns the new revision, which its frames carry."""
         told = self.client._run(calls.patch(self.id, self.token, scene_of(change, changes)))
         self._take(told)
         return self.revision
 
     def refresh(self) -> dict[str, Any]:
-        """Asks for the scene as it is now, which goes on by itself while `motion` is in it, and returns it."""
+        """Requests the current scene, which changes by itself while `motion` is set, and returns it."""
         told = self.client._run(calls.session(self.id))
         self._take(told)
         return self.scene
@@ -390,8 +405,7 @@ class Session:
         self._scenes[self.revision] = self.scene
 
     def frame(self, wait: float = FRAME_WAIT_MS / 1000) -> Frame | None:
-        """The next frame that has not been seen; None if there is none within so many seconds, as when the scene
-        rests."""
+        """The next new frame, or None if none comes within `wait` seconds, as when the scene is at rest."""
         frame = self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
         if frame is None:
             return None
@@ -402,27 +416,27 @@ class Session:
         if frame.final:
             self._final = frame.revision
         if frame.revision > self.revision or self.scene.get("motion", {}).get("proper_time_rate"):
-            self.refresh()  # somebody else has changed it, or its observer has fallen on
+            self.refresh()  # another client has changed the scene, or its observer has fallen further
         return calls.shown(frame, self._scenes)
 
     def __iter__(self) -> Iterator[Frame]:
-        """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where
-        something moves, without end."""
+        """Yields frames as they come. For a scene at rest it stops after the final one, or at once if that has been
+        received. For a moving scene it does not stop, unless nothing visible moves."""
         while self.moves or self._final < self.revision:
             frame = self.frame(self.frame_wait)
             if frame is not None:
                 yield frame
             elif self._final == self.revision:
-                return  # what goes on changes nothing that is seen
+                return  # time runs, but the picture does not change
 
     @property
     def moves(self) -> bool:
-        """Whether the scene goes on by itself, so that no frame of it is the last."""
+        """Whether the scene moves by itself, so that none of its frames is final."""
         return any(self.scene.get("motion", {}).values())
 
 
 class Job:
-    """A job at the server; it is removed there by close() or the end of `with`."""
+    """A job on the server. It is removed by close(), or at the end of `with`."""
 
     def __init__(self, client: Client, opened: Mapping[str, Any]) -> None:
         self.client = client
@@ -444,10 +458,12 @@ class Job:
         _close(self.client, "jobs", self.id, self.token)
 
     def status(self) -> answers.Job:
+        """The job's state and progress."""
         return self.client._run(calls.job(self.id))
 
     def wait(self, *, progress: bool = False, every: float = 0.1) -> Job:
-        """Until it is done; JobFailed if it fails. progress: a bar of tqdm, if that is installed."""
+        """Waits until the job is done. JobFailed if it fails. progress: shows a bar, if the package tqdm is installed.
+        every: seconds between two requests."""
         with calls.bar(progress) as told:
             while True:
                 status = self.status()
@@ -457,6 +473,6 @@ class Job:
                 time.sleep(every)
 
     def result(self, kind: str | None = None, frame: int | None = None) -> bytes:
-        """The file: a PNG, a ZIP, a film ("mp4", "webm"), a cube ("npz", "fits"), a table; of one frame with
-        `frame`."""
+        """The bytes of the result: a PNG, a ZIP, a film ("mp4", "webm"), a cube ("npz", "fits") or a table. frame: the
+        number of one frame, whose file is returned instead."""
         return self.client._run(calls.result(self.id, kind, frame))

@@ -1,8 +1,8 @@
-"""Scenes rendered by the workers of a Dask cluster, each of which has a server of its own.
+"""Renders scenes on the workers of a Dask cluster, each of which has its own server.
 
-Who does what: Dask's scheduler hands out scenes, gives those of a worker that died to the others, and shows how far it
-is on its dashboard; a worker plugin starts a server beside each worker, and again where it has died. Needs the package
-distributed (pip install kerrd[dask]).
+Dask's scheduler distributes the scenes, reassigns those of a worker that died, and shows the progress on its dashboard.
+A worker plugin starts a server beside each worker, and starts it again if it dies. Needs the package distributed (pip
+install kerrd[dask]).
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ from .local import local
 
 
 class Servers(WorkerPlugin):
-    """A server for each worker, started with the first scene that it gets: binary, device, args and env as for
-    kerrd.local. A cluster has one plugin for the same options."""
+    """The plugin that runs one server for each worker, started with the worker's first scene. options: binary, build,
+    device, args, env, timeout and patience, as for kerrd.local. A cluster has one plugin for the same options."""
 
     idempotent = True
 
@@ -69,8 +69,8 @@ class Servers(WorkerPlugin):
         return {"options": self.options, "name": self.name}
 
     def hole(self, *, other_than: local | None = None) -> local:
-        """The worker's server; a new one where the last has died. other_than: one whose connection broke, which is
-        about to be dead or is not."""
+        """The worker's server; a new one if the last has died. other_than: a server whose connection broke, which is
+        given a second to end."""
         with self._lock:
             if self._hole is not None and self._hole is other_than:
                 try:
@@ -92,8 +92,8 @@ def _render_all(
     layers: Sequence[str],
     paths: Sequence[str | None],
 ) -> list[Any]:
-    """A task: some scenes one after the other. A refusal ends it, and is its last element: no other worker would do
-    better."""
+    """The task: renders some scenes one after the other. If a scene is refused, the task ends with that Problem as its
+    last element, since no other worker could render the scene."""
     got: list[Any] = []
     try:
         for document, path in zip(documents, paths):
@@ -104,9 +104,9 @@ def _render_all(
 
 
 def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
-    """On a worker: a picture's bytes or the numbers of its layers; with `to` they go into that file, whose name is
-    returned. A server that dies meanwhile is started anew, once."""
-    if to is not None and os.path.exists(to):  # by the worker that died with this task
+    """On a worker: renders a picture's bytes or a scene's layers. With `to` they are written into that file, whose name
+    is returned. If the server dies, it is started again, once."""
+    if to is not None and os.path.exists(to):  # written by a worker that died with this task
         return to
     plugin = cast(Servers, get_worker().plugins[plugin_name])
     hole = plugin.hole()
@@ -118,7 +118,7 @@ def _render(plugin_name: str, document: Document, preset: str | None, layers: Se
         got = _ask(plugin.hole(other_than=hole), document, preset, layers)
     if to is None:
         return got
-    part = f"{to}.{os.getpid()}.{threading.get_ident()}.part"  # whole under its name, or not there
+    part = f"{to}.{os.getpid()}.{threading.get_ident()}.part"  # renamed when complete: no half file has the name
     with open(part, "wb") as file:
         if isinstance(got, bytes):
             file.write(got)
@@ -135,7 +135,7 @@ def _ask(
         return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
     except Problem:
         if (document.get("image") or {}).get("tile"):
-            hole._may_be_tiled(document, preset)  # it raises a Problem that names all that a tile cannot have
+            hole._may_be_tiled(document, preset)  # raises a Problem with all that a tile cannot have
         raise
 
 
@@ -144,7 +144,7 @@ def _gather(cluster: Cluster, futures: Any) -> Any:
 
 
 def scenes_of(scene: SceneLike, axes: Mapping[str, Iterable[Any]]) -> list[Document]:
-    """A scene of every combination of values of fields, by their dotted paths; the last axis is the fastest."""
+    """One scene for each combination of the values of fields, by dotted path; the last axis is the fastest."""
     return [scene_of(scene, dict(zip(axes, values))) for values in itertools.product(*axes.values())]
 
 
@@ -160,16 +160,19 @@ def sweep(
     batch: int | None = None,
     **options: Any,
 ) -> Any:
-    """Renders scenes on a cluster, in order of their places in the list.
+    """Renders scenes on a cluster, in the order of the list.
 
-    Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz)
-    … there instead, a folder that all workers share; returns their paths. What is there already is kept, so that a
-    sweep that broke off goes on; of what scene it is stands in sweep.json there, and a file of another scene is an
-    error. zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its
-    group; needs the package zarr, and scenes of one size. batch: scenes a task, which Dask hands out; None: some thirty
-    tasks a thread, of at most 16 scenes each. client: a distributed.Client, else the current one. options: of the
-    workers' servers (Servers). A scene that is refused raises kerrd.Problem; what a worker that died had not finished
-    is done by others, and by the same one again at most `retries` times.
+    client: a distributed.Client, by default the current one. preset: the scene that all scenes are applied to. Returns
+    a list of PNG bytes; with `layers`, of dicts of float32 arrays. options: of the workers' servers (Servers).
+
+    folder: a folder shared by all workers, for files 000000.png (or .npz) …; returns their paths. Existing files are
+    kept, so that an interrupted sweep continues; sweep.json records the scene of each, and a file of another scene is
+    an error. zarr: a store shared by all workers, with one array (scenes, height, width[, 3]) for each layer; returns
+    its group. Needs the package zarr, and scenes of one size.
+
+    batch: scenes of one task; None: some thirty tasks for each thread, of at most 16 scenes. retries: how often a task
+    is repeated when its worker has died; what it had not finished goes to other workers. Raises Problem for a scene
+    that is refused, ValueError without scenes or for a batch below 1, and KerrdError for a folder with other scenes.
     """
     if isinstance(layers, str):
         raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
@@ -202,13 +205,13 @@ def sweep(
     got = _refused(_gather(cluster, futures))
     if folder is None:
         return got
-    for left in Path(folder).glob("*.part"):  # by workers that died
+    for left in Path(folder).glob("*.part"):  # left by workers that died
         left.unlink(missing_ok=True)
     return paths
 
 
 def _refused(tasks: Iterable[list[Any]]) -> list[Any]:
-    """What all tasks made, one behind the other; the first refusal is raised."""
+    """The results of all tasks in one list. Raises the first refusal."""
     got = list(itertools.chain.from_iterable(tasks))
     for one in got:
         if isinstance(one, Problem):
@@ -217,7 +220,7 @@ def _refused(tasks: Iterable[list[Any]]) -> list[Any]:
 
 
 def _files(folder: Path, documents: Sequence[Document], preset: str | None, layers: Sequence[str]) -> list[str | None]:
-    """Their names, after a look at what is there: sweep.json has the hash of what each file shows."""
+    """The names of the files, after comparing those that exist with sweep.json, the hashes of their scenes."""
     folder.mkdir(parents=True, exist_ok=True)
     names = [f"{k:06}.{'npz' if layers else 'png'}" for k in range(len(documents))]
     wanted = {
@@ -238,7 +241,7 @@ def _files(folder: Path, documents: Sequence[Document], preset: str | None, laye
 
 
 def _parts(cluster: Cluster, places: Sequence[int], batch: int | None) -> list[Sequence[int]]:
-    """Places of scenes, a task each."""
+    """Indices of scenes, divided into tasks."""
     threads = max(sum(cluster.nthreads().values()), 1)  # type: ignore[no-untyped-call]
     size = batch if batch is not None else min(max(len(places) // (32 * threads), 1), 16)
     return [places[k : k + size] for k in range(0, len(places), size)]
@@ -254,11 +257,11 @@ def stitched(
     retries: int = 3,
     **options: Any,
 ) -> Any:
-    """One picture of any size by all workers, of tiles of tile x tile pixels: uint8 of shape (height, width, 3), or
-    with `layers` a dict of float32 arrays.
+    """Renders one picture of any size on all workers, from tiles of at most tile x tile pixels: uint8 of shape (height,
+    width, 3), or with `layers` a dict of float32 arrays.
 
-    scene: with image.width and image.height; docs/scene.md says what a tile cannot have. The other arguments are those
-    of sweep().
+    scene: must have image.width and image.height, else ValueError; docs/scene.md lists what a tile cannot have. The
+    other arguments are those of sweep().
     """
     document = scene_of(scene, {})
     image = document.get("image") or {}
@@ -293,7 +296,7 @@ def _place(
     layers: Sequence[str],
     store: str,
 ) -> list[Problem]:
-    """A task: the numbers of some scenes into their places of the store. A refusal ends it."""
+    """The task: writes the layers of some scenes into the store. A refusal ends it, and is returned."""
     group = _zarr().open_group(store, mode="r+")
     try:
         for k, document in zip(places, documents):

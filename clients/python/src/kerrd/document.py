@@ -1,4 +1,4 @@
-"""Scenes as documents: merged from dataclasses, mappings and changes by path."""
+"""Scenes as JSON documents, merged from dataclasses, mappings and changes by path."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
-Open: TypeAlias = Any  # beside the type of a keyword next to **changes: else no type checker takes **{"camera.r": 60}
+Open: TypeAlias = Any  # in types of keywords beside **changes: without it, type checkers refuse **{"camera.r": 60}
 T = TypeVar("T")
 
 
 def plain(value: Any) -> Any:
-    """Dataclasses, tuples and numpy's arrays and scalars as what JSON has; what is None of a dataclass is left to the
-    server."""
+    """The value in JSON's types, from dataclasses, tuples, and arrays and scalars of numpy. Fields of a dataclass that
+    are None are left out."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return {name: plain(part) for name, part in fields.items() if part is not None}
@@ -34,7 +34,7 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any, path: str = "") -> Any:
-    """The same document; ValueError that names the field of a number that JSON does not have: NaN, infinity."""
+    """The same document. ValueError, naming the field, for a number that JSON cannot hold: NaN or infinity."""
     for name, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
         finite(part, f"{path}.{name}" if path else str(name))
     if isinstance(value, float) and not math.isfinite(value):
@@ -43,7 +43,7 @@ def finite(value: Any, path: str = "") -> Any:
 
 
 def _merge(document: Document, change: Mapping[str, Any]) -> Document:
-    """RFC 7396, but null stays: it takes a field to its default at the server."""
+    """Merges a change as RFC 7396 does, except that null is kept: on the server it resets a field to its default."""
     for name, value in change.items():
         if isinstance(value, Mapping) and isinstance(document.get(name), Mapping):
             _merge(document[name], value)
@@ -53,7 +53,7 @@ def _merge(document: Document, change: Mapping[str, Any]) -> Document:
 
 
 def _at(document: Document, path: str, value: Any) -> None:
-    """Sets what a dotted path names; numbers are places in a list that is there already."""
+    """Sets the value at a dotted path. A number in a path is the index of an existing element of a list."""
     *folders, last = path.split(".")
     here: Any = document
     for k, name in enumerate(folders):
@@ -78,7 +78,7 @@ def _place(here: Any, name: str, path: str) -> Any:
 
 
 def _size(value: Any) -> tuple[int, int]:
-    """Width and height, in pixels."""
+    """Width and height in pixels. ValueError if that is not what the value is."""
     parts = value.split("x") if isinstance(value, str) else value
     if (
         not isinstance(parts, Sequence)
@@ -93,7 +93,8 @@ Window: TypeAlias = tuple[int, int, int, int]
 
 
 def windows(width: int, height: int, side: int) -> list[Window]:
-    """Left, top, width and height of tiles of at most side x side pixels that cover a picture, row by row."""
+    """Tiles that cover a picture, row by row: left, top, width and height of each, at most side x side pixels.
+    ValueError for a side below 1."""
     if side < 1:
         raise ValueError(f"tile is {side}; it must be at least 1 pixel")
     return [
@@ -104,7 +105,7 @@ def windows(width: int, height: int, side: int) -> list[Window]:
 
 
 def tile_of(document: Document, window: Window) -> Document:
-    """The scene of which that part of the picture is made."""
+    """The scene of one tile of the picture."""
     return {
         **document,
         "image": {**document.get("image", {}), "tile": dict(zip(("left", "top", "width", "height"), window))},
@@ -112,15 +113,15 @@ def tile_of(document: Document, window: Window) -> Document:
 
 
 def _widths(document: Document) -> tuple[Any, Any]:
-    """One width in two units: of a scene with changes over it the one that is changed holds, as src/scene/sky_scale.h
-    of the server has it."""
+    """The width of the picture in its two units. If changes set one of them, that one holds, as in
+    src/scene/sky_scale.h of the server."""
     camera = document.get("camera") or {}
     return camera.get("field_m"), camera.get("field_uas")
 
 
 def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
-    """The document of a scene with changes over it: camera={"inclination_deg": 60}, camera__inclination_deg=60, or
-    **{"camera.inclination_deg": 60}; size=(640, 360), or "640x360", is image.width and image.height."""
+    """The document of a scene with changes. A change is camera={"inclination_deg": 60}, camera__inclination_deg=60 or
+    **{"camera.inclination_deg": 60}. size=(640, 360), or "640x360", sets image.width and image.height."""
     document: Document = plain(scene) if scene is not None else {}
     before = _widths(document)
     for name, value in changes.items():
@@ -139,8 +140,8 @@ def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
 
 
 def patch_of(scene: Document, changes: Mapping[str, Any]) -> Document:
-    """The merge patch that makes changes to a whole scene, given as for scene_of. A list goes as a whole, for a merge
-    patch knows no places in it."""
+    """The merge patch that applies changes, given as for scene_of, to a whole scene. It holds each changed list as a
+    whole, since a merge patch cannot address an element."""
     lists = [
         parts[0]
         for parts in (name.replace("__", ".").split(".") for name in changes)
@@ -150,7 +151,7 @@ def patch_of(scene: Document, changes: Mapping[str, Any]) -> Document:
 
 
 def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
-    """A document as dataclasses; what they have no field for, such as `version`, is left out."""
+    """A document as dataclasses. What they have no field for, such as `version`, is left out."""
     types = typing.get_type_hints(kind)
     return kind(
         **{
@@ -162,7 +163,7 @@ def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
 
 
 def _typed(value: Any, hint: Any) -> Any:
-    """A section as its dataclass, a list of such as a list of them, all else as it is."""
+    """A section as its dataclass, a list of sections as a list of dataclasses, and any other value unchanged."""
     for part in typing.get_args(hint):
         if isinstance(value, Mapping) and dataclasses.is_dataclass(part):
             return dataclass_of(value, typing.cast(type[Any], part))

@@ -13,13 +13,13 @@ from .frame import Frame
 
 # G m_sun / c^2 (nominal solar mass parameter, IAU 2015 resolution B3) and the parsec (resolution B2), m.
 SUN_M, PARSEC_M = 1.3271244e20 / 299792458.0**2, 3.0856775814913673e16
-# As ehtim calls the sources that source.name of a scene knows.
+# ehtim's names of the sources that the scene's source.name knows.
 NAMES = {"m87": "M87", "sgra": "SGRA"}
 STOKES = ("stokes_q", "stokes_u", "stokes_v")
 
 
 def _width_m(camera: dict[str, Any]) -> float:
-    """How wide the picture is at the hole's distance, in M: scene/sky_scale.c of the server."""
+    """Width of the picture at the hole's distance, in M, as in scene/sky_scale.c of the server."""
     if camera["projection"] not in ("auto", "plane", "pinhole"):
         raise ValueError(
             f'camera.projection must be a flat one, whose pixels have one size, not "{camera["projection"]}"'
@@ -30,7 +30,7 @@ def _width_m(camera: dict[str, Any]) -> float:
 
 
 def _polarised(frame: Frame, flux: NDArray[np.float32]) -> list[NDArray[np.float64]]:
-    """Stokes Q, U and V in Jy a pixel; what is missing at the end is left out."""
+    """Stokes Q, U and V in Jy a pixel, as many of them as the frame has."""
     names = [name for name in STOKES if name in frame.layers]
     if names not in ([], list(STOKES[:2]), list(STOKES)):
         raise ValueError(
@@ -57,13 +57,13 @@ def to_ehtim(
 ) -> Any:
     """An ehtim.image.Image of a frame that was rendered with the layer "jy_per_pixel".
 
-    With the layers stokes_q, stokes_u (and stokes_v) and "intensity" beside it the image is polarised. Its pixels are
-    in Jy, its orientation is that of the picture (north is up, east is left), its size is that of the scene's mass and
-    distance, its frequency volume.frequency_ghz.
+    Pixels are in Jy. Orientation: that of the picture, north up and east left. Size: by the scene's mass and distance.
+    Frequency: volume.frequency_ghz. With the layers "intensity", "stokes_q" and "stokes_u" (and "stokes_v") the image
+    is polarised.
 
-    The name of the source, its right ascension (hours), its declination (degrees) and the date (a modified Julian date,
-    in days) are those of the scene's section "source", unless they are given here. ValueError for a frame that lacks
-    something, or where neither tells a place or a date; ImportError without ehtim.
+    source: name of the source; ra: right ascension in hours; dec: declination in degrees; mjd: modified Julian date in
+    days. Their defaults are the values of the scene's section "source". ValueError if the frame lacks a layer, if its
+    projection is not flat, or if place or date are unknown; ImportError without the package ehtim.
     """
     if "jy_per_pixel" not in frame.layers:
         raise ValueError('the frame has no layer "jy_per_pixel": render it with layers=["jy_per_pixel"]')

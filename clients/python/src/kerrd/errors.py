@@ -1,4 +1,4 @@
-"""What goes wrong: the server's problem documents as exceptions."""
+"""The exceptions of this package. The server's problem documents are raised as Problem."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ import httpx
 
 
 class KerrdError(Exception):
-    """Anything that this package raises of its own."""
+    """The base class of all exceptions that this package defines."""
 
 
 class NoBinary(KerrdError):
-    """There is no program `kerrd` here, and it could not be built."""
+    """The program `kerrd` was not found, and could not be built."""
 
 
 class Unreachable(KerrdError, httpx.TransportError):
-    """No server answers at the address, or the connection broke. Nothing is sent twice."""
+    """No server answers at the address, or the connection broke. Only requests with an Idempotency-Key are sent
+    again."""
 
     def __init__(self, url: str, reason: str) -> None:
         self._made_of = (url, reason)
@@ -28,7 +29,7 @@ class Unreachable(KerrdError, httpx.TransportError):
 
 
 class NoKerrd(KerrdError):
-    """Whoever answers at the address is no kerrd, or a proxy that has none behind it."""
+    """Another program than kerrd answers at the address, or a proxy without kerrd behind it."""
 
     def __init__(self, url: str, reason: str) -> None:
         self._made_of = (url, reason)
@@ -39,11 +40,11 @@ class NoKerrd(KerrdError):
 
 
 class Problem(KerrdError):
-    """A request that the server refused or failed (RFC 9457).
+    """A request that the server refused, or failed to serve (RFC 9457).
 
-    status: the HTTP status. pointer: the field of the document, as "/image/width", or None. detail: the sentence that
-    names field, value and what is allowed. allowed: the part of it that says what is allowed, or None. type, title: as
-    in the document. retry_after: seconds after which the server would be asked again, or None.
+    status: the HTTP status. pointer: the field of the document, such as "/image/width", or None. detail: a sentence
+    with the field, its value and what it must be. allowed: the part of detail on what it must be, or None. type, title:
+    as in the problem document. retry_after: seconds after which another try may succeed, or None.
     """
 
     def __init__(self, status: int, document: dict[str, Any], retry_after: float | None = None) -> None:
@@ -60,11 +61,11 @@ class Problem(KerrdError):
         super().__init__(f"{status} {self.title}: {self.detail}" + (f" ({self.pointer})" if self.pointer else ""))
 
     def __reduce__(self) -> tuple[type[Problem], tuple[int, dict[str, Any], float | None]]:
-        return Problem, self._made_of  # between processes
+        return Problem, self._made_of  # how it is pickled between processes
 
 
 class JobFailed(KerrdError):
-    """A job that ended without its result; status is the server's account of it."""
+    """A job that ended without a result. status: the server's document of the job."""
 
     def __init__(self, status: dict[str, Any]) -> None:
         self.status = status

@@ -1,5 +1,5 @@
-"""Fields of the scene by name, of the server's schema: what each takes, and what a slider needs to know of it. No
-connection is made here."""
+"""Fields of the scene by name, from the server's schema: the values each accepts, and what its slider needs. It opens
+no connection."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .document import Document
 from .errors import KerrdError
 
 MOST_POSITIONS = 400
-DECADES = 30  # a range whose ends differ by more than this factor is one of magnitudes
+DECADES = 30  # from this ratio of a range's ends on, its slider is logarithmic
 PER_DECADE = 40
 UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
 
@@ -23,9 +23,9 @@ UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
 class Field:
     """A field of the scene.
 
-    kind: "number", "integer", "choice", "switch", or "other" of what has no control: a file, a list of words. low,
-    high: what the server takes; span: the part of it that is of use. word: what stands there instead of a number
-    ("infinity"), and first: the number to begin with then.
+    kind: "number", "integer", "choice" or "switch"; or "other", such as a file or a list of words, which has no
+    control. low, high: the range that the server accepts; span: the useful part of it. word: the word that may stand
+    instead of a number, such as "infinity"; first: the number to begin with after it.
     """
 
     path: str
@@ -42,7 +42,7 @@ class Field:
 
     @property
     def label(self) -> str:
-        """The name in words, without its unit; a field of a list with the number of its element, from 1."""
+        """Name in words, without the unit. A field of a list has the number of its element, from 1."""
         name = UNITS.sub("", self.path.rsplit(".", 1)[-1]).replace("_", " ")
         section = self.path.split(".")[0]
         element = re.match(r"[a-z]+\.(\d+)\.", self.path)
@@ -51,8 +51,8 @@ class Field:
         return name if section in ("spacetime", "camera", "style", "time") else f"{section}: {name}"
 
     def positions(self) -> list[float]:
-        """The numbers that a slider stops at, ends included: round ones, by factors where the range is one of
-        magnitudes; not more than some MOST_POSITIONS."""
+        """The numbers at which a slider stops, ends included: evenly spaced round numbers, or a logarithmic scale for a
+        range of many decades; about MOST_POSITIONS at most."""
         low, high = self.span
         if self.kind == "integer" and high - low <= MOST_POSITIONS:
             return [float(n) for n in range(math.ceil(low), math.floor(high) + 1)]
@@ -63,7 +63,7 @@ class Field:
             inner = [
                 0.0,
                 *_factors(self._usual() / 100, high),
-            ]  # 0 is "off": from there to a hundredth of what is usual in one step
+            ]  # 0 is "off"; one step leads from there to a hundredth of the default
         else:
             step = next(
                 size * 10.0**power
@@ -80,7 +80,7 @@ class Field:
         return abs(self.default) if isinstance(self.default, (int, float)) and self.default else 1.0
 
     def control(self) -> dict[str, Any]:
-        """What draws a control needs, as JSON has it."""
+        """The description of a control for widget.js, in JSON's types."""
         told: dict[str, Any] = {
             "path": self.path,
             "kind": self.kind,
@@ -102,8 +102,8 @@ class Field:
 
 
 class Fields:
-    """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by its last part where one
-    field alone is called that ("spin")."""
+    """The fields of a schema (/v1/schema), by path ("disk.outer", "spots.0.r") or by the path's last part ("spin") if
+    that is unique."""
 
     def __init__(self, schema: Mapping[str, Any]) -> None:
         self.paths = {
@@ -114,7 +114,7 @@ class Fields:
         }
 
     def path(self, name: str) -> str:
-        """The whole path of a field, or the name of a section; KerrdError naming the fields that it may mean."""
+        """The whole path of a field, or the name of a section. KerrdError, with similar names, if there is none."""
         said = name.replace("__", ".")
         general = re.sub(r"\.\d+(?=\.)", ".*", said)
         if said in self.folders or general in self.paths:
@@ -133,7 +133,7 @@ class Fields:
         return {name if name == "size" else self.path(name): value for name, value in changes.items()}
 
     def control(self, name: str) -> Field:
-        """A field that a control is wanted for."""
+        """The field for a control. KerrdError for a section, or for a field that cannot have one."""
         path = self.path(name)
         spec = self.paths.get(re.sub(r"\.\d+(?=\.)", ".*", path))
         if spec is None:
@@ -184,6 +184,6 @@ def _field(path: str, spec: Mapping[str, Any]) -> Field:
 
 
 def _factors(low: float, high: float) -> list[float]:
-    """Numbers of three figures from low to high, each the one before times a factor."""
+    """Numbers of three significant digits from low to high, each the one before times a constant factor."""
     number = min(MOST_POSITIONS, math.ceil(math.log10(high / low) * PER_DECADE))
     return [float(f"{low * (high / low) ** (k / number):.3g}") for k in range(number + 1)]

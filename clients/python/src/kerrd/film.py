@@ -1,5 +1,5 @@
-"""Films whose frames are rendered by the workers of a Dask cluster: each calls `kerrd film --only FIRST:LAST`, and the
-last task makes the film of what is there."""
+"""Films whose frames are rendered by the workers of a Dask cluster. Each task calls `kerrd film --only FIRST:LAST`; the
+last one encodes the film from all frames."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ from .document import plain
 from .errors import KerrdError
 from .local import find_binary
 
-LOCK_WAIT_S = 120  # for a process whose worker has died and that ends by itself
+LOCK_WAIT_S = 120  # for the lock of a process that outlives its worker for a moment
 
 
 def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[str, Any]:
-    """On a worker: a process that ends with it (util-linux's setpriv), and what its --stats say."""
+    """Runs `kerrd film` on a worker, and returns what its --stats print. With util-linux's setpriv the process ends
+    with its worker."""
     with_worker = [setpriv, "--pdeathsig", "TERM", "--"] if (setpriv := shutil.which("setpriv")) else []
     until = time.monotonic() + LOCK_WAIT_S
     while True:
@@ -54,13 +55,16 @@ def film(
     retries: int = 3,
     binary: str | None = None,
 ) -> str:
-    """Makes a film (docs/films.md) by all workers; returns the path of the file.
+    """Renders a film (docs/films.md) on all workers of a Dask cluster. Returns the path of the file.
 
-    document: the request, as for `kerrd film`. output: the file, .mp4, .webm or .zip. state: a folder that all workers
-    share, where frames are kept; a film that broke off goes on there. options: further ones of `kerrd film`, as
-    ("--samples", "8"). batch: frames a task. binary: the program on the workers (find_binary); their devices must be of
-    one kind, or their frames are refused. The workers' processes end with them; frames that were not finished are
-    rendered by others.
+    document: the request, as for `kerrd film`. output: the file, .mp4, .webm or .zip. client: a distributed.Client, by
+    default the current one. state: a folder shared by all workers, where frames are kept; an interrupted film continues
+    from it. rate: frames a second. options: further options of `kerrd film`, such as ("--samples", "8"). batch: frames
+    of one task. retries: how often a task is repeated. binary: the program on the workers (find_binary).
+
+    The workers' devices must be of one kind, or their frames are refused. A process ends with its worker; its
+    unfinished frames are rendered by other workers. KerrdError with the message of a process that fails; ValueError for
+    a batch below 1.
     """
     if batch < 1:
         raise ValueError(f"batch is {batch}; it must be at least 1 frame")
@@ -70,7 +74,7 @@ def film(
     common = ["--state", folder, *options]
     first = cluster.submit(
         _run, [*common, "--only", "0:0"], request, binary, retries=retries, pure=False
-    ).result()  # which measures the exposure of all, too
+    ).result()  # this task measures the exposure of the whole film, too
     frames = int(first["frames"])
     ranges = [(k, min(k + batch, frames) - 1) for k in range(1, frames, batch)]
     n = len(ranges)

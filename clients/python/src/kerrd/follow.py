@@ -1,5 +1,5 @@
-"""A scene that is watched and changed at once: a session at a server, with a thread that tells it changes and one that
-fetches frames. It knows nothing of Jupyter."""
+"""A session that is watched and changed at once, with one thread that sends changes and one that fetches frames. It is
+independent of Jupyter."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from .document import Document, SceneLike, patch_of, scene_of
 from .errors import KerrdError, Problem
 from .frame import Frame
 
-MOST_UNSHOWN = 2  # frames that a viewer has been sent and has not shown yet
-DEAF_S = 0.25  # after which a frame counts as shown where a cell runs, during which the kernel hears no viewer
-PRESENCE_S = 150  # without a word, after which a viewer is taken to have left: a hidden page speaks once a minute
-AGAIN_S = 2.0  # from one attempt to reach a server that is gone to the next
-REFRESH_S = 0.2  # from one look at a scene that goes on by itself to the next
+MOST_UNSHOWN = 2  # frames that were sent to the viewer and not acknowledged yet
+DEAF_S = 0.25  # after which a frame counts as shown while a cell runs, when the kernel hears no acknowledgement
+PRESENCE_S = 150  # without a message, a viewer is taken to have left: a hidden page sends one a minute
+AGAIN_S = 2.0  # between two attempts to reach the server
+REFRESH_S = 0.2  # between two requests for a scene that moves by itself
 
 
 def sentence(error: BaseException) -> str:
-    """What is told of a failure."""
+    """The text of a failure for the user."""
     if isinstance(error, Problem):
         return error.detail or str(error)
     return str(error.args[0]) if isinstance(error, KeyError) else str(error)
@@ -34,17 +34,17 @@ def _end(session: Session) -> None:
     try:
         session.close()
     except (KerrdError, httpx.HTTPError, RuntimeError):
-        pass  # it ends by itself in a minute
+        pass  # the server ends it within a minute
 
 
 class Follower:
-    """Keeps a session, and opens another with the same scene where it has ended; frames are fetched only while somebody
-    watches or waits.
+    """Keeps a session, and opens a new one with the same scene when it has ended. Frames are fetched only while
+    somebody watches or waits.
 
-    took(scene): the scene has become this. show(frame, serial): a viewer is to see it, and calls shown(serial) then; no
-    more than MOST_UNSHOWN are on their way, and of those that come meanwhile the newest alone is kept. complain(text):
-    something is wrong, or with "" no longer. All three are called on any thread, `took` on one at a time. The
-    constructor raises what a server says of a scene that it does not take.
+    Callbacks: took(scene) when the scene has changed; show(frame, serial) to show a frame, which the viewer
+    acknowledges by shown(serial); complain(text) with an error, or with "" when it is over. At most MOST_UNSHOWN frames
+    are unacknowledged; of those that come meanwhile only the newest is kept. The callbacks run on any thread, `took` on
+    one at a time. The constructor raises Problem if the server refuses the scene.
     """
 
     def __init__(
@@ -63,9 +63,9 @@ class Follower:
         self.complain: Callable[[str], None] = lambda text: None
         self._session: Session = client.session(scene_of(scene, changes), preset=preset, quality=quality)
         self.scene: Document = self._session.scene
-        self._patching = threading.RLock()  # the order of scenes
-        self._sending = threading.RLock()  # the order of frames
-        self._state = threading.Condition()  # of all that follows
+        self._patching = threading.RLock()  # keeps the order of scenes
+        self._sending = threading.RLock()  # keeps the order of frames
+        self._state = threading.Condition()  # guards all that follows
         self._waiting: dict[str, Any] = {}
         self._answers: list[Callable[[], None]] = []
         self._views: dict[str, float] = {}
@@ -74,7 +74,7 @@ class Follower:
         self._unsent = False
         self._serial = 0
         self._frame: Frame | None = None
-        self._of: Session | None = None  # whose frame it is
+        self._of: Session | None = None  # the session of the frame
         self._faults = {"change": "", "frame": ""}
         self._failures = 0
         self._closed = False
@@ -89,7 +89,7 @@ class Follower:
             thread.start()
 
     def close(self) -> None:
-        """Ends the session and both threads; once is enough."""
+        """Ends the session and both threads. Further calls do nothing."""
         with self._state:
             if self._closed:
                 return
@@ -102,24 +102,24 @@ class Follower:
                 thread.join(2)
 
     def change(self, patch: Callable[[Document], Document]) -> None:
-        """Changes the scene now, by a merge patch that is made of it as it is; raises what the server says."""
+        """Changes the scene now, by the merge patch that patch(scene) returns. Raises Problem if it is refused."""
         self._attempt(lambda: self._patch(patch(self.scene)))
 
     def replace(self, scene: Callable[[Document], Document]) -> None:
-        """Puts another scene in the place of this one, which it is made of; raises what the server says. By a new
-        session: no patch says "as if nothing had been set"."""
+        """Replaces the scene by what scene(current) returns. Raises Problem if it is refused. It opens a new session,
+        since a patch cannot express "as if nothing had been set"."""
         self._attempt(lambda: self._exchange(scene(self.scene)))
 
     def later(self, changes: Mapping[str, Any], answer: Callable[[], None]) -> None:
-        """Changes fields soon, by dotted path; of several values for one that wait the last one counts. answer(): they
-        have been taken, or refused."""
+        """Changes fields soon, by dotted path; of several values for one field only the last is sent. answer() is
+        called when the server has taken or refused them."""
         with self._state:
             self._waiting.update(changes)
             self._answers.append(answer)
             self._state.notify_all()
 
     def watch(self, view: str, *, anew: bool = False) -> None:
-        """There is a viewer, which says so again within PRESENCE_S; anew: it has nothing to show yet."""
+        """Registers a viewer, which calls this again within PRESENCE_S. anew: it has no frame to show yet."""
         with self._state:
             self._views[view] = monotonic()
             if anew:
@@ -133,15 +133,15 @@ class Follower:
             self._views.pop(view, None)
 
     def shown(self, serial: int) -> None:
-        """A viewer has shown a frame, and with it all before."""
+        """Acknowledges a frame, and all before it."""
         with self._state:
             self._unshown = [sent for sent in self._unshown if sent[0] > serial]
             self._state.notify_all()
         self._send()
 
     def deaf(self) -> None:
-        """Who calls this holds up the thread that hears viewers: the oldest frame that was sent counts as shown when it
-        is DEAF_S old, so that a loop in a cell is seen."""
+        """To be called while the caller's thread cannot hear acknowledgements: the oldest frame then counts as shown
+        after DEAF_S, so that a loop in a cell is animated."""
         with self._state:
             if self._unshown and monotonic() - self._unshown[0][1] > DEAF_S:
                 del self._unshown[0]
@@ -149,8 +149,8 @@ class Follower:
         self._send()
 
     def frame(self, *, final: bool, timeout: float) -> Frame:
-        """The newest frame of the scene as it is now, or with `final` its finest, which is the newest where time goes
-        on. KerrdError: it cannot be had."""
+        """The newest frame of the current scene. final: the finest one; of a moving scene, the newest. timeout: seconds
+        to wait. KerrdError if none comes."""
 
         def there() -> bool:
             session, frame = self._session, self._frame
@@ -204,7 +204,7 @@ class Follower:
             self._session.patch(patch)
 
     def _reopen(self, ended: Session) -> None:
-        """A new session in the place of one that has ended, unless another thread has opened it."""
+        """Opens a new session in place of one that has ended, unless another thread has done so."""
         with self._patching:
             if self._session is ended and not self._closed:
                 self._session = self.client.session(self.scene, quality=self.quality)
@@ -221,7 +221,7 @@ class Follower:
             self.complain(told)
 
     def _tell(self) -> None:
-        """The thread that tells the server changes."""
+        """The thread that sends changes."""
         while True:
             with self._state:
                 self._state.wait_for(lambda: self._closed or self._answers)
@@ -231,7 +231,7 @@ class Follower:
                 self._waiting, self._answers = {}, []
             try:
                 self.change(lambda scene: patch_of(scene, changes))
-            except Exception:  # told already, and the scene is as it was
+            except Exception:  # reported already; the scene is unchanged
                 pass
             for answer in answers:
                 answer()
@@ -286,8 +286,8 @@ class Follower:
                 self.took(self.scene)
 
     def _send(self) -> None:
-        """Sends the newest frame, if a viewer has not been sent it and has shown enough of those before. One thread at
-        a time, so that none overtakes another."""
+        """Sends the newest frame, unless it was sent or too many are unacknowledged. One thread at a time does so, so
+        that no frame overtakes another."""
         with self._sending:
             self._send_newest()
 

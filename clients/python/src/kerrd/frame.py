@@ -1,4 +1,4 @@
-"""What a picture comes as."""
+"""A rendered picture, and the headers and numbers that came with it."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from PIL.PngImagePlugin import PngImageFile, PngInfo
 from .errors import KerrdError
 from .names import checked
 
-HEADER = 33  # bytes of a PNG that come first: its signature and IHDR
+HEADER = 33  # length of a PNG's signature and IHDR chunk
 
 
 def items(header: str | None) -> list[str]:
-    """A header that is a list of names, such as Kerrd-Approximations."""
+    """The names in a header that is a list, such as Kerrd-Approximations."""
     return [name for name in map(str.strip, (header or "").split(",")) if name]
 
 
 def figures(header: str | None) -> dict[str, float | str]:
-    """A header of name=value pairs, such as Kerrd-Accuracy; numbers as numbers."""
+    """The name=value pairs of a header such as Kerrd-Accuracy; numbers as floats."""
     out: dict[str, float | str] = {}
     for pair in (header or "").split():
         name, _, value = pair.partition("=")
@@ -42,18 +42,18 @@ def figures(header: str | None) -> dict[str, float | str]:
 
 
 def passes(header: str | None) -> dict[str, float]:
-    """Server-Timing: milliseconds of each pass, of `total` and of `encode`."""
+    """The header Server-Timing: milliseconds of each pass, of `total` and of `encode`."""
     return {name: float(ms) for name, ms in re.findall(r"(\w+)(?:;desc=\"[^\"]*\")?;dur=([\d.]+)", header or "")}
 
 
 def _with_text(png: bytes, name: str, text: str) -> bytes:
-    """The PNG with one more text, as a chunk iTXt (PNG 1.2, 4.2.3)."""
+    """The PNG with one more text, as an iTXt chunk (PNG 1.2, section 4.2.3)."""
     body = b"iTXt" + name.encode("latin-1") + b"\0\0\0\0\0" + text.encode()
     return png[:HEADER] + struct.pack(">I", len(body) - 4) + body + struct.pack(">I", zlib.crc32(body)) + png[HEADER:]
 
 
 class Picture(PngImageFile):
-    """A PNG whose texts, the scene among them, stay with it where Pillow saves it as a PNG again."""
+    """A PNG that keeps its texts, among them the scene, when Pillow saves it as a PNG again."""
 
     def __init__(self, data: bytes) -> None:
         super().__init__(io.BytesIO(data))
@@ -76,19 +76,19 @@ class Picture(PngImageFile):
 
 @dataclass(frozen=True, repr=False)
 class Frame:
-    """A picture, and what came with it.
+    """A picture, with its headers and numbers.
 
-    data: the file's bytes; kind: its media type. layers: numbers by name as float32 of shape (height, width), rgb
-    (height, width, 3); those that were asked for. shows: the scene, where it came beside the picture and not in it, as
-    a session's does. accuracy: Kerrd-Accuracy as numbers. timing: milliseconds a pass. quality, number and revision: of
-    a session's frame alone.
+    data: bytes of the file; kind: its media type. layers: the layers that were requested, by name, float32 of shape
+    (height, width), "rgb" of shape (height, width, 3). shows: the scene of a session's frame, whose file does not hold
+    it, else None. accuracy: numbers of the header Kerrd-Accuracy. timing: milliseconds of each pass. quality, number
+    and revision: of frames of a session only.
     """
 
     data: bytes
     kind: str
     headers: Mapping[str, str]
     layers: dict[str, NDArray[np.float32]] = field(default_factory=dict)
-    # of approximations by name, of all that the server knows
+    # sentences of all approximations that the server knows, by name
     sentences: dict[str, str] = field(default_factory=dict, repr=False)
     shows: Mapping[str, Any] | None = None
 
@@ -101,14 +101,15 @@ class Frame:
 
     @property
     def png(self) -> bytes:
-        """The PNG's bytes, which carry the scene: kerrd renders it again by `kerrd render --from`."""
+        """Bytes of the PNG with its scene, from which `kerrd render --from` renders it again. ValueError if the picture
+        is a JPEG, as frames of a moving scene may be."""
         if self.kind != "image/png":
             raise ValueError(f"this picture came as {self.kind}; only the last one of a scene that rests is a PNG")
         return self.data if self.shows is None else _with_text(self.data, "kerrd:scene", json.dumps(self.shows))
 
     @cached_property
     def image(self) -> Image.Image:
-        """The picture for Pillow; a PNG that image.save() writes carries its scene."""
+        """The picture as a Pillow image. If it is a PNG, image.save() keeps the scene in it."""
         if self.kind == "image/png":
             return Picture(self.png)
         image = Image.open(io.BytesIO(self.data))
@@ -117,12 +118,12 @@ class Frame:
 
     @cached_property
     def array(self) -> NDArray[np.uint8]:
-        """The pixels as they are shown, uint8 of shape (height, width, 3); numbers of physics are `layers`."""
+        """The pixels as shown, uint8 of shape (height, width, 3). For physical quantities see `layers`."""
         return np.asarray(self.image.convert("RGB"), dtype=np.uint8)
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """The whole scene, every field named, as the picture carries it."""
+        """The whole scene with every field. ValueError if the picture does not hold it."""
         if self.shows is not None:
             return dict(self.shows)
         text = getattr(self.image, "text", {}).get("kerrd:scene")
@@ -133,41 +134,47 @@ class Frame:
 
     @property
     def accuracy(self) -> dict[str, float | str]:
+        """Errors of the picture, from the header Kerrd-Accuracy."""
         return figures(self.headers.get("kerrd-accuracy"))
 
     @property
     def approximations(self) -> list[str]:
-        """What it leaves out or chooses, in sentences."""
+        """What the picture leaves out or approximates, in sentences."""
         return [self.sentences[name] for name in items(self.headers.get("kerrd-approximations"))]
 
     @property
     def timing(self) -> dict[str, float]:
+        """Milliseconds of each pass, of `total` and of `encode`."""
         return passes(self.headers.get("server-timing"))
 
     @property
     def etag(self) -> str:
+        """The header ETag, or "" without one."""
         return self.headers.get("etag", "")
 
     @property
     def quality(self) -> dict[str, float | str]:
+        """Of a session's frame, the header Kerrd-Quality; else empty."""
         return figures(self.headers.get("kerrd-quality"))
 
     @property
     def number(self) -> int:
+        """The number of a session's frame; else 0."""
         return int(self.headers.get("kerrd-frame", 0))
 
     @property
     def revision(self) -> int:
+        """The revision of the scene that a session's frame shows; else 0."""
         return int(self.headers.get("kerrd-revision", 0))
 
     @property
     def final(self) -> bool:
-        """Whether nothing finer of this scene will come."""
+        """Whether no finer frame of this scene will follow."""
         return not self.quality or self.quality.get("final") == 1
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file as it came, a PNG with its scene. Other kinds of pictures: `image`, by Pillow; numbers:
-        `kerrd render`."""
+        """Writes the file in its own format, PNG (with the scene) or JPEG; path must end accordingly, else KerrdError.
+        For other formats of pictures use `image` and Pillow, for files of numbers `kerrd render`."""
         kinds = {"image/png": ("png",), "image/jpeg": ("jpg", "jpeg")}
         if self.kind not in kinds:
             raise KerrdError(f"a picture of the type {self.kind} cannot be saved by its name")

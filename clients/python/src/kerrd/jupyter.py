@@ -1,7 +1,7 @@
-"""The live hole in a cell of a notebook: kerrd.widget(…). Needs the package anywidget (pip install kerrd[jupyter]).
+"""A live view in a notebook's cell: kerrd.widget(...). Needs the package anywidget (pip install kerrd[jupyter]).
 
-Pictures come from a session of the server to the kernel (follow.py) and over its comm to widget.js: the browser need
-not reach the server.
+Frames go from the server's session to the kernel (follow.py), and over the kernel's comm to widget.js; so the browser
+need not reach the server.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ from .names import checked
 from .scene import Scene
 
 USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
-WIDTH = 640  # pixels, of a picture of which nobody has said how large it is to be
-PATIENCE_S = 60.0  # for a picture that is asked for
-FINEST_S, SHOW_S = 2.0, 10.0  # for the finest one, and for any, that is kept in the notebook beside the widget
+WIDTH = 640  # pixels, the default width of a picture
+PATIENCE_S = 60.0  # for a frame that is requested
+FINEST_S, SHOW_S = 2.0, 10.0  # for the finest frame, and for any, that is saved in the notebook with the widget
 
 _starting = threading.Lock()
 _own: local | None = None
 
 
 def own_server() -> Client:
-    """The server that widgets of this Python have together where they are given none; another where it has died."""
+    """The server that all widgets of this process share by default; a new one if the last has died."""
     global _own
     with _starting:
         if _own is not None and _own.process.poll() is not None:
@@ -48,15 +48,15 @@ def own_server() -> Client:
 
 
 class _Taken:
-    """A scene that the server has taken, on its way into the trait."""
+    """A scene that the server has accepted, to be set as the trait's value."""
 
     def __init__(self, document: Document) -> None:
         self.scene = dataclass_of(document, Scene)
 
 
 class _SceneTrait(traitlets.TraitType[Any, Any]):
-    """A kerrd.Scene with every field; what is read is a copy. What is set goes to the server first, and is not set if
-    that refuses it."""
+    """A kerrd.Scene with every field. Reading returns a copy. A value that is set goes to the server first; if the
+    server refuses it, the trait keeps the old one."""
 
     def validate(self, obj: Any, value: Any) -> Scene:
         return value.scene if isinstance(value, _Taken) else obj._replaced(value)
@@ -66,11 +66,15 @@ class _SceneTrait(traitlets.TraitType[Any, Any]):
 
 
 class Widget(anywidget.AnyWidget):
-    """A hole to turn and change, in a notebook's cell.
+    """A black hole to turn and change in a notebook's cell.
 
-    scene: a kerrd.Scene, always the current one; a trait: observe it, or set it as a whole (a mapping or dataclasses,
-    in which what is not named goes to its default, but for the picture's size). Observers run on a thread of the widget
-    where the browser has changed it. error: what is wrong, or "".
+    scene: the current scene, a kerrd.Scene. It is a trait: observe it, or set it to a mapping or dataclasses; fields
+    that are not named get their defaults, except the picture's size. Observers run on a thread of the widget when the
+    change comes from the browser. error: the current error, or "".
+
+    client: a kerrd.Client, kerrd.local(), or the address of a server; by default a local server is started. controls:
+    names of fields that get a control. preset: the scene that `scene` and changes are applied to. quality: of JPEG
+    frames while something moves, 1 to 100; None: PNG frames only.
     """
 
     _esm = Path(__file__).with_name("widget.js")
@@ -101,7 +105,7 @@ class Widget(anywidget.AnyWidget):
         try:
             self._begin(document)
             for field in wanted:
-                patch_of(self._follower.scene, {field.path: None})  # KeyError: of an element that is not there
+                patch_of(self._follower.scene, {field.path: None})  # KeyError for an element that does not exist
         except BaseException:
             self._follower.close()
             raise
@@ -115,7 +119,7 @@ class Widget(anywidget.AnyWidget):
         self._follower.start()
 
     def _begin(self, document: Document) -> None:
-        """A picture whose size nobody has said is no wider than WIDTH."""
+        """Limits the width of the picture to WIDTH, unless its size was given."""
         image = self._follower.scene["image"]
         if not {"width", "height"} & document.get("image", {}).keys() and image["width"] > WIDTH:
             self._follower.change(
@@ -124,30 +128,32 @@ class Widget(anywidget.AnyWidget):
 
     def set(self, **changes: Any) -> None:
         """Changes the scene: set(spin=0.9, camera={"inclination_deg": 60}, disk__outer=30). A field is named by its
-        path, or by the last part where one alone is called that. Problem, or KerrdError for a name that a scene does
-        not have: the scene stays as it was."""
+        path, or by the path's last part if that is unique. Raises Problem for a refused value, and KerrdError for an
+        unknown name; the scene then stays as it was."""
         named = self._fields.document(changes)
         self._follower.change(lambda scene: patch_of(scene, named))
         self._follower.deaf()
 
     @property
     def frame(self) -> Frame:
-        """The newest frame of the scene as it is now; waits for one."""
+        """The newest frame of the current scene. Waits for it; KerrdError if none comes."""
         return self._follower.frame(final=False, timeout=PATIENCE_S)
 
     @property
     def png(self) -> bytes:
-        """The picture of the scene as it is now, at its finest, as a PNG; where time goes on, the newest one."""
+        """The finest picture of the current scene as the bytes of a PNG; of a moving scene, the newest one. Waits for
+        it; KerrdError if none comes."""
         frame = self._follower.frame(final=True, timeout=PATIENCE_S)
         return frame.data if frame.kind == "image/png" else _encoded(frame, "PNG")
 
     def save(self, path: str) -> None:
-        """Writes the picture as a PNG that carries its scene: `kerrd render --from` makes it again."""
+        """Writes the current scene's picture as a PNG that holds the scene, from which `kerrd render --from` renders it
+        again."""
         checked(path, "png")
         self._follower.client.render(self._follower.scene).save(path)
 
     def close(self) -> None:
-        """Takes the widget away and ends its session; the end of the kernel does so too."""
+        """Removes the widget and ends its session, as the end of the kernel does."""
         super().close()
         if hasattr(self, "_follower"):
             self._follower.close()
@@ -172,7 +178,7 @@ class Widget(anywidget.AnyWidget):
         self.send({"kind": "frame", "serial": serial, "type": frame.kind, "final": frame.final}, buffers=[frame.data])
 
     def _heard(self, widget: Any, message: Any, buffers: Any) -> None:
-        """A word of widget.js."""
+        """Handles a message of widget.js."""
         kind = message.get("kind")
         if kind == "change":
             self._follower.later(
@@ -187,7 +193,7 @@ class Widget(anywidget.AnyWidget):
             self._follower.leave(message["view"])
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        """The widget, and a picture for those who read the notebook without its kernel."""
+        """The widget, and a picture for readers of the notebook without its kernel."""
         bundle: Any = super()._repr_mimebundle_(**kwargs)
         frame = self._within(FINEST_S, final=True) or self._within(SHOW_S, final=False)
         if frame is None:
@@ -203,7 +209,7 @@ class Widget(anywidget.AnyWidget):
 
 
 def _encoded(frame: Frame, kind: str, height: int | None = None) -> bytes:
-    """The frame as another file; height: scaled to so many rows of pixels."""
+    """The frame as a file of another format. height: the picture is scaled to this height, in pixels."""
     file = io.BytesIO()
     image = frame.image.convert("RGB")
     if height is not None and height != image.height:

@@ -1,4 +1,4 @@
-"""A server of one's own on this machine."""
+"""A server of your own on this machine."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .errors import KerrdError, NoBinary
 
 
 def _installed() -> str | None:
-    """The program that the wheel of this package brought, wherever pip put it."""
+    """The program in the wheel of this package, wherever pip has put it, or None."""
     try:
         files = metadata.files("kerrd") or []
     except metadata.PackageNotFoundError:
@@ -31,7 +31,7 @@ def _installed() -> str | None:
 
 
 def _checkout() -> Path | None:
-    """The source tree that this file lies in, if it does."""
+    """The source tree that holds this file, or None."""
     for folder in Path(__file__).resolve().parents:
         if (folder / "scripts/setup").is_file() and (folder / "src/main.c").is_file():
             return folder
@@ -39,10 +39,11 @@ def _checkout() -> Path | None:
 
 
 def _build(tree: Path) -> None:
-    """One process at a time; what it says goes on to standard error, for it takes minutes."""
+    """Builds the program; only one process at a time does so. The output goes to standard error, since this takes
+    minutes."""
     try:
         import fcntl
-    except ImportError as missing:  # where there is no POSIX, kerrd itself cannot be built either
+    except ImportError as missing:  # kerrd cannot be built without POSIX either
         raise NoBinary(
             f"{tree} cannot be built on this system: kerrd runs on Linux; kerrd.Client(url) speaks to a server elsewhere"
         ) from missing
@@ -56,9 +57,9 @@ def _build(tree: Path) -> None:
 
 
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
-    """The program: as given, $KERRD, the one of this package's wheel, the PATH, or the build in the source tree that
-    this package was installed from with -e. build: whether that is made if it is not there yet, by scripts/setup, which
-    may install packages."""
+    """The path of the program: the argument, $KERRD, the program of this package's wheel, the PATH, or the build of the
+    source tree that this package was installed from with -e. build: whether to build that by scripts/setup, which may
+    install packages, if it does not exist. NoBinary if there is none."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))
@@ -83,11 +84,12 @@ def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = F
 
 
 class local(Client):
-    """A client of a server that it starts, on a port of the loopback that is free, and stops: with kerrd.local() as
-    hole.
+    """A client with a server of its own on a free port of the loopback, started here and stopped by close() or the end
+    of `with`: with kerrd.local() as hole.
 
-    binary, build: the program (find_binary). device: auto, an index of `kerrd doctor`, or part of a name. args: further
-    options of `kerrd serve`. env: over the environment.
+    binary, build: the program (find_binary). device: "auto", an index of `kerrd doctor`, or part of a name. args:
+    further options of `kerrd serve`. env: added to the environment. timeout, patience: as for Client. Raises NoBinary
+    without the program, and KerrdError if the server does not start.
     """
 
     def __init__(
@@ -110,8 +112,8 @@ class local(Client):
             *(["--device", device] if device else []),
             *args,
         ]
-        # Not in this process's group: an interrupt of a cell, or of a script, is for Python alone, and a kernel that
-        # ends lets its atexit functions run.
+        # In a process group of its own: an interrupt of a cell or a script goes to Python alone, and when a kernel
+        # ends, its atexit functions can run.
         self.process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,

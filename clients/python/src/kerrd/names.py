@@ -1,4 +1,4 @@
-"""Names of files: what the end of one says of its format."""
+"""Checks of file names: the ending must name the format of the file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .errors import KerrdError
 
 
 def checked(path: str | os.PathLike[str], *endings: str) -> str:
-    """The path, if it ends in one of these, in either case, or in nothing that could be a format: "hole", "v1.5".
+    """The path, if its ending is one of these, in either case, or cannot be a format, as in "hole" or "v1.5".
     KerrdError otherwise."""
     name = os.fspath(path)
     said = re.search(r"\.([A-Za-z][A-Za-z0-9]*)$", os.path.basename(name))

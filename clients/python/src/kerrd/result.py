@@ -1,4 +1,4 @@
-"""What a sweep comes as: arrays whose first dimensions are its axes."""
+"""The result of a sweep: arrays whose first dimensions are its axes."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Sweep:
-    """A scene of every combination of the axes' values.
+    """One scene for each combination of the axes' values.
 
-    axes: field -> its values, in order. arrays: layer -> array of shape (len of each axis ..., height, width[, 3]).
+    axes: field -> its values, in order. arrays: layer -> array of shape (length of each axis ..., height, width[, 3]).
     hashes: of each scene. notes: the scene that the axes change, the axes, the units of fields and layers, version,
     device, approximations.
     """
@@ -42,8 +42,8 @@ class Sweep:
         return f"<kerrd.Sweep of {axes}; {', '.join(f'{name} {array.shape}' for name, array in self.arrays.items())}>"
 
     def to_xarray(self) -> Any:
-        """An xarray.Dataset with the axes as coordinates, spacetime_spin for spacetime.spin, and units; to_netcdf() can
-        write it. Needs the package xarray."""
+        """An xarray.Dataset with the axes as coordinates, named as in spacetime_spin for spacetime.spin, and units; its
+        to_netcdf() works. ImportError without the package xarray."""
         try:
             import xarray
         except ImportError as missing:
@@ -68,5 +68,5 @@ class Sweep:
 
 
 def _words(values: NDArray[Any]) -> NDArray[Any]:
-    """Bytes and texts as texts, which files of arrays can hold; numbers as they are."""
+    """Bytes as texts, which files of arrays can hold; numbers and texts stay as they are."""
     return values if values.dtype.kind in "fiub" else values.astype(str)

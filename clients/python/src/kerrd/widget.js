@@ -1,12 +1,12 @@
-// The live hole in a cell of a notebook; its other half is jupyter.py. Pictures come over the kernel's comm, and each
-// is acknowledged when it is shown. Of changes one is on its way at a time: those that a hand makes meanwhile wait, and
-// of one field the last counts. Hands move the camera as they do on the page (clients/web/view.js).
+// The live view in a notebook's cell; jupyter.py is its other half. Frames come over the kernel's comm, and each is
+// acknowledged when it is shown. One change is on its way at a time: changes made meanwhile wait, and of one field the
+// last counts. The camera is moved by hand as on the page (clients/web/view.js).
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
 const near_r = 10; // M, within which a drag looks around
-const presence_ms = 30_000; // from one word to the kernel that this view is there to the next
+const presence_ms = 30_000; // between two messages that tell the kernel that this view is there
 
 function el(name, attributes = {}, ...children) {
   const node = document.createElement(name);
@@ -16,13 +16,13 @@ function el(name, attributes = {}, ...children) {
   return node;
 }
 
-// The scene as the kernel last told it, with what this view has asked for over it.
+// The kernel's scene, with the changes over it that this view has requested.
 function state(model, id, show) {
   const asked = new Map();
   let scene = model.get('scene'),
     waiting = null,
     under_way = false,
-    held = false; // a hand is on the picture
+    held = false; // the picture is being dragged
 
   function push() {
     if (under_way || !waiting) return;
@@ -58,7 +58,7 @@ function state(model, id, show) {
   };
 }
 
-// Drag, pinch, wheel and keys. The wheel is the notebook's until the picture has been touched.
+// Drag, pinch, wheel and keys. The wheel scrolls the notebook until the picture has been touched.
 function hands(stage, scene) {
   const pointers = new Map();
   let begin = null;
@@ -100,7 +100,7 @@ function hands(stage, scene) {
       });
   }
 
-  // What lies under the pointer comes along.
+  // The picture follows the pointer.
   function drag(right, down) {
     const { clientWidth: width, clientHeight: height } = stage;
     if (!looks()) return step((-right * 180) / width, (down * 180) / height, begin);
@@ -121,7 +121,7 @@ function hands(stage, scene) {
   const at = event => ({ x: event.clientX, y: event.clientY });
   stage.addEventListener('pointerdown', event => {
     if (event.button) return;
-    event.preventDefault(); // the notebook would take the focus
+    event.preventDefault(); // otherwise the notebook would take the focus
     stage.focus({ preventScroll: true });
     stage.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, at(event));
@@ -164,7 +164,7 @@ function hands(stage, scene) {
   });
 }
 
-// A slider stops at the numbers that the kernel has chosen from the field's range; the box beside it takes any.
+// A slider with the kernel's numbers from the field's range, and a box that takes any number.
 function numberControl({ path, positions, low, high, unit, word, first, kind }, scene, about) {
   const slider = el('input', { type: 'range', min: 0, max: positions.length - 1, step: 1, ...about }),
     box = el('input', { type: 'number', min: low, max: high, step: kind === 'integer' ? 1 : 'any', ...about });
@@ -179,7 +179,7 @@ function numberControl({ path, positions, low, high, unit, word, first, kind }, 
     show(scene.get(path));
   }
   box.addEventListener('change', taken);
-  box.addEventListener('keydown', event => event.key === 'Enter' && taken()); // JupyterLab keeps it from being a change
+  box.addEventListener('keydown', event => event.key === 'Enter' && taken()); // JupyterLab suppresses the change event
   check?.addEventListener('change', () => give(check.checked ? word : first));
   const distance = (a, b) => Math.abs(a - b);
   function show(value) {
@@ -241,7 +241,7 @@ function render({ model, el: cell }) {
       'Drag to turn; once it is chosen, the wheel or + and − zoom, arrows turn (with Shift more).',
     ),
     fault = el('p', { class: 'kerrd-error', role: 'alert' }),
-    // Lumino, which JupyterLab reads keys by, leaves alone what asks for it.
+    // data-lm-suppress-shortcuts: Lumino, which handles keys for JupyterLab, ignores this element.
     stage = el(
       'div',
       {
