@@ -41,7 +41,7 @@ struct kd_turning {
     kd_state start;
     float part, drag; /* part: the steps before the turn, 0 to 4; drag: the group's result by Boole's rule, which is
                        * replaced */
-    float w;          /* where the ray turns */
+    float w;          /* w where the ray turns */
     bool any, last;   /* last: the last group of its half period */
 };
 

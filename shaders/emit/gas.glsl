@@ -16,7 +16,7 @@
  * (Carter 1968), for a photon of energy 1/g. */
 #ifndef KD_BLOCK_gas
 #define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
-#define KD_GAS_RINGS 80 /* from 1 to 1e6 M and one beyond */
+#define KD_GAS_RINGS 80 /* radii from 1 to 1e6 M, and one beyond */
 #define KD_GAS_OCTAVES 8
 #define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by a radian */
 #define KD_GAS_HASTE 1.6  /* ratio of the drift of successive octaves */

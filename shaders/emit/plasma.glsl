@@ -19,7 +19,7 @@
     F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; power of r at which it falls */ \
     F(steep)               /* distance from the axis over scale height; 0: no layer */ \
     F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
-    F(power_index) F(power_light) F(power_depth) /* for a power law of electrons */ \
+    F(power_index) F(power_light) F(power_depth) /* numbers for a power law of electrons */ \
     F(torus_momentum) F(torus_edge) F(torus_index) /* l; offset of ln h; density is h - 1 to this power */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
     /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \

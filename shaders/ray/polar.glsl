@@ -18,7 +18,7 @@
 
 struct kd_polar {
     float first;  /* Mino time from the observer to the first crossing */
-    float half_;  /* from each crossing to the next                    */
+    float half_;  /* Mino time from each crossing to the next */
     float b;      /* q^2 in the head of this file */
     float s;      /* s in the head of this file */
     bool crosses; /* false: the motion stays on one side of the plane, or in the plane */

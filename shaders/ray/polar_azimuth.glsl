@@ -17,7 +17,7 @@
 
 struct kd_azimuth {
     float first;              /* psi from the observer to the first crossing */
-    float half_;              /* from each crossing to the next */
+    float half_;              /* psi from each crossing to the next */
     float f0, f1, f2, f3, f4; /* the cosine series */
     float b, root_c, side;    /* b, sqrt(c), the sign of L */
     bool uneven;              /* the series is not accurate enough */

@@ -72,7 +72,7 @@ enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char
 {
     char piece[KD_FITS_CARD], text[KD_FITS_CARD + 8];
     size_t n = piece_of(value, PIECE + 1, piece);
-    if (!value[n]) { /* at least eight characters */
+    if (!value[n]) { /* the whole value fits one card; a text has at least eight characters */
         snprintf(text, sizeof text, "'%-8s'", piece);
         return put_value(cards, key, text, comment);
     }

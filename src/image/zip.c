@@ -11,7 +11,7 @@ enum { LEVEL = 6 };
 
 struct entry {
     char *name;
-    uint64_t size, packed, at; /* at: offset of its header */
+    uint64_t size, packed, at; /* at: offset of the member's header */
     uint32_t crc;
     bool deflated, streamed; /* streamed: the checksum follows the bytes */
 };

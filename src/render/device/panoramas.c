@@ -244,8 +244,8 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
             pthread_cond_wait(&all->changed, &all->lock);
             continue;
         }
-        all->asked[all->n_asked++] = *key; /* without a thread the list is empty */
-        all->runs = true;                  /* in place of the thread */
+        all->asked[all->n_asked++] = *key; /* if there is no thread, the list is empty here */
+        all->runs = true;                  /* this call runs in place of the thread */
         while (all->n_asked)
             make_first(all);
         all->runs = false;

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* at most */
+#define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* the most bodies that are seen */
 
 /* How bodies are viewed: the hole's spin, the observer's azimuth, and the temperature that corresponds to the disk's
  * brightness 1. */

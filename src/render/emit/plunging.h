@@ -34,8 +34,8 @@ struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* Converts phases to places, the inverse, for many phases at once: cubics between points with known slopes; r within
- * 1e-9. */
+/* The inverse, which converts phases to places, for many phases: a table of points with known slopes, and cubics
+ * between them. r is accurate to 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

@@ -21,7 +21,7 @@ struct kd_explained {
     struct kd_scene scene;            /* scene of this eye */
     struct kd_camera_label label;     /* energy: E at infinity, in units of the energy that the observer measures */
     struct kd_ray_motion motion;
-    /* in closed form, with azimuths of the scene, and g as measured by the observer */
+    /* crossings in closed form, with azimuths of the scene, and g as measured by the observer */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;

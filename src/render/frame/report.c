@@ -43,7 +43,7 @@ static void keep_times(struct kd_frame_job *j)
 static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
                            bool *go_on)
 {
-    if (j->aside) { /* others then need not wait for this picture's work, and do not measure it */
+    if (j->aside) { /* other pictures then need not wait for this picture's work, and their times do not include it */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;

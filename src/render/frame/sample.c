@@ -141,7 +141,8 @@ static enum kd_status fill(struct run *run, bool of_sky)
  * deadline of a submission for one kernel. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
-/* Initialises the map: all rays cross nothing and are captured. Kernels overwrite those for which that is not so. */
+/* Initialises the map: all rays cross nothing and are captured. Kernels overwrite the rays that cross something or are
+ * not captured. */
 static enum kd_status fill_nothing(struct run *run)
 {
     const struct kd_plan *p = run->j->plan;

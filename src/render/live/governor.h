@@ -139,7 +139,7 @@ struct kd_governor {
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced;  /* latest average of frames that trace */
     struct kd_rung traced_on;     /* the rung of these frames; no rays: none yet */
-    double blind_until, blind_ms; /* until then lens maps are taken as not cached, whatever changes */
+    double blind_until, blind_ms; /* blind_until: until this time lens maps are taken as not cached, whatever changes */
     uint32_t missed;              /* successive frames that traced although the lens was unchanged */
     bool rings;                   /* only brightness changes, nothing moves */
     double least, patience_ms;    /* arguments of kd_governor_least */

@@ -33,7 +33,7 @@ struct kd_rung {
 
 /* Limits for the lowest rung. */
 struct kd_ladder_bounds {
-    double scale;                     /* at least 1/4 */
+    double scale;                     /* least scale, at least 1/4 */
     uint32_t width;                   /* least width in pixels of all rungs but the first */
     int32_t samples, orders, profile; /* lower limits, which never exceed the requested values */
 };

@@ -13,9 +13,9 @@ struct kd_cost {
     double shared_ms;  /* time saved by sharing lens maps; set by kd_cost_end */
     double file_bytes; /* for formats whose file size depends only on the picture's size */
     uint64_t rays;
-    uint64_t device_bytes, host_bytes; /* for the largest frame */
+    uint64_t device_bytes, host_bytes; /* bytes for the largest frame */
     bool guessed;                      /* some pass has no measured cost */
-    struct kd_sweep_order order;       /* for a sweep */
+    struct kd_sweep_order order;       /* order of the frames of a sweep */
     struct kd_cube_shape shape;        /* common to all scenes of a cube */
 };
 

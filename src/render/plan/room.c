@@ -10,8 +10,8 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* Limits of the device. If the capacity names none, those that Vulkan 1.2 guarantees (maxComputeWorkGroupCount,
- * maxMemoryAllocationSize). */
+/* Limits of the device: those that the capacity names, or else those that Vulkan 1.2 guarantees
+ * (maxComputeWorkGroupCount, maxMemoryAllocationSize). */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
 static uint64_t buffer_bytes(const struct kd_capacity *c)

@@ -60,7 +60,8 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->width * plan->side * plan->side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
-    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side; /* as many as fit the bits of a place */
+    /* as many rows as the bits of a place can number */
+    const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->side;
     plan->sample_rows = (uint32_t)least_of(least_of(rows, held), plan->band_rows);
     while (plan->sample_rows > 1 && !fits(plan, plan->sample_rows, bytes))
         plan->sample_rows /= 2;

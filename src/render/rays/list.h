@@ -9,7 +9,7 @@
 
 struct kd_rays_list {
     double *alpha_beta; /* malloc'd, 2 n numbers */
-    size_t n, capacity; /* in rays */
+    size_t n, capacity; /* number of rays; room for rays */
 };
 
 enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double beta, struct kd_error *error);

@@ -27,7 +27,7 @@ struct work {
 /* A point of the curve in the picture, in pixels. */
 struct spot {
     double x, y;
-    bool seen; /* in front of the camera */
+    bool seen; /* the point is in front of the camera */
 };
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
